@@ -1,0 +1,143 @@
+// Static condensation: from a scene to the arrays of Condensed, once.
+#pragma once
+
+#include "taut/condensation/condensed.hpp"
+#include "taut/condensation/structure.hpp"
+#include "taut/scene/validation.hpp"
+
+namespace taut {
+
+/// Condenses scenes of one type; the object holds the structure's factor and can be thrown away afterwards.
+///
+/// One factorization, then one solve for each load pattern, the prestrain, and each segment.
+template <class Scalar, class SceneType>
+class Condensation {
+ public:
+  using Cap = typename SceneType::Capacity;
+  static constexpr int dimension = SceneType::dimension;
+
+  /// Condenses a scene. Fails as validate() does, or with `mechanism` or `ill_conditioned`.
+  /// `struts`, if given, receives the rows for strut forces.
+  Status run(const SceneType& scene, Condensed<Scalar, Cap>& condensed,
+             CondensedStruts<Scalar, Cap>* struts = nullptr) {
+    Status status = validate(scene);
+    if (!status) return status;
+    scene_ = &scene;
+    condensed = {};
+    condensed.segments = scene.prestrain.size();
+    condensed.joints = scene.mu.size();
+    condensed.loads = scene.loads;
+    for (const auto& cable : scene.cables)
+      condensed.cables.add({cable.closed, cable.ends, static_cast<Scalar>(cable.seating), cable.nodes,
+                            cable.first_segment, cable.first_joint});
+    if constexpr (has_rigid_saddles<Cap>) {
+      static_cast<void>(struts);
+      status = rigid(condensed);
+    } else {
+      status = elastic(condensed, struts);
+    }
+    return status;
+  }
+
+  /// See Structure::condition(); 1 between rigid saddles.
+  Scalar condition() const {
+    if constexpr (has_rigid_saddles<Cap>)
+      return 1;
+    else
+      return structure_.condition();
+  }
+
+ private:
+  struct Nothing {};
+  using Solver = std::conditional_t<has_rigid_saddles<Cap>, Nothing, Structure<Scalar, SceneType>>;
+
+  using Real = typename SceneType::Scalar;
+  static constexpr auto no_force = [](int, int) { return Scalar(0); };
+
+  void set_joint(Condensed<Scalar, Cap>& condensed, int j,
+                 const FrictionElement<Scalar, dimension>& element) {
+    condensed.rho[j] = element.grip.rho();
+    condensed.cos_alpha[j] = element.frame.cos_alpha;
+    condensed.sin_alpha[j] = element.frame.sin_alpha;
+  }
+
+  /// Kelvin that a unit of a load pattern warms a cable by.
+  Scalar warming(int load, int cable) const {
+    Scalar kelvin = 0;
+    for (const auto& change : scene_->temperatures)
+      if (change.load == load && change.cable == cable) kelvin += static_cast<Scalar>(change.kelvin);
+    return kelvin;
+  }
+
+  /// Rigid saddles: no structure, every segment for itself.
+  Status rigid(Condensed<Scalar, Cap>& condensed) {
+    for (int node = 0; node < scene_->nodes.size(); ++node)
+      for (int axis = 0; axis < dimension; ++axis)
+        if (!scene_->nodes[node].is_held(axis)) return Status::at(Code::mechanism, Place::node, node);
+    for (int c = 0; c < scene_->cables.size(); ++c) {
+      const auto& cable = scene_->cables[c];
+      for (int i = 0; i < cable.segments(); ++i) {
+        const auto element = CableElement<Scalar, dimension>::of(*scene_, c, i);
+        const int segment = cable.first_segment + i;
+        condensed.coupling.set(segment, segment, element.axial);
+        condensed.prestrain[segment] = element.initial;
+        for (int load = 0; load < scene_->loads; ++load)
+          condensed.load[load][segment] = -element.thermal * warming(load, c);
+      }
+      for (int j = 0; j < cable.joints(); ++j)
+        set_joint(condensed, cable.first_joint + j, FrictionElement<Scalar, dimension>::of(*scene_, c, j));
+    }
+    return Status::success();
+  }
+
+  Status elastic(Condensed<Scalar, Cap>& condensed, CondensedStruts<Scalar, Cap>* struts) {
+    Status status = structure_.make(*scene_);
+    if (!status) return status;
+    const auto& elements = structure_.elements();
+    for (int j = 0; j < condensed.joints; ++j) set_joint(condensed, j, elements.joints[j]);
+    const auto store = [&](auto imposed, FixedArray<Scalar, Cap::segments>& tensions,
+                           FixedArray<Scalar, Cap::struts>* rows) {
+      for (int i = 0; i < condensed.segments; ++i) tensions[i] = structure_.tension(i, imposed(i));
+      for (int i = 0; rows != nullptr && i < scene_->struts.size(); ++i)
+        (*rows)[i] = structure_.strut_force(i);
+    };
+
+    const auto prestrained = [&](int i) { return elements.segments[i].initial / elements.segments[i].axial; };
+    status = structure_.solve(no_force, prestrained);
+    if (!status) return status;
+    store(prestrained, condensed.prestrain, struts ? &struts->prestrain : nullptr);
+
+    for (int load = 0; load < scene_->loads; ++load) {
+      const auto force = [&](int node, int axis) { return nodal_force(load, node, axis); };
+      const auto warmed = [&](int i) {
+        const auto& segment = elements.segments[i];
+        return -segment.thermal * warming(load, segment.cable) / segment.axial;
+      };
+      status = structure_.solve(force, warmed);
+      if (!status) return status;
+      store(warmed, condensed.load[load], struts ? &struts->load[load] : nullptr);
+    }
+
+    FixedArray<Scalar, Cap::segments> column;
+    for (int k = 0; k < condensed.segments; ++k) {
+      const auto unit = [k](int i) { return i == k ? Scalar(1) : Scalar(0); };
+      status = structure_.solve(no_force, unit);
+      if (!status) return status;
+      store(unit, column, struts ? &struts->elongation[k] : nullptr);
+      for (int i = 0; i < condensed.segments; ++i) condensed.coupling.set(i, k, column[i]);
+    }
+    return Status::success();
+  }
+
+  Scalar nodal_force(int load, int node, int axis) const {
+    Real sum = 0;
+    for (const auto& given : scene_->forces)
+      if (given.load == load && given.node == node) sum += given.force[static_cast<std::size_t>(axis)];
+    return static_cast<Scalar>(sum);
+  }
+
+  const SceneType* scene_ = nullptr;
+  Solver structure_;
+};
+
+}  // namespace taut

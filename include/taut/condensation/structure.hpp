@@ -1,0 +1,231 @@
+// The elastic structure with every joint stuck: factored once, solved for loads and imposed elongations.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "taut/condensation/skyline.hpp"
+#include "taut/elements/elements.hpp"
+#include "taut/numerics/double_word.hpp"
+#include "taut/scene/node_order.hpp"
+#include "taut/status.hpp"
+
+namespace taut {
+
+/// Linear response of struts, substructures and cable segments as bars between the structure's nodes.
+///
+/// Displacements are kept in double words and corrected with residuals taken element by element, so that
+/// forces come out to the last digits of Scalar although elongations cancel; a correction costs one
+/// substitution.
+template <class Scalar, class SceneType>
+class Structure {
+ public:
+  using Cap = typename SceneType::Capacity;
+  static constexpr int dimension = SceneType::dimension;
+  static constexpr int max_unknowns = dimension * Cap::nodes;
+  /// Entries of the factor: what the capacity says, or enough for any structure.
+  static constexpr int max_profile = Cap::profile > 0 ? Cap::profile : max_unknowns*(max_unknowns + 1) / 2;
+
+  /// Factors the stiffness of a valid scene. Fails with `mechanism` or `ill_conditioned` (names the node that
+  /// moves), or `capacity_exceeded` (Capacity::profile; the amount is what is missing).
+  Status make(const SceneType& scene) {
+    scene_ = &scene;
+    elements_.make(scene);
+    number();
+    const int missing = stiffness_.reset(count_, [this](int unknown) { return first_[unknown]; });
+    if (missing > 0) return Status::at(Code::capacity_exceeded, Place::none, max_profile, missing);
+    assemble();
+    const int loose = stiffness_.factor();
+    return loose < 0 ? Status::success() : loose_at(loose);
+  }
+
+  /// Solves for forces on the nodes [N], given by force(node, axis), and elongations imposed on the segments
+  /// [m], given by imposed(segment). Fails with `ill_conditioned` if equilibrium is not reached.
+  template <class Forces, class Elongations>
+  Status solve(Forces force, Elongations imposed) {
+    for (int i = 0; i < count_; ++i) u_[i] = Word{};
+    Scalar before = std::numeric_limits<Scalar>::max();
+    for (int round = 0; round < max_corrections; ++round) {
+      const Scalar imbalance = residual(force, imposed);
+      if (imbalance <= 2 * epsilon || (round > 2 && imbalance > before / 2)) return judge(imbalance);
+      before = imbalance;
+      stiffness_.solve(residual_);
+      for (int i = 0; i < count_; ++i) u_[i] += Word{residual_[i], 0};
+    }
+    return judge(residual(force, imposed));
+  }
+
+  /// Force of a segment in the last solution, given its imposed elongation [N].
+  Scalar tension(int segment, Scalar imposed) const {
+    const auto& bar = elements_.segments[segment];
+    return (bar.axial * (elongation(bar.nodes, bar.line) + Word{imposed, 0})).value();
+  }
+  /// Force of a strut in the last solution [N].
+  Scalar strut_force(int strut) const {
+    const auto& bar = elements_.struts[strut];
+    return (bar.axial * elongation(bar.nodes, bar.line)).value();
+  }
+  /// Displacement of a node in the last solution [m].
+  Scalar node_displacement(int node, int axis) const { return displacement(node, axis).value(); }
+
+  const Elements<Scalar, SceneType>& elements() const { return elements_; }
+  /// Digits lost in the factorization, as their inverse: ill-conditioned towards 1/epsilon.
+  Scalar condition() const { return stiffness_.condition(); }
+
+ private:
+  using Word = DoubleWord<Scalar>;
+  static constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
+  static constexpr Scalar accepted = sizeof(Scalar) == sizeof(float) ? Scalar(2e-6) : Scalar(2e-12);
+  static constexpr int max_corrections = 16;
+
+  int segments() const { return scene_->prestrain.size(); }
+
+  void number() {
+    NodeOrder<SceneType>& order = order_;
+    order.make(*scene_);
+    count_ = 0;
+    for (int place = 0; place < scene_->nodes.size(); ++place)
+      for (int axis = 0; axis < dimension; ++axis) {
+        const int node = order.node(place);
+        unknown_[node * dimension + axis] = scene_->nodes[node].is_held(axis) ? -1 : count_++;
+      }
+    for (int node = 0; node < scene_->nodes.size(); ++node) {
+      int leftmost = leftmost_of(node, count_);
+      NodeOrder<SceneType>::for_each_neighbour(*scene_, node,
+                                               [&](int other) { leftmost = leftmost_of(other, leftmost); });
+      for (int axis = 0; axis < dimension; ++axis) {
+        const int unknown = unknown_[node * dimension + axis];
+        if (unknown >= 0) first_[unknown] = leftmost < unknown ? leftmost : unknown;
+      }
+    }
+  }
+  int leftmost_of(int node, int so_far) const {
+    for (int axis = 0; axis < dimension; ++axis) {
+      const int unknown = unknown_[node * dimension + axis];
+      if (unknown >= 0 && unknown < so_far) so_far = unknown;
+    }
+    return so_far;
+  }
+
+  template <class Bar>
+  void assemble_bar(const Bar& bar) {
+    const auto K = bar.stiffness();
+    for (int i = 0; i < 2 * dimension; ++i)
+      for (int k = 0; k < 2 * dimension; ++k)
+        add(unknown_of(bar.nodes, i), unknown_of(bar.nodes, k), K(i, k));
+  }
+  int unknown_of(const std::array<int, 2>& nodes, int i) const {
+    return unknown_[nodes[static_cast<std::size_t>(i / dimension)] * dimension + i % dimension];
+  }
+  void add(int row, int column, Scalar value) {
+    if (row >= 0 && column >= 0) stiffness_.add(row, column, value);
+  }
+  void assemble() {
+    for (int i = 0; i < scene_->struts.size(); ++i) assemble_bar(elements_.struts[i]);
+    for (int i = 0; i < segments(); ++i) assemble_bar(elements_.segments[i]);
+    for (int i = 0; i < scene_->substructures.size(); ++i) {
+      const SubstructureElement<SceneType> K(*scene_, i);
+      for (int row = 0; row < K.size(); ++row)
+        for (int column = 0; column < K.size(); ++column)
+          add(unknown_[K.node(row) * dimension + K.axis(row)],
+              unknown_[K.node(column) * dimension + K.axis(column)], static_cast<Scalar>(K(row, column)));
+    }
+  }
+
+  Word displacement(int node, int axis) const {
+    const int unknown = unknown_[node * dimension + axis];
+    return unknown < 0 ? Word{} : u_[unknown];
+  }
+  Word elongation(const std::array<int, 2>& nodes, const Line<Scalar, dimension>& line) const {
+    Word sum;
+    for (int axis = 0; axis < dimension; ++axis)
+      sum += line.direction[axis] * (displacement(nodes[1], axis) - displacement(nodes[0], axis));
+    return sum;
+  }
+
+  void push(int node, int axis, Scalar force) {
+    const int unknown = unknown_[node * dimension + axis];
+    largest_ = std::fmax(largest_, std::fabs(force));
+    if (unknown >= 0) residual_[unknown] += force;
+  }
+  template <class Bar>
+  void pull(const Bar& bar, Scalar force) {
+    for (int axis = 0; axis < dimension; ++axis) {
+      push(bar.nodes[0], axis, bar.line.direction[axis] * force);
+      push(bar.nodes[1], axis, -bar.line.direction[axis] * force);
+    }
+  }
+
+  /// Puts loads minus element forces into residual_; returns the largest part relative to the largest force.
+  template <class Forces, class Elongations>
+  Scalar residual(Forces force, Elongations imposed) {
+    largest_ = 0;
+    for (int i = 0; i < count_; ++i) residual_[i] = 0;
+    for (int node = 0; node < scene_->nodes.size(); ++node)
+      for (int axis = 0; axis < dimension; ++axis) push(node, axis, force(node, axis));
+    for (int i = 0; i < scene_->struts.size(); ++i) pull(elements_.struts[i], strut_force(i));
+    for (int i = 0; i < segments(); ++i) pull(elements_.segments[i], tension(i, imposed(i)));
+    for (int i = 0; i < scene_->substructures.size(); ++i) {
+      const SubstructureElement<SceneType> K(*scene_, i);
+      for (int row = 0; row < K.size(); ++row) {
+        Word held;
+        for (int column = 0; column < K.size(); ++column)
+          held += static_cast<Scalar>(K(row, column)) * displacement(K.node(column), K.axis(column));
+        push(K.node(row), K.axis(row), -held.value());
+      }
+    }
+    Scalar most = 0;
+    for (int i = 0; i < count_; ++i) most = std::fmax(most, std::fabs(residual_[i]));
+    return most > 0 ? most / largest_ : Scalar(0);
+  }
+
+  Status judge(Scalar imbalance) const {
+    if (imbalance <= accepted) return Status::success();
+    int worst = 0;
+    Scalar most = 0;
+    for (int i = 0; i < scene_->nodes.size() * dimension; ++i) {
+      if (unknown_[i] < 0 || std::fabs(residual_[unknown_[i]]) <= most) continue;
+      most = std::fabs(residual_[unknown_[i]]);
+      worst = i / dimension;
+    }
+    return Status::at(Code::ill_conditioned, Place::node, worst);
+  }
+
+  /// Tells a node that nothing holds from one that this scalar type cannot resolve: a mechanism strains
+  /// nothing.
+  Status loose_at(int unknown) {
+    stiffness_.null_vector(unknown, residual_);
+    for (int i = 0; i < count_; ++i) u_[i] = Word{residual_[i], 0};
+    int mover = 0;
+    Scalar most = 0, strained = 0;
+    for (int node = 0; node < scene_->nodes.size(); ++node)
+      for (int axis = 0; axis < dimension; ++axis)
+        if (std::fabs(displacement(node, axis).hi) > most) {
+          most = std::fabs(displacement(node, axis).hi);
+          mover = node;
+        }
+    for (int i = 0; i < scene_->struts.size(); ++i) {
+      const auto& bar = elements_.struts[i];
+      strained = std::fmax(strained, std::fabs(elongation(bar.nodes, bar.line).value()));
+    }
+    for (int i = 0; i < segments(); ++i) {
+      const auto& bar = elements_.segments[i];
+      strained = std::fmax(strained, std::fabs(elongation(bar.nodes, bar.line).value()));
+    }
+    const bool free = strained <= std::sqrt(epsilon) * most;
+    return Status::at(free ? Code::mechanism : Code::ill_conditioned, Place::node, mover);
+  }
+
+  const SceneType* scene_ = nullptr;
+  Elements<Scalar, SceneType> elements_;
+  NodeOrder<SceneType> order_;
+  Skyline<Scalar, max_unknowns, max_profile> stiffness_;
+  FixedArray<int, max_unknowns> unknown_;
+  FixedArray<int, max_unknowns> first_;
+  FixedArray<Word, max_unknowns> u_;
+  FixedArray<Scalar, max_unknowns> residual_;
+  Scalar largest_ = 0;
+  int count_ = 0;
+};
+
+}  // namespace taut

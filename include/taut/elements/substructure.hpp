@@ -1,0 +1,33 @@
+// Substructure: a linear elastic body known by its stiffness matrix on a few nodes.
+#pragma once
+
+#include "taut/scene/scene.hpp"
+
+namespace taut {
+
+/// A view of one substructure: its matrix and the displacements it acts on, in the order of its list, axis by
+/// axis.
+template <class SceneType>
+class SubstructureElement {
+ public:
+  using Scalar = typename SceneType::Scalar;
+  static constexpr int dimension = SceneType::dimension;
+
+  SubstructureElement(const SceneType& scene, int index)
+      : scene_(&scene), given_(&scene.substructures[index]) {}
+
+  /// Number of displacements: rows and columns of the matrix.
+  int size() const { return given_->nodes * dimension; }
+  int node(int row) const { return scene_->substructure_nodes[given_->first_node + row / dimension]; }
+  static int axis(int row) { return row % dimension; }
+  /// Stiffness [N/m].
+  Scalar operator()(int row, int column) const {
+    return scene_->substructure_entries[given_->first_entry + row * size() + column];
+  }
+
+ private:
+  const SceneType* scene_;
+  const Substructure* given_;
+};
+
+}  // namespace taut

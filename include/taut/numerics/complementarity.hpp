@@ -1,0 +1,145 @@
+// Linear complementarity: w = q + M z >= 0, z >= 0, w z = 0, by Lemke's method in fixed storage.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "taut/scene/fixed_list.hpp"
+
+namespace taut {
+
+/// Lemke's complementary pivoting with lexicographic ties, for at most Max pairs (Cottle, Pang and Stone, The
+/// Linear Complementarity Problem, algorithm 4.4.5 and section 4.9). The lexicographic order makes it finite
+/// when many pairs are at zero at once, as at every start from zero tension.
+template <class Scalar, int Max>
+class Lemke {
+ public:
+  enum class Outcome {
+    solved,
+    ray,     ///< no solution was found: in friction problems there is no equilibrium, or a mechanism
+    pivots,  ///< the bound on pivots was reached
+  };
+
+  /// Starts a problem of n pairs with M = 0, q = 0.
+  void reset(int n) {
+    n_ = n;
+    for (int i = 0; i < n; ++i)
+      for (int c = 0; c < columns(); ++c) at(i, c) = 0;
+  }
+  void set_M(int row, int column, Scalar value) { at(row, n_ + column) = -value; }
+  void set_q(int row, Scalar value) { at(row, 2 * n_ + 1) = value; }
+
+  /// Solves in place, in at most 16 n + 16 pivots.
+  Outcome solve() {
+    scale();
+    for (int i = 0; i < n_; ++i) {
+      at(i, i) = 1;
+      at(i, cover()) = -1;
+      basic_[i] = i;
+    }
+    int row = 0;
+    for (int i = 1; i < n_; ++i)
+      if (less(i, Scalar(1), row, Scalar(1))) row = i;
+    if (n_ == 0 || at(row, last()) >= -64 * epsilon) return Outcome::solved;
+    int entering = cover();
+    for (int count = 0; count < 16 * n_ + 16; ++count) {
+      const int leaving = basic_[row];
+      pivot(row, entering);
+      if (leaving == cover()) return Outcome::solved;
+      entering = leaving < n_ ? leaving + n_ : leaving - n_;
+      row = ratio_test(entering);
+      if (row < 0) return Outcome::ray;
+    }
+    return Outcome::pivots;
+  }
+
+  /// z_i of the solution.
+  Scalar z(int i) const {
+    for (int row = 0; row < n_; ++row)
+      if (basic_[row] == n_ + i) return at(row, last()) > 0 ? at(row, last()) * scale_[i] : Scalar(0);
+    return 0;
+  }
+  /// Whether z_i is basic: its complement w_i is held at zero.
+  bool is_active(int i) const {
+    for (int row = 0; row < n_; ++row)
+      if (basic_[row] == n_ + i) return true;
+    return false;
+  }
+
+ private:
+  static constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
+
+  // Columns: w_0.. w_{n-1}, z_0.. z_{n-1}, the covering variable, the right-hand side. Rows: w - M z - 1
+  // cover = q.
+  int columns() const { return 2 * n_ + 2; }
+  int cover() const { return 2 * n_; }
+  int last() const { return 2 * n_ + 1; }
+  Scalar& at(int row, int column) { return table_[row * (2 * Max + 2) + column]; }
+  const Scalar& at(int row, int column) const { return table_[row * (2 * Max + 2) + column]; }
+
+  /// Measures every z so that the diagonal of M is one, and q by its largest entry.
+  void scale() {
+    Scalar largest = 0;
+    for (int i = 0; i < n_; ++i) largest = std::fmax(largest, std::fabs(at(i, last())));
+    for (int i = 0; i < n_; ++i) {
+      const Scalar diagonal = std::fabs(at(i, n_ + i));
+      const Scalar unit = diagonal > 0 ? Scalar(1) / diagonal : Scalar(1);
+      for (int row = 0; row < n_; ++row) at(row, n_ + i) *= unit;
+      scale_[i] = unit * largest;
+      if (largest > 0) at(i, last()) /= largest;
+    }
+  }
+
+  void pivot(int row, int entering) {
+    const Scalar inverse = Scalar(1) / at(row, entering);
+    for (int c = 0; c < columns(); ++c) at(row, c) *= inverse;
+    at(row, entering) = 1;
+    for (int i = 0; i < n_; ++i) {
+      const Scalar factor = at(i, entering);
+      if (i == row || factor == 0) continue;
+      for (int c = 0; c < columns(); ++c) at(i, c) -= factor * at(row, c);
+      at(i, entering) = 0;
+    }
+    basic_[row] = entering;
+  }
+
+  /// Whether row a / pa comes before row b / pb: right-hand side first, then the columns of the first basis.
+  bool less(int a, Scalar pa, int b, Scalar pb) const {
+    const Scalar tie = 16 * epsilon;
+    const Scalar first = at(a, last()) / pa - at(b, last()) / pb;
+    if (std::fabs(first) > tie * (Scalar(1) + std::fabs(at(a, last()) / pa))) return first < 0;
+    for (int c = 0; c < n_; ++c) {
+      const Scalar difference = at(a, c) / pa - at(b, c) / pb;
+      if (std::fabs(difference) > tie * (std::fabs(at(a, c) / pa) + std::fabs(at(b, c) / pb)))
+        return difference < 0;
+    }
+    return false;
+  }
+
+  int ratio_test(int entering) const {
+    Scalar largest = 0;
+    for (int i = 0; i < n_; ++i) largest = std::fmax(largest, std::fabs(at(i, entering)));
+    const Scalar least = 64 * epsilon * std::fmax(largest, Scalar(1));
+    int best = -1;
+    for (int i = 0; i < n_; ++i) {
+      if (at(i, entering) <= least) continue;
+      if (best < 0 || less(i, at(i, entering), best, at(best, entering))) best = i;
+    }
+    if (best < 0) return -1;
+    // Among ties the covering variable leaves: the problem is solved.
+    for (int i = 0; i < n_; ++i)
+      if (basic_[i] == cover() && at(i, entering) > least &&
+          at(i, last()) / at(i, entering) <=
+              at(best, last()) / at(best, entering) * (Scalar(1) + 16 * epsilon) + 16 * epsilon)
+        return i;
+    return best;
+  }
+
+  FixedArray<Scalar, Max*(2 * Max + 2)> table_;
+  FixedArray<Scalar, Max> scale_;
+  FixedArray<int, Max> basic_;
+  int n_ = 0;
+};
+
+}  // namespace taut

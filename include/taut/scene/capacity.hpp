@@ -1,0 +1,29 @@
+// How much of everything a scene can hold: one traits struct, known at compile time.
+#pragma once
+
+namespace taut {
+
+/// The capacities of a scene. Derive from it and override what differs:
+///
+///     struct Roof : taut::Capacity {
+///       static constexpr int nodes = 40, struts = 90, cables = 1, segments = 12, joints = 11, loads = 2;
+///     };
+///
+/// What is left at zero has no storage and cannot be used. Without struts and substructures the saddles are
+/// rigid: all nodes must be held, and nothing elastic but the cables is stored or computed.
+struct Capacity {
+  static constexpr int nodes = 16;
+  static constexpr int struts = 0;
+  static constexpr int cables = 1;
+  static constexpr int segments = 8;  ///< of all cables together
+  static constexpr int joints = 8;    ///< of all cables together
+  static constexpr int substructures = 0;
+  static constexpr int substructure_nodes = 0;    ///< of all substructures together
+  static constexpr int substructure_entries = 0;  ///< stiffness matrix entries of all substructures together
+  static constexpr int loads = 0;                 ///< load patterns
+  static constexpr int forces = 0;                ///< nodal forces of all load patterns together
+  static constexpr int temperatures = 0;          ///< cable temperatures of all load patterns together
+  static constexpr int profile = 0;  ///< entries of the structure's factor; 0: enough for any structure
+};
+
+}  // namespace taut

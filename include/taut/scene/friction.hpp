@@ -1,0 +1,47 @@
+// Friction laws: from the geometry of a joint and its mu to the tension ratio at which the cable slides.
+#pragma once
+
+#include <cmath>
+
+#include "taut/scene/scene.hpp"
+
+namespace taut {
+
+/// How much of the tension a joint can hold back by friction.
+///
+/// Coulomb's |f| <= mu N over a joint with f = (T2 - T1) sin(alpha), N = (T1 + T2) cos(alpha) is the same as
+/// |T2 - T1| <= kappa (T1 + T2), and as rho T2 <= T1 <= T2 / rho with rho = (1 - kappa) / (1 + kappa).
+/// kappa >= 1: the joint is locked, the cable never slides over it.
+template <class Scalar>
+struct Grip {
+  Scalar kappa = 0;
+
+  constexpr bool locked() const { return kappa >= Scalar(1); }
+  /// The smallest possible T_small / T_big; 0 if locked.
+  constexpr Scalar rho() const { return locked() ? Scalar(0) : (Scalar(1) - kappa) / (Scalar(1) + kappa); }
+};
+
+/// Point contact, half the angle between the segments being alpha: kappa = mu cot(alpha). No trigonometry.
+template <class Scalar>
+constexpr Grip<Scalar> point_grip(Scalar mu, Scalar cos_alpha, Scalar sin_alpha) {
+  return {mu * cos_alpha / sin_alpha};
+}
+
+/// Saddle or duct with turning angle beta = pi - 2 alpha [rad]: rho = exp(-mu (beta + k s)), EN 1992-1-1
+/// (5.45), so kappa = tanh(mu (beta + k s) / 2). `wobble` is k [rad/m], `length` is s [m]: half of each
+/// adjacent segment.
+template <class Scalar>
+Grip<Scalar> capstan_grip(Scalar mu, Scalar cos_alpha, Scalar sin_alpha, Scalar wobble, Scalar length) {
+  const Scalar beta = Scalar(2) * std::atan2(cos_alpha, sin_alpha);
+  return {std::tanh(mu * (beta + wobble * length) / Scalar(2))};
+}
+
+/// The grip of a joint under the law of its cable.
+template <class Scalar>
+Grip<Scalar> grip(const Cable<Scalar>& cable, Scalar mu, Scalar cos_alpha, Scalar sin_alpha,
+                  Scalar half_lengths) {
+  if (cable.law == FrictionLaw::point) return point_grip(mu, cos_alpha, sin_alpha);
+  return capstan_grip(mu, cos_alpha, sin_alpha, cable.wobble, half_lengths);
+}
+
+}  // namespace taut

@@ -1,0 +1,89 @@
+// The straight path from one sample to the next: loads, jack forces, lock-off and release.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "taut/scene/sample.hpp"
+#include "taut/scene/scene.hpp"
+#include "taut/status.hpp"
+
+namespace taut {
+
+/// Loads, jacks and prestrain at one point of the path.
+template <class Scalar, class Cap>
+struct Drive {
+  /// A jacked end: the force is prescribed while jacking, the payout once locked.
+  struct JackedEnd {
+    bool locked = false;
+    Scalar force = 0;   ///< [N]
+    Scalar payout = 0;  ///< [m]
+  };
+  FixedArray<Scalar, Cap::loads> factor;
+  FixedArray<std::array<JackedEnd, 2>, Cap::cables> jack;
+  Scalar prestrain = 0;  ///< 0 to 1: how much of the prestrain there is
+
+  /// The point `part` of the way from `a` to `b`; locks are those of `b`.
+  static Drive between(const Drive& a, const Drive& b, Scalar part) {
+    if (part >= Scalar(1)) return b;
+    const auto mix = [part](Scalar p, Scalar q) { return p + part * (q - p); };
+    Drive drive = b;
+    drive.prestrain = mix(a.prestrain, b.prestrain);
+    for (int i = 0; i < Cap::loads; ++i) drive.factor[i] = mix(a.factor[i], b.factor[i]);
+    for (int c = 0; c < Cap::cables; ++c)
+      for (std::size_t end = 0; end < 2; ++end) {
+        drive.jack[c][end].force = mix(a.jack[c][end].force, b.jack[c][end].force);
+        drive.jack[c][end].payout = mix(a.jack[c][end].payout, b.jack[c][end].payout);
+      }
+    return drive;
+  }
+};
+
+/// Calls visit(cable number, end 0 or 1) for every jacked end. `Cables` is a list of Cable or of CableLayout.
+template <class Cables, class Visit>
+void for_each_jacked_end(const Cables& cables, Visit visit) {
+  for (int c = 0; c < cables.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end)
+      if (!cables[c].closed && cables[c].ends[end] == End::jacked) visit(c, end);
+}
+
+/// `bad_sample` if a factor is not finite, or the force of an unlocked jack not finite or negative.
+template <class Cables, class Scalar, class Cap>
+Status check_sample(const Cables& cables, int loads, const Sample<Scalar, Cap>& sample) {
+  for (int i = 0; i < loads; ++i)
+    if (!std::isfinite(sample.factor[i])) return Status::at(Code::bad_sample, Place::load, i);
+  Status status = Status::success();
+  for_each_jacked_end(cables, [&](int c, std::size_t end) {
+    const Jack<Scalar>& jack = sample.jack[c][end];
+    if (!jack.locked && !(std::isfinite(jack.force) && jack.force >= 0) && status.ok())
+      status = Status::along(Code::bad_sample, Place::cable_end, c, static_cast<int>(end));
+  });
+  return status;
+}
+
+/// Both ends of the path from the present state to a sample. Lock-off keeps the payout and draws the wedge in
+/// along the path; a released end starts at the force it has.
+///
+/// `from` enters as the present drive, `to` as the goal of the path before (the same, if that was reached),
+/// and `present` is the present response.
+template <class Cables, class Scalar, class Cap>
+void set_path(const Cables& cables, int loads, const Response<Scalar, Cap>& present,
+              const Sample<Scalar, Cap>& sample, Drive<Scalar, Cap>& from, Drive<Scalar, Cap>& to) {
+  for (int i = 0; i < loads; ++i) to.factor[i] = sample.factor[i];
+  for_each_jacked_end(cables, [&](int c, std::size_t end) {
+    const Jack<Scalar>& jack = sample.jack[c][end];
+    auto& start = from.jack[c][end];
+    auto& goal = to.jack[c][end];
+    goal.locked = jack.locked;
+    if (jack.locked && !start.locked) {
+      start.payout = present.payout[c][end];
+      goal.payout = start.payout - static_cast<Scalar>(cables[c].seating);
+    } else if (!jack.locked) {
+      if (start.locked) start.force = present.tension[cables[c].end_segment(end)];
+      goal.force = jack.force;
+      start.payout = goal.payout = 0;
+    }
+  });
+}
+
+}  // namespace taut

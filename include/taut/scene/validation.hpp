@@ -1,0 +1,321 @@
+// Says whether a scene can be used, and if not what is wrong with which part of it.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+
+#include "taut/elements/friction_element.hpp"
+#include "taut/elements/substructure.hpp"
+#include "taut/scene/scene.hpp"
+#include "taut/status.hpp"
+
+namespace taut {
+namespace detail {
+
+/// One check after the other; the first failure is the answer.
+template <class SceneType>
+class SceneCheck {
+ public:
+  explicit SceneCheck(const SceneType& scene) : scene_(scene) {}
+
+  Status run() const {
+    Status status = capacities();
+    if (status) status = nodes();
+    if (status) status = struts();
+    for (int c = 0; status && c < scene_.cables.size(); ++c) status = cable(c);
+    for (int i = 0; status && i < scene_.substructures.size(); ++i) status = substructure(i);
+    if (status) status = loads();
+    if (status) status = supports();
+    return status;
+  }
+
+ private:
+  using Real = typename SceneType::Scalar;
+  static constexpr int dimension = SceneType::dimension;
+  static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
+
+  Status capacities() const {
+    const struct {
+      int excess, capacity;
+      Place place;
+    } lists[] = {
+        {scene_.nodes.excess(), scene_.nodes.capacity(), Place::node},
+        {scene_.struts.excess(), scene_.struts.capacity(), Place::strut},
+        {scene_.cables.excess(), scene_.cables.capacity(), Place::cable},
+        {scene_.prestrain.excess(), scene_.prestrain.capacity(), Place::segment},
+        {scene_.mu.excess(), scene_.mu.capacity(), Place::joint},
+        {scene_.path.excess(), scene_.path.capacity(), Place::path},
+        {scene_.substructures.excess(), scene_.substructures.capacity(), Place::substructure},
+        {scene_.substructure_nodes.excess(), scene_.substructure_nodes.capacity(), Place::substructure_node},
+        {scene_.substructure_entries.excess(), scene_.substructure_entries.capacity(),
+         Place::substructure_entry},
+        {scene_.excess_loads, SceneType::Capacity::loads, Place::load},
+        {scene_.forces.excess(), scene_.forces.capacity(), Place::force},
+        {scene_.temperatures.excess(), scene_.temperatures.capacity(), Place::temperature},
+    };
+    for (const auto& list : lists)
+      if (list.excess > 0) return Status::at(Code::capacity_exceeded, list.place, list.capacity, list.excess);
+    return Status::success();
+  }
+
+  Status nodes() const {
+    for (int i = 0; i < scene_.nodes.size(); ++i) {
+      for (const Real x : scene_.nodes[i].at)
+        if (!std::isfinite(x)) return Status::at(Code::not_finite, Place::node, i);
+      if (scene_.nodes[i].held >> dimension != 0) return Status::at(Code::out_of_range, Place::node, i);
+    }
+    return Status::success();
+  }
+
+  /// Finite and greater than zero, or the code that says which it is not.
+  static Code positive(Real x) {
+    if (!std::isfinite(x)) return Code::not_finite;
+    return x > 0 ? Code::ok : Code::not_positive;
+  }
+  static Code not_negative(Real x) {
+    if (!std::isfinite(x)) return Code::not_finite;
+    return x >= 0 ? Code::ok : Code::negative;
+  }
+  static Code first_failure(Code a, Code b) { return a != Code::ok ? a : b; }
+
+  bool is_node(int i) const { return i >= 0 && i < scene_.nodes.size(); }
+
+  /// Closer than the coordinates can tell apart.
+  bool coincide(int a, int b) const {
+    Real size = 0, distance = 0;
+    for (std::size_t axis = 0; axis < dimension; ++axis) {
+      const Real p = scene_.nodes[a].at[axis], q = scene_.nodes[b].at[axis];
+      size = std::fmax(size, std::fmax(std::fabs(p), std::fabs(q)));
+      distance = std::fmax(distance, std::fabs(p - q));
+    }
+    return distance <= 8 * epsilon * size;
+  }
+
+  Status struts() const {
+    for (int i = 0; i < scene_.struts.size(); ++i) {
+      const Strut<Real>& strut = scene_.struts[i];
+      for (const int node : strut.nodes)
+        if (!is_node(node)) return Status::at(Code::unknown_node, Place::strut, i, node);
+      if (strut.nodes[0] == strut.nodes[1])
+        return Status::at(Code::repeated_node, Place::strut, i, strut.nodes[0]);
+      if (coincide(strut.nodes[0], strut.nodes[1]))
+        return Status::at(Code::coincident_nodes, Place::strut, i, strut.nodes[1]);
+      const Code stiff = first_failure(positive(strut.E), positive(strut.A));
+      if (stiff != Code::ok) return Status::at(stiff, Place::strut, i);
+    }
+    return Status::success();
+  }
+
+  Status cable(int c) const {
+    const Cable<Real>& cable = scene_.cables[c];
+    if (cable.nodes < (cable.closed ? 3 : 2))
+      return Status::at(Code::path_too_short, Place::cable, c, cable.nodes);
+    Code code = first_failure(positive(cable.E), positive(cable.A));
+    for (const Real x : {cable.wobble, cable.mu_sd, cable.seating, cable.sensor_sd[0], cable.sensor_sd[1]})
+      code = first_failure(code, not_negative(x));
+    if (!std::isfinite(cable.alpha)) code = first_failure(code, Code::not_finite);
+    if (code != Code::ok) return Status::at(code, Place::cable, c);
+    Status status = path(c);
+    for (int i = 0; status && i < cable.segments(); ++i) status = segment(c, i);
+    for (int j = 0; status && j < cable.joints(); ++j) status = joint(c, j);
+    return status;
+  }
+
+  Status path(int c) const {
+    const Cable<Real>& cable = scene_.cables[c];
+    for (int i = 0; i < cable.nodes; ++i) {
+      const int node = scene_.path[cable.first_path + i];
+      if (!is_node(node)) return Status::along(Code::unknown_node, Place::path, c, i, node);
+      for (int k = 0; k < i; ++k)
+        if (scene_.path[cable.first_path + k] == node)
+          return Status::along(Code::repeated_node, Place::path, c, i, node);
+    }
+    return Status::success();
+  }
+
+  Status segment(int c, int i) const {
+    const Cable<Real>& cable = scene_.cables[c];
+    const auto ends = scene_.segment_nodes(cable, i);
+    if (coincide(ends[0], ends[1]))
+      return Status::along(Code::coincident_nodes, Place::segment, c, i, ends[1]);
+    const Real prestrain = scene_.prestrain[cable.first_segment + i];
+    if (!std::isfinite(prestrain)) return Status::along(Code::not_finite, Place::segment, c, i);
+    if (!(std::fabs(prestrain) < 1)) return Status::along(Code::out_of_range, Place::segment, c, i);
+    return Status::success();
+  }
+
+  Status joint(int c, int j) const {
+    const Cable<Real>& cable = scene_.cables[c];
+    const Code code = not_negative(scene_.mu[cable.first_joint + j]);
+    if (code != Code::ok) return Status::along(code, Place::joint, c, j);
+    const auto at = scene_.joint_nodes(cable, j);
+    const auto frame =
+        JointFrame<Real, dimension>::of(scene_.nodes[at.before], scene_.nodes[at.at], scene_.nodes[at.after]);
+    // alpha below 64 units of rounding cannot be told from zero.
+    if (!(frame.sin_alpha > 64 * epsilon)) return Status::along(Code::folded_cable, Place::joint, c, j);
+    return Status::success();
+  }
+
+  Status substructure(int index) const {
+    const Substructure& given = scene_.substructures[index];
+    const SubstructureElement<SceneType> K(scene_, index);
+    for (int i = 0; i < given.nodes; ++i) {
+      const int node = scene_.substructure_nodes[given.first_node + i];
+      if (!is_node(node)) return Status::at(Code::unknown_node, Place::substructure, index, node);
+      for (int k = 0; k < i; ++k)
+        if (scene_.substructure_nodes[given.first_node + k] == node)
+          return Status::at(Code::repeated_node, Place::substructure, index, node);
+    }
+    Real largest = 0;
+    for (int i = 0; i < K.size(); ++i)
+      for (int k = 0; k < K.size(); ++k) {
+        if (!std::isfinite(K(i, k))) return Status::at(Code::not_finite, Place::substructure, index, i);
+        largest = std::fmax(largest, std::fabs(K(i, k)));
+      }
+    const Real tolerance = std::sqrt(epsilon) * largest;  // as printed by another program, to half the digits
+    for (int i = 0; i < K.size(); ++i)
+      for (int k = 0; k < i; ++k)
+        if (std::fabs(K(i, k) - K(k, i)) > tolerance)
+          return Status::at(Code::not_symmetric, Place::substructure, index, i);
+    if (!semidefinite(K, tolerance)) return Status::at(Code::not_semidefinite, Place::substructure, index);
+    return Status::success();
+  }
+
+  /// Elimination with the largest diagonal entry first: a negative one, or a column left over beside zeros,
+  /// is proof.
+  static bool semidefinite(const SubstructureElement<SceneType>& K, Real tolerance) {
+    const int n = K.size();
+    FixedArray<Real, SceneType::Capacity::substructure_entries> copy;
+    const auto a = [&copy, n](int i, int k) -> Real& { return copy[i * n + k]; };
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < n; ++k) a(i, k) = K(i, k);
+    for (int step = 0; step < n; ++step) {
+      int pivot = 0;
+      Real least = 0;
+      for (int i = 0; i < n; ++i) {
+        if (a(i, i) > a(pivot, pivot)) pivot = i;
+        least = std::fmin(least, a(i, i));
+      }
+      if (least < -tolerance) return false;
+      if (a(pivot, pivot) <= tolerance) {
+        for (int i = 0; i < n; ++i)
+          for (int k = 0; k < n; ++k)
+            if (std::fabs(a(i, k)) > 2 * tolerance) return false;
+        return true;
+      }
+      for (int i = 0; i < n; ++i) {
+        if (i == pivot) continue;
+        const Real factor = a(i, pivot) / a(pivot, pivot);
+        for (int k = 0; k < n; ++k)
+          if (k != pivot) a(i, k) -= factor * a(pivot, k);
+      }
+      for (int i = 0; i < n; ++i) a(i, pivot) = a(pivot, i) = 0;
+    }
+    return true;
+  }
+
+  Status loads() const {
+    const auto is_load = [this](int i) { return i >= 0 && i < scene_.loads; };
+    for (int i = 0; i < scene_.forces.size(); ++i) {
+      const auto& given = scene_.forces[i];
+      if (!is_load(given.load)) return Status::at(Code::out_of_range, Place::force, i, given.load);
+      if (!is_node(given.node)) return Status::at(Code::unknown_node, Place::force, i, given.node);
+      for (const Real x : given.force)
+        if (!std::isfinite(x)) return Status::at(Code::not_finite, Place::force, i);
+    }
+    for (int i = 0; i < scene_.temperatures.size(); ++i) {
+      const auto& given = scene_.temperatures[i];
+      if (!is_load(given.load)) return Status::at(Code::out_of_range, Place::temperature, i, given.load);
+      if (given.cable < 0 || given.cable >= scene_.cables.size())
+        return Status::at(Code::out_of_range, Place::temperature, i, given.cable);
+      if (!std::isfinite(given.kelvin)) return Status::at(Code::not_finite, Place::temperature, i);
+    }
+    return Status::success();
+  }
+
+  /// Rigid motions: translations, and rotations about the middle scaled to displacements of order one.
+  static constexpr int motions = dimension == 2 ? 3 : 6;
+  using Motions = Eigen::Matrix<Real, dimension, motions>;
+  using Gram = Eigen::Matrix<Real, motions, motions>;
+  using Vector = Eigen::Matrix<Real, dimension, 1>;
+
+  static Motions rigid_motions(const Vector& x) {
+    Motions R = Motions::Zero();
+    R.template leftCols<dimension>().setIdentity();
+    if constexpr (dimension == 2)
+      R.col(2) << -x[1], x[0];
+    else
+      R.template rightCols<3>() << 0, x[2], -x[1], -x[2], 0, x[0], x[1], -x[0], 0;
+    return R;
+  }
+
+  Vector position(int node, const Vector& middle, Real size) const {
+    Vector x;
+    for (int axis = 0; axis < dimension; ++axis)
+      x[axis] = scene_.nodes[node].at[static_cast<std::size_t>(axis)];
+    return (x - middle) / size;
+  }
+
+  /// Supports and substructures against the rigid motions of the whole: what is left free must move nothing.
+  Status supports() const {
+    if (scene_.nodes.empty()) return Status::at(Code::unsupported, Place::node, -1);
+    Vector middle = Vector::Zero();
+    for (int i = 0; i < scene_.nodes.size(); ++i)
+      middle += position(i, Vector::Zero(), 1) / static_cast<Real>(scene_.nodes.size());
+    Real size = epsilon;
+    for (int i = 0; i < scene_.nodes.size(); ++i)
+      size = std::fmax(size, position(i, middle, 1).template lpNorm<Eigen::Infinity>());
+
+    Gram resistance = Gram::Zero();
+    for (int i = 0; i < scene_.nodes.size(); ++i) {
+      const Motions R = rigid_motions(position(i, middle, size));
+      for (int axis = 0; axis < dimension; ++axis)
+        if (scene_.nodes[i].is_held(axis)) resistance += R.row(axis).transpose().lazyProduct(R.row(axis));
+    }
+    for (int index = 0; index < scene_.substructures.size(); ++index) {
+      const SubstructureElement<SceneType> K(scene_, index);
+      Real trace = 0;
+      for (int i = 0; i < K.size(); ++i) trace += K(i, i);
+      if (!(trace > 0)) continue;
+      for (int i = 0; i < K.size(); ++i)
+        for (int k = 0; k < K.size(); ++k) {
+          const Motions Ri = rigid_motions(position(K.node(i), middle, size));
+          const Motions Rk = rigid_motions(position(K.node(k), middle, size));
+          resistance += K(i, k) / trace * Ri.row(K.axis(i)).transpose().lazyProduct(Rk.row(K.axis(k)));
+        }
+    }
+
+    const Eigen::SelfAdjointEigenSolver<Gram> solver(resistance);
+    const Real free_below = 64 * epsilon * std::fmax(Real(1), solver.eigenvalues()[motions - 1]);
+    for (int mode = 0; mode < motions; ++mode) {
+      if (solver.eigenvalues()[mode] > free_below) continue;
+      int node = 0;
+      Real most = 0;
+      for (int i = 0; i < scene_.nodes.size(); ++i) {
+        const Vector motion = rigid_motions(position(i, middle, size)) * solver.eigenvectors().col(mode);
+        if (motion.norm() > most) {
+          most = motion.norm();
+          node = i;
+        }
+      }
+      if (most > Real(1e-4)) return Status::at(Code::unsupported, Place::node, node);
+    }
+    return Status::success();
+  }
+
+  const SceneType& scene_;
+};
+
+}  // namespace detail
+
+/// Checks everything about a scene that can be checked before it is loaded. A failure names the part; Place
+/// and the numbers are explained at Code. For `capacity_exceeded` the index is the capacity and the amount
+/// what is missing.
+template <class Scalar, int Dimension, class Cap>
+Status validate(const Scene<Scalar, Dimension, Cap>& scene) {
+  return detail::SceneCheck<Scene<Scalar, Dimension, Cap>>(scene).run();
+}
+
+}  // namespace taut

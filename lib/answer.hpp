@@ -1,0 +1,20 @@
+// The response to a row, without the types of the solver that found it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "taut/scene/sample.hpp"
+
+namespace taut::host {
+
+/// The fields of Response for what the scene holds. Values of a solver in float are exact, but for a negative
+/// zero: it is a positive one, in decimal and in hexadecimal results.
+struct Answer {
+  std::vector<double> tension, slip, contact, friction;
+  std::vector<JointState> state;
+  std::vector<std::array<double, 2>> payout;
+  std::vector<double> strut;
+};
+
+}  // namespace taut::host

@@ -1,0 +1,25 @@
+# How taut's own programs and tests are compiled. Nothing of this reaches a project that uses taut.
+include_guard(GLOBAL)
+
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release) # without optimisation Eigen is slower by a factor of ten or more
+endif()
+
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}) # build/host/taut, not build/host/lib/taut
+
+# The warnings of the house, for private use by every target.
+add_library(taut_warnings INTERFACE)
+target_compile_options(taut_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow
+                                               -Werror)
+
+if(TAUT_SANITIZE)
+  # For the whole build: code with and without address checks must not be mixed.
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
+if(TAUT_CLANG_TIDY)
+  find_program(TAUT_CLANG_TIDY_COMMAND clang-tidy REQUIRED)
+  set(CMAKE_CXX_CLANG_TIDY ${TAUT_CLANG_TIDY_COMMAND} --quiet)
+endif()

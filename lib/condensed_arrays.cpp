@@ -1,0 +1,78 @@
+#include "lib/condensed_arrays.hpp"
+
+#include <cstddef>
+#include <memory>
+
+#include "lib/condensed_kind.hpp"
+#include "lib/valid_scene.hpp"
+
+namespace taut::host {
+namespace {
+
+using Row = CondensedArrays::Row;
+
+template <class Values>
+Row row_of(const Values& values, int count) {
+  Row row;
+  for (int i = 0; i < count; ++i) row.push_back(static_cast<double>(values[i]));
+  return row;
+}
+
+template <class Rows>
+std::vector<Row> rows_of(const Rows& rows, int count, int length) {
+  std::vector<Row> copied;
+  for (int k = 0; k < count; ++k) copied.push_back(row_of(rows[k], length));
+  return copied;
+}
+
+template <class Coupling>
+std::vector<Row> coupling_of(const Coupling& coupling, int segments) {
+  std::vector<Row> rows(static_cast<std::size_t>(segments));
+  for (int i = 0; i < segments; ++i)
+    for (int k = 0; k < segments; ++k)
+      rows[static_cast<std::size_t>(i)].push_back(static_cast<double>(coupling(i, k)));
+  return rows;
+}
+
+template <class Scalar>
+CableLayout<double> layout_of(const CableLayout<Scalar>& cable) {
+  return {cable.closed, cable.ends,          static_cast<double>(cable.seating),
+          cable.nodes,  cable.first_segment, cable.first_joint};
+}
+
+template <class Scalar, int Dimension, class Cap>
+CondensedArrays condensed_arrays(const SceneDescription& scene) {
+  const auto condensed = std::make_unique<Condensed<Scalar, Cap>>();
+  const auto rows = std::make_unique<CondensedStruts<Scalar, Cap>>();
+  CondensedArrays arrays;
+  arrays.rigid = has_rigid_saddles<Cap>;
+  arrays.condensing = condense_scene<Scalar, Dimension, Cap>(scene, *condensed, *rows);
+  if (!arrays.condensing.status) return arrays;
+  const int segments = condensed->segments, joints = condensed->joints, loads = condensed->loads;
+  const int struts = static_cast<int>(scene.struts.size());
+  for (const auto& cable : condensed->cables) arrays.cables.push_back(layout_of(cable));
+  arrays.coupling = coupling_of(condensed->coupling, segments);
+  arrays.prestrain = row_of(condensed->prestrain, segments);
+  arrays.load = rows_of(condensed->load, loads, segments);
+  arrays.rho = row_of(condensed->rho, joints);
+  arrays.cos_alpha = row_of(condensed->cos_alpha, joints);
+  arrays.sin_alpha = row_of(condensed->sin_alpha, joints);
+  arrays.strut_load = rows_of(rows->load, loads, struts);
+  arrays.strut_prestrain = row_of(rows->prestrain, struts);
+  arrays.strut_elongation = rows_of(rows->elongation, segments, struts);
+  return arrays;
+}
+
+}  // namespace
+
+CondensedArrays condense(const SceneDescription& scene, ScalarType scalar) {
+  require_valid(scene);
+  return with_condensed_capacity(scene, [&](auto kind) {
+    using Kind = decltype(kind);
+    using Cap = typename Kind::Capacity;
+    return scalar == ScalarType::float32 ? condensed_arrays<float, Kind::dimension, Cap>(scene)
+                                         : condensed_arrays<double, Kind::dimension, Cap>(scene);
+  });
+}
+
+}  // namespace taut::host

@@ -1,0 +1,29 @@
+// What a condensed scene takes in the memory of a device.
+#pragma once
+
+#include <cstddef>
+
+#include "lib/result_file.hpp"
+#include "lib/scene_description.hpp"
+
+namespace taut::host {
+
+/// The counts of a capacity that fits a condensed scene exactly. Nodes are not needed any more.
+struct CondensedCounts {
+  int cables = 0, segments = 0, joints = 0, loads = 0, struts = 0;
+  /// Zero means rigid saddles: no coupling between segments is stored. A structure that consists of cables
+  /// alone counts as one substructure.
+  int substructures = 0;
+};
+CondensedCounts condensed_counts(const SceneDescription& scene);
+
+/// Bytes, for a capacity that fits exactly, where pointers are as large as here.
+struct CondensedSize {
+  std::size_t scene = 0;       ///< Condensed, in flash
+  std::size_t strut_rows = 0;  ///< CondensedStruts, in flash if it is used
+  std::size_t tracker = 0;     ///< Tracker, in RAM
+};
+/// Exact but for the padding of small counts: some ten bytes.
+CondensedSize condensed_size(const CondensedCounts& counts, ScalarType scalar);
+
+}  // namespace taut::host

@@ -1,0 +1,108 @@
+// The program `taut`.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "lib/check.hpp"
+#include "lib/export_scene.hpp"
+#include "lib/input_error.hpp"
+#include "lib/simulate.hpp"
+
+namespace {
+
+using namespace taut::host;
+
+constexpr int unusable_input = 2;
+constexpr int most_substeps = 1000000;
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, method] : methods) names.push_back(name);
+  return names;
+}
+
+Method method_called(const std::string& name) {
+  return std::find_if(methods.begin(), methods.end(), [&](const auto& each) { return each.first == name; })
+      ->second;
+}
+
+// The command line, with what it asks for.
+class CommandLine {
+ public:
+  CommandLine() {
+    app_.name("taut");
+    app_.set_version_flag("--version", "taut " TAUT_VERSION);
+    app_.require_subcommand(1);
+    app_.footer("Exit status: 0 done; 1 the scene has no answer somewhere; 2 unusable input.");
+    add_check();
+    add_simulate();
+    add_export();
+  }
+
+  int run(int argc, char** argv) {
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return app_.exit(error) == 0 ? 0 : unusable_input;
+    }
+    if (check_->parsed()) return check(options_.scene);
+    if (export_->parsed()) return export_scene({options_.scene, options_.output});
+    options_.method = method_called(method_);
+    options_.numbers.scalar = scalar_ == "float" ? ScalarType::float32 : ScalarType::float64;
+    return simulate(options_);
+  }
+
+ private:
+  void add_check() {
+    check_ = app_.add_subcommand("check", "Show what a scene holds and needs, and whether it stands");
+    check_->add_option("SCENE", options_.scene, "Scene file (JSON)")->required();
+  }
+
+  void add_simulate() {
+    CLI::App* simulate = app_.add_subcommand("simulate", "Compute the cable forces for every row of a log");
+    simulate->add_option("SCENE", options_.scene, "Scene file (JSON)")->required();
+    simulate->add_option("LOG", options_.log, "Log of loads and jack forces (CSV)")->required();
+    simulate->add_option("-o", options_.output, "Result file (CSV); standard output if absent");
+    simulate->add_option("--method", method_, "Method of computation")
+        ->check(CLI::IsMember(method_names()))
+        ->capture_default_str();
+    simulate->add_option("--scalar", scalar_, "Floating-point type of the computation")
+        ->check(CLI::IsMember({"double", "float"}))
+        ->capture_default_str();
+    simulate->add_option("--substeps", options_.substeps, "Load steps a row, for the method stepwise")
+        ->check(CLI::Range(1, most_substeps))
+        ->capture_default_str();
+    simulate->add_flag("--hex", options_.numbers.hex, "Write numbers as the bits of their IEEE values");
+  }
+
+  void add_export() {
+    export_ = app_.add_subcommand("export", "Write a C++ header with the condensed scene, for firmware");
+    export_->add_option("SCENE", options_.scene, "Scene file (JSON)")->required();
+    export_->add_option("-o", options_.output, "Header file (C++); standard output if absent");
+  }
+
+  CLI::App app_{"Cable forces with friction in cable-supported structures."};
+  CLI::App* check_ = nullptr;
+  CLI::App* export_ = nullptr;
+  SimulateOptions options_;
+  std::string method_ = methods.front().first, scalar_ = "double";
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return CommandLine().run(argc, argv);
+  } catch (const InputError& error) {
+    std::cerr << error.what() << '\n';
+  } catch (const std::bad_alloc&) {
+    std::cerr << "taut: there is not enough memory for this scene\n";
+  } catch (const std::exception& error) {
+    std::cerr << "taut: " << error.what() << '\n';
+  }
+  return unusable_input;
+}

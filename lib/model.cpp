@@ -1,0 +1,40 @@
+#include "lib/model.hpp"
+
+#include "lib/condensed_kind.hpp"
+#include "lib/make_stepwise.hpp"
+#include "lib/make_tracker.hpp"
+#include "lib/valid_scene.hpp"
+
+namespace taut::host {
+namespace {
+
+std::unique_ptr<Model> tracker_model(const SceneDescription& scene, ScalarType scalar) {
+  require_valid(scene);
+  return with_condensed_capacity(scene, [&](auto kind) -> std::unique_ptr<Model> {
+    using Cap = typename decltype(kind)::Capacity;
+    return scalar == ScalarType::float32 ? make_tracker<float, Cap>(scene) : make_tracker<double, Cap>(scene);
+  });
+}
+
+std::unique_ptr<Model> stepwise_model(const SceneDescription& scene, ScalarType scalar) {
+  return with_capacity(scene, [&](auto kind) -> std::unique_ptr<Model> {
+    using Kind = decltype(kind);
+    using Cap = typename Kind::Capacity;
+    return scalar == ScalarType::float32 ? make_stepwise<float, Kind::dimension, Cap>(scene)
+                                         : make_stepwise<double, Kind::dimension, Cap>(scene);
+  });
+}
+
+}  // namespace
+
+std::unique_ptr<Model> make_model(const SceneDescription& scene, Method method, ScalarType scalar) {
+  switch (method) {
+    case Method::tracker:
+      return tracker_model(scene, scalar);
+    case Method::stepwise:
+      return stepwise_model(scene, scalar);
+  }
+  return nullptr;
+}
+
+}  // namespace taut::host

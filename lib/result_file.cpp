@@ -1,0 +1,127 @@
+#include "lib/result_file.hpp"
+
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+
+namespace taut::host {
+namespace {
+
+template <class Unsigned, class Float>
+void append_bits(std::string& text, Float value) {
+  static_assert(sizeof(Unsigned) == sizeof(Float), "one bit pattern for every value");
+  Unsigned bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  for (int shift = static_cast<int>(sizeof bits) * 8 - 4; shift >= 0; shift -= 4) {
+    text += "0123456789abcdef"[bits >> shift & 0xFU];
+  }
+}
+
+template <class Float>
+void append_shortest(std::string& text, Float value) {
+  std::array<char, 32> digits{};
+  text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+}
+
+const char* word(JointState state) {
+  switch (state) {
+    case JointState::stick:
+      return "stick";
+    case JointState::forward:
+      return "forward";
+    case JointState::backward:
+      return "backward";
+    case JointState::open:
+      return "open";
+  }
+  return "unknown";
+}
+
+// Grows one line of a result, field by field.
+class Line {
+ public:
+  explicit Line(const NumberFormat& format) : format_(format) {}
+
+  void number(double value) {
+    comma();
+    append_number(text_, value, format_);
+  }
+  void number(const std::vector<double>& values, std::size_t first, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) number(values[first + i]);
+  }
+  void field(const std::string& text) {
+    comma();
+    text_ += text;
+  }
+  void numbered(const std::string& stem, std::size_t count) {
+    for (std::size_t i = 1; i <= count; ++i) field(stem + std::to_string(i));
+  }
+  std::string finished() { return text_ + "\n"; }
+
+ private:
+  void comma() {
+    if (!text_.empty()) text_ += ',';
+  }
+
+  NumberFormat format_;
+  std::string text_;
+};
+
+}  // namespace
+
+void append_number(std::string& text, double value, const NumberFormat& format) {
+  const bool single = format.scalar == ScalarType::float32;
+  const auto rounded = static_cast<float>(value);
+  if (format.hex && single) {
+    append_bits<std::uint32_t>(text, rounded);
+  } else if (format.hex) {
+    append_bits<std::uint64_t>(text, value);
+  } else if (single) {
+    append_shortest(text, rounded);
+  } else {
+    append_shortest(text, value);
+  }
+}
+
+std::string result_header(const SceneDescription& scene) {
+  Line line(NumberFormat{});
+  line.field("time");
+  for (const CableDescription& cable : scene.cables) {
+    line.numbered(cable.name + ".T", cable.segments());
+    line.numbered(cable.name + ".slip", cable.joints());
+    line.numbered(cable.name + ".state", cable.joints());
+    line.numbered(cable.name + ".N", cable.joints());
+    line.numbered(cable.name + ".f", cable.joints());
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (cable.is_jacked(end)) line.field(cable.name + "." + end_name(end) + ".payout");
+    }
+  }
+  line.numbered("strut", scene.struts.size());
+  return line.finished();
+}
+
+std::string result_row(const SceneDescription& scene, double time, const Answer& answer,
+                       const NumberFormat& format) {
+  Line line(format);
+  line.number(time);
+  std::size_t segment = 0, joint = 0;
+  for (std::size_t c = 0; c < scene.cables.size(); ++c) {
+    const CableDescription& cable = scene.cables[c];
+    const std::size_t joints = cable.joints();
+    line.number(answer.tension, segment, cable.segments());
+    line.number(answer.slip, joint, joints);
+    for (std::size_t j = 0; j < joints; ++j) line.field(word(answer.state[joint + j]));
+    line.number(answer.contact, joint, joints);
+    line.number(answer.friction, joint, joints);
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (cable.is_jacked(end)) line.number(answer.payout[c][end]);
+    }
+    segment += cable.segments();
+    joint += joints;
+  }
+  line.number(answer.strut, 0, answer.strut.size());
+  return line.finished();
+}
+
+}  // namespace taut::host

@@ -1,0 +1,364 @@
+#include "lib/scene_header.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <set>
+#include <vector>
+
+#include "lib/condensed_size.hpp"
+#include "lib/text.hpp"
+
+namespace taut::host {
+namespace {
+
+using Row = CondensedArrays::Row;
+
+constexpr std::size_t widest = 110;
+
+bool is_letter_or_digit(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+// Keywords, what the standard library or this one own, and macros of common compilers.
+bool has_a_meaning(const std::string& word) {
+  static const std::set<std::string> words = {"alignas",
+                                              "alignof",
+                                              "and",
+                                              "asm",
+                                              "assert",
+                                              "auto",
+                                              "bitand",
+                                              "bitor",
+                                              "bool",
+                                              "break",
+                                              "case",
+                                              "catch",
+                                              "char",
+                                              "class",
+                                              "compl",
+                                              "concept",
+                                              "const",
+                                              "constexpr",
+                                              "constinit",
+                                              "continue",
+                                              "decltype",
+                                              "default",
+                                              "delete",
+                                              "do",
+                                              "double",
+                                              "else",
+                                              "enum",
+                                              "errno",
+                                              "explicit",
+                                              "export",
+                                              "extern",
+                                              "false",
+                                              "float",
+                                              "for",
+                                              "friend",
+                                              "goto",
+                                              "if",
+                                              "import",
+                                              "inline",
+                                              "int",
+                                              "linux",
+                                              "long",
+                                              "main",
+                                              "module",
+                                              "mutable",
+                                              "namespace",
+                                              "new",
+                                              "noexcept",
+                                              "not",
+                                              "nullptr",
+                                              "operator",
+                                              "or",
+                                              "posix",
+                                              "private",
+                                              "protected",
+                                              "public",
+                                              "register",
+                                              "requires",
+                                              "return",
+                                              "short",
+                                              "signed",
+                                              "sizeof",
+                                              "static",
+                                              "std",
+                                              "struct",
+                                              "switch",
+                                              "taut",
+                                              "template",
+                                              "this",
+                                              "throw",
+                                              "true",
+                                              "try",
+                                              "typedef",
+                                              "typeid",
+                                              "typename",
+                                              "union",
+                                              "unix",
+                                              "unsigned",
+                                              "using",
+                                              "virtual",
+                                              "void",
+                                              "volatile",
+                                              "while",
+                                              "xor",
+                                              "and_eq",
+                                              "char8_t",
+                                              "char16_t",
+                                              "char32_t",
+                                              "co_await",
+                                              "co_return",
+                                              "co_yield",
+                                              "const_cast",
+                                              "consteval",
+                                              "dynamic_cast",
+                                              "not_eq",
+                                              "or_eq",
+                                              "static_cast",
+                                              "wchar_t",
+                                              "xor_eq",
+                                              "static_assert",
+                                              "reinterpret_cast",
+                                              "thread_local",
+                                              "i386",
+                                              "arm",
+                                              "EOF",
+                                              "NULL",
+                                              "NAN",
+                                              "INFINITY"};
+  return words.count(word) > 0;
+}
+
+// Printable ASCII as it is, every other byte as an octal escape, so that the literal has the same bytes under
+// every compiler; a question mark could be part of a trigraph.
+std::string literal(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte >= 0x7F || c == '?') {
+      std::array<char, 8> escape{};
+      std::snprintf(escape.data(), escape.size(), "\\%03o", static_cast<unsigned>(byte));
+      quoted += escape.data();
+    } else {
+      if (c == '"' || c == '\\') quoted += '\\';
+      quoted += c;
+    }
+  }
+  return quoted + "\"";
+}
+
+// Grows lines of a list in braces, none wider than the rest of the file.
+class List {
+ public:
+  explicit List(std::size_t indent) : indent_(indent) {}
+
+  void item(const std::string& text) {
+    const bool fits = !text_.empty() && column_ + text.size() + 2 <= widest;
+    text_ += fits ? " " : "\n" + std::string(indent_, ' ');
+    column_ = (fits ? column_ + 1 : indent_) + text.size() + 1;
+    text_ += text + ",";
+  }
+  /// Without its last comma.
+  std::string finished() const { return text_.substr(0, text_.size() - 1); }
+
+ private:
+  std::size_t indent_, column_ = 0;
+  std::string text_;
+};
+
+// A FixedArray: braces for itself, for the array inside, and for what is inside that.
+std::string fixed_array(const std::vector<std::string>& items, std::size_t indent) {
+  if (items.empty()) return "{}";
+  List list(indent + 2);
+  for (const std::string& item : items) list.item(item);
+  return "{{{" + list.finished() + "}}}";
+}
+
+std::string layout(const CableLayout<double>& cable, const std::string& seating) {
+  const auto end = [&](std::size_t i) {
+    return std::string("::taut::End::") + (cable.ends[i] == End::jacked ? "jacked" : "anchored");
+  };
+  return "{" + std::string(cable.closed ? "true" : "false") + ", {" + end(0) + ", " + end(1) + "}, " +
+         seating + ", " + std::to_string(cable.nodes) + ", " + std::to_string(cable.first_segment) + ", " +
+         std::to_string(cable.first_joint) + "}";
+}
+
+// Writes the constants of one floating-point type.
+class Constants {
+ public:
+  Constants(const CondensedArrays& arrays, ScalarType scalar)
+      : arrays_(arrays), single_(scalar == ScalarType::float32) {}
+
+  std::string condensed() const {
+    const CondensedArrays& a = arrays_;
+    return type() + " make_cables(" + name() + ") {\n" + cables() + "}\n" + "constexpr ::taut::Condensed<" +
+           name() + ", Capacity> make_condensed(" + name() + ") {\n" + "  return {make_cables(" + name() +
+           "()), " + count(a.prestrain) + ", " + count(a.rho) + ", " + std::to_string(a.load.size()) + ",\n" +
+           field("coupling", "{" + coupling() + "}") + field("prestrain", numbers(a.prestrain, 10)) +
+           field("load", rows(a.load)) + field("rho", numbers(a.rho, 10)) +
+           field("cos_alpha", numbers(a.cos_alpha, 10)) + "          /*sin_alpha*/ " +
+           numbers(a.sin_alpha, 10) + "};\n}\n";
+  }
+  std::string struts() const {
+    const CondensedArrays& a = arrays_;
+    return "constexpr ::taut::CondensedStruts<" + name() + ", Capacity> make_struts(" + name() + ") {\n" +
+           "  return {/*load*/ " + rows(a.strut_load) + ",\n" +
+           field("prestrain", numbers(a.strut_prestrain, 10)) + "          /*elongation*/ " +
+           rows(a.strut_elongation) + "};\n}\n";
+  }
+
+ private:
+  std::string name() const { return single_ ? "float" : "double"; }
+  std::string type() const {
+    return "constexpr ::taut::FixedList<::taut::CableLayout<" + name() + ">, Capacity::cables>";
+  }
+  static std::string count(const Row& row) { return std::to_string(row.size()); }
+  static std::string field(const std::string& label, const std::string& value) {
+    return "          /*" + label + "*/ " + value + ",\n";
+  }
+
+  // Hexadecimal digits give back the very value.
+  std::string number(double value) const {
+    std::array<char, 40> digits{};
+    std::snprintf(digits.data(), digits.size(), "%a", value);
+    return digits.data() + std::string(single_ ? "F" : "");
+  }
+  std::string numbers(const Row& row, std::size_t indent) const {
+    std::vector<std::string> items;
+    for (const double value : row) items.push_back(number(value));
+    return fixed_array(items, indent);
+  }
+  std::string rows(const std::vector<Row>& table) const {
+    std::string text;
+    for (const Row& row : table)
+      text += (text.empty() ? "{{{\n" : ",\n") + std::string(14, ' ') + numbers(row, 14);
+    return text.empty() ? "{}" : text + "}}}";
+  }
+  // Between rigid saddles the diagonal is all there is.
+  std::string coupling() const {
+    Row entries;
+    for (std::size_t i = 0; i < arrays_.coupling.size(); ++i) {
+      if (arrays_.rigid)
+        entries.push_back(arrays_.coupling[i][i]);
+      else
+        entries.insert(entries.end(), arrays_.coupling[i].begin(), arrays_.coupling[i].end());
+    }
+    return numbers(entries, 10);
+  }
+  std::string cables() const {
+    std::string text = "  ::taut::FixedList<::taut::CableLayout<" + name() + ">, Capacity::cables> cables;\n";
+    for (const auto& cable : arrays_.cables)
+      text += "  cables.add(" + layout(cable, number(cable.seating)) + ");\n";
+    return text + "  return cables;\n";
+  }
+
+  const CondensedArrays& arrays_;
+  bool single_;
+};
+
+std::string sizes(const CondensedCounts& counts, ScalarType scalar) {
+  const CondensedSize size = condensed_size(counts, scalar);
+  return std::string(scalar == ScalarType::float32 ? "float" : "double") + ": " + std::to_string(size.scene) +
+         " bytes of flash" +
+         (size.strut_rows > 0 ? ", " + std::to_string(size.strut_rows) + " more for strut forces" : "") +
+         "; the tracker takes " + std::to_string(size.tracker) + " bytes of RAM";
+}
+
+std::string head(const SceneDescription& scene, const CondensedCounts& counts) {
+  return "// The scene " + literal(scene.name) +
+         " after static condensation, written by `taut export`: do not edit.\n"
+         "//\n"
+         "// What is not used takes no room. About, where pointers have 64 bits:\n"
+         "// " +
+         sizes(counts, ScalarType::float32) + ".\n// " + sizes(counts, ScalarType::float64) +
+         ".\n"
+         "#pragma once\n"
+         "\n"
+         "#include \"taut/condensation/condensed.hpp\"\n";
+}
+
+std::string capacity(const CondensedCounts& counts) {
+  const auto is = [](const char* name, int count) {
+    return std::string(name) + " = " + std::to_string(count);
+  };
+  return "/// Fits the condensed scene exactly.\n"
+         "struct Capacity : ::taut::Capacity {\n"
+         "  static constexpr int " +
+         is("nodes", 0) + ", " + is("struts", counts.struts) + ", " + is("cables", counts.cables) + ", " +
+         is("segments", counts.segments) + ", " + is("joints", counts.joints) + ", " +
+         is("substructures", counts.substructures) + ", " + is("loads", counts.loads) + ";\n};\n";
+}
+
+// A list of names that costs nothing unless it is used.
+std::string list_of_names(const std::string& comment, const std::string& size, const std::string& name,
+                          const std::vector<std::string>& names) {
+  std::vector<std::string> literals;
+  for (const std::string& each : names) literals.push_back(literal(each));
+  return "/// " + comment + "\ninline constexpr ::taut::FixedArray<const char*, " + size + "> " + name +
+         " = " + fixed_array(literals, 2) + ";\n";
+}
+
+std::string names(const SceneDescription& scene) {
+  std::vector<std::string> cables, loads, nodes;
+  for (const LoadDescription& load : scene.loads) loads.push_back(load.name);
+  for (const CableDescription& cable : scene.cables) {
+    cables.push_back(cable.name);
+    for (std::size_t j = 0; j < cable.joints(); ++j)
+      nodes.push_back(scene.nodes[static_cast<std::size_t>(cable.path[cable.closed ? j : j + 1])].name);
+  }
+  return "/// Names, by the numbers that samples, responses and statuses use.\nnamespace names {\n\n" +
+         list_of_names("Cables, as in Sample::jack.", "Capacity::cables", "cables", cables) +
+         list_of_names("Load patterns, as in Sample::factor.", "Capacity::loads", "loads", loads) +
+         list_of_names("The nodes at which the joints lie.", "Capacity::joints", "joint_nodes", nodes) +
+         "\n}  // namespace names\n";
+}
+
+}  // namespace
+
+std::string identifier(const std::string& name) {
+  std::string word;
+  for (const char c : name) {
+    if (is_letter_or_digit(c))
+      word += c;
+    else if (!word.empty() && word.back() != '_')
+      word += '_';
+  }
+  if (!word.empty() && word.back() == '_') word.pop_back();
+  const bool starts_with_digit = !word.empty() && word[0] >= '0' && word[0] <= '9';
+  if (word.empty()) return "scene";
+  return starts_with_digit || has_a_meaning(word) ? "scene_" + word : word;
+}
+
+std::string scene_header(const SceneDescription& scene, const CondensedArrays& in_float,
+                         const CondensedArrays& in_double) {
+  const CondensedCounts counts = condensed_counts(scene);
+  const std::string space = identifier(scene.name);
+  std::string text =
+      head(scene, counts) + "\nnamespace " + space + " {\n\n" + capacity(counts) + "\nnamespace detail {\n\n";
+  for (const ScalarType scalar : {ScalarType::float32, ScalarType::float64}) {
+    const CondensedArrays& arrays = scalar == ScalarType::float32 ? in_float : in_double;
+    if (!arrays.condensing.status) continue;
+    const Constants constants(arrays, scalar);
+    text += constants.condensed() + (counts.struts > 0 ? constants.struts() : "") + "\n";
+  }
+  text +=
+      "}  // namespace detail\n\n"
+      "/// The scene for Tracker, as condensed<float> or condensed<double>.\n"
+      "template <class Scalar>\n"
+      "inline constexpr ::taut::Condensed<Scalar, Capacity> condensed = "
+      "detail::make_condensed(Scalar());\n\n";
+  if (counts.struts > 0) {
+    text +=
+        "/// The rows that give strut forces, for Tracker::respond().\n"
+        "template <class Scalar>\n"
+        "inline constexpr ::taut::CondensedStruts<Scalar, Capacity> struts = "
+        "detail::make_struts(Scalar());\n\n";
+  }
+  return text + names(scene) + "\n}  // namespace " + space + "\n";
+}
+
+}  // namespace taut::host

@@ -1,0 +1,66 @@
+// Between the files and the solvers of the core: rows of a log to samples, responses to answers.
+#pragma once
+
+#include <cstddef>
+
+#include "lib/answer.hpp"
+#include "lib/log_file.hpp"
+#include "lib/scene_description.hpp"
+#include "taut/scene/sample.hpp"
+
+namespace taut::host {
+
+/// The sample of a row. Forces of load cells at anchored ends are measurements, not part of what drives the
+/// model.
+template <class Scalar, class Cap>
+Sample<Scalar, Cap> sample_of(const LogRow& row, const SceneDescription& scene) {
+  Sample<Scalar, Cap> sample;
+  for (std::size_t i = 0; i < row.factor.size(); ++i)
+    sample.factor[static_cast<int>(i)] = static_cast<Scalar>(row.factor[i]);
+  for (std::size_t c = 0; c < scene.cables.size(); ++c) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (!scene.cables[c].is_jacked(end)) continue;
+      const EndRow& given = row.cables[c][end];
+      sample.jack[static_cast<int>(c)][end] = {static_cast<Scalar>(given.force), given.locked};
+    }
+  }
+  return sample;
+}
+
+namespace detail {
+
+/// A number of the answer; adding zero makes a positive zero of a negative one.
+template <class Scalar>
+double answered(Scalar value) {
+  return static_cast<double>(value) + 0.0;
+}
+
+template <class Values>
+void copy_numbers(const Values& from, std::size_t count, std::vector<double>& to) {
+  to.resize(count);
+  for (std::size_t i = 0; i < count; ++i) to[i] = answered(from[static_cast<int>(i)]);
+}
+
+}  // namespace detail
+
+/// Copies what the scene holds out of the response.
+template <class Scalar, class Cap>
+void read_response(const Response<Scalar, Cap>& response, const SceneDescription& scene, Answer& answer) {
+  std::size_t segments = 0, joints = 0;
+  answer.payout.resize(scene.cables.size());
+  for (std::size_t c = 0; c < scene.cables.size(); ++c) {
+    segments += scene.cables[c].segments();
+    joints += scene.cables[c].joints();
+    for (std::size_t end = 0; end < 2; ++end)
+      answer.payout[c][end] = detail::answered(response.payout[static_cast<int>(c)][end]);
+  }
+  detail::copy_numbers(response.tension, segments, answer.tension);
+  detail::copy_numbers(response.slip, joints, answer.slip);
+  detail::copy_numbers(response.contact, joints, answer.contact);
+  detail::copy_numbers(response.friction, joints, answer.friction);
+  detail::copy_numbers(response.strut, scene.struts.size(), answer.strut);
+  answer.state.resize(joints);
+  for (std::size_t j = 0; j < joints; ++j) answer.state[j] = response.state[static_cast<int>(j)];
+}
+
+}  // namespace taut::host
