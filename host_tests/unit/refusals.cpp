@@ -1,0 +1,178 @@
+// What has no answer is refused by name, and nothing is changed by it.
+#include <cstring>
+#include <limits>
+
+#include "support/status_check.hpp"
+#include "unit/hand.hpp"
+#include "unit/instances.hpp"
+
+using namespace support;
+using taut::Code;
+using taut::Place;
+
+namespace {
+
+using PlaneBench = Bench<double, Plane>;
+Plane scene;
+
+/// Every number of a state, for comparison bit by bit.
+std::vector<double> state_of(const PlaneBench& bench) {
+  std::vector<double> all;
+  const auto& response = bench.response();
+  for (int i = 0; i < scene.prestrain.size(); ++i) all.push_back(response.tension[i]);
+  for (int j = 0; j < scene.mu.size(); ++j) {
+    all.push_back(response.slip[j]);
+    all.push_back(response.contact[j]);
+    all.push_back(response.friction[j]);
+    all.push_back(static_cast<double>(response.state[j]));
+  }
+  for (int i = 0; i < scene.struts.size(); ++i) all.push_back(response.strut[i]);
+  for (const double payout : response.payout[0]) all.push_back(payout);
+  for (int node = 0; node < scene.nodes.size(); ++node)
+    for (int axis = 0; axis < 2; ++axis) all.push_back(bench.solver().displacement(node, axis));
+  return all;
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+/// A lower node on one vertical strut; the cable is flatter to its left than to its right.
+void one_vertical_strut(double mu, bool second_strut) {
+  scene = {};
+  const int left = scene.add_node({-6, 0}, taut::held_xy);
+  const int head = scene.add_node({0, 0}, taut::held_xy);
+  const int right = scene.add_node({2, 0}, taut::held_xy);
+  const int foot = scene.add_node({0, -2});
+  scene.add_strut(head, foot, steel, 1e-3);
+  if (second_strut) scene.add_strut(left, foot, steel, 1e-3);
+  scene.add_cable(steel_cable(mu), {left, foot, right});
+}
+
+/// A state in the middle of things on a truss string structure.
+PlaneBench& busy(PlaneBench& bench) {
+  REQUIRE(bench.load(0, 1).jack(0, 1, 2e5).go().ok());
+  REQUIRE(bench.load(0, 0.5).jack(0, 1, 1.5e5).go().ok());
+  return bench;
+}
+
+}  // namespace
+
+TEST_CASE("a lower node on one vertical strut is named as a mechanism when its joint slides") {
+  one_vertical_strut(0.05, false);
+  PlaneBench bench(scene);
+  REQUIRE(bench.started().ok());
+  CHECK_STATUS(bench.jack(0, 1, 1e5).go(), Code::mechanism, Place::node, 3);
+}
+
+TEST_CASE("a second strut is the remedy for that mechanism") {
+  one_vertical_strut(0.05, true);
+  PlaneBench bench(scene);
+  REQUIRE(bench.jack(0, 1, 1e5).go().ok());
+  CHECK_LAWFUL(bench, double);
+}
+
+TEST_CASE("a lower node on one vertical strut is held by a joint that does not slide") {
+  // T1 cos(a1) = T2 cos(a2) in the horizontal: T1 / T2 = sqrt(1/2) / (3 / sqrt(10)), held by mu cot(alpha) >
+  // (1 - that) / (1 + that).
+  one_vertical_strut(0.6, false);
+  PlaneBench bench(scene);
+  REQUIRE(bench.jack(0, 1, 1e5).go().ok());
+  CHECK_LAWFUL(bench, double);
+  CHECK(close(bench.T(0) / bench.T(1), std::sqrt(5.0) / 3, 1e-11));
+}
+
+TEST_CASE("a node that hangs on a single bar is named as a mechanism at the start") {
+  scene = {};
+  scene.add_node({0, 0}, taut::held_xy);
+  scene.add_node({1, 0}, taut::held_xy);
+  scene.add_node({1, -1});
+  scene.add_strut(1, 2, steel, 1e-3);
+  PlaneBench bench(scene);
+  CHECK_STATUS(bench.started(), Code::mechanism, Place::node, 2);
+}
+
+TEST_CASE("a scene with a fault does not start") {
+  truss_string(scene, steel_cable(-1), 4);
+  PlaneBench bench(scene);
+  CHECK_STATUS(bench.started(), Code::negative, Place::joint, 0, 0);
+}
+
+TEST_CASE("two jacks that differ by more than all friction pull the cable through") {
+  const hand::Chain chain{5, 0.3};
+  rigid_saddles(scene, steel_cable(chain.mu, two_jacks), chain_points(chain.segments));
+  const double F = 2e5, held = F * chain.reach(0);
+  PlaneBench bench(scene);
+  CHECK_STATUS(bench.jack(0, 0, 0.999 * held).jack(0, 1, F).go(), Code::pulled_through, Place::cable, 0);
+  CHECK_STATUS(bench.jack(0, 0, F).jack(0, 1, 0.999 * held).go(), Code::pulled_through, Place::cable, 0);
+  CHECK(bench.jack(0, 0, 1.001 * held).jack(0, 1, F).go().ok());
+}
+
+TEST_CASE("two different jacks on a cable of one segment pull it through") {
+  rigid_saddles(scene, steel_cable(0, two_jacks), chain_points(1));
+  PlaneBench bench(scene);
+  CHECK(bench.jack(0, 0, 1e5).jack(0, 1, 1.1e5).go().code == Code::pulled_through);
+}
+
+TEST_CASE("a locked joint between two jacks holds any difference") {
+  rigid_saddles(scene, steel_cable(0.1, two_jacks), chain_points(3));
+  scene.mu[1] = 100;
+  PlaneBench bench(scene);
+  REQUIRE(bench.jack(0, 0, 0).jack(0, 1, 2e5).go().ok());
+  CHECK_LAWFUL(bench, double);
+  CHECK(bench.T(0) == 0);
+}
+
+TEST_CASE("a sample that is no number or a negative force is refused, and no bit of the state changes") {
+  truss_string(scene, steel_cable(0.3), 6);
+  PlaneBench bench(scene);
+  const auto before = state_of(busy(bench));
+  const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const double bad : {not_a_number, infinite, -infinite}) {
+    CHECK_STATUS(bench.load(1, bad).go(), Code::bad_sample, Place::load, 1);
+    bench.load(1, 0);
+  }
+  for (const double bad : {not_a_number, infinite, -1.0, -1e-30})
+    CHECK_STATUS(bench.jack(0, 1, bad).go(), Code::bad_sample, Place::cable_end, 1, 0);
+  CHECK(same_bits(before, state_of(bench)));
+}
+
+TEST_CASE("after a refused sample everything goes on as if it had never been given") {
+  truss_string(scene, steel_cable(0.3), 6);
+  PlaneBench disturbed(scene), calm(scene);
+  busy(disturbed);
+  busy(calm);
+  CHECK_FALSE(disturbed.jack(0, 1, -1).go().ok());
+  for (PlaneBench* bench : {&disturbed, &calm}) REQUIRE(bench->load(0, 2).jack(0, 1, 2.5e5).go(3).ok());
+  CHECK(same_bits(state_of(disturbed), state_of(calm)));
+}
+
+TEST_CASE("an anchored end needs no jack force, whatever stands in its place") {
+  truss_string(scene, steel_cable(0.3), 6);
+  PlaneBench bench(scene);
+  CHECK(bench.jack(0, 0, -7).jack(0, 1, 1e5).go().ok());
+}
+
+TEST_CASE("an advance that fails leaves the last state that has an answer, to go on from") {
+  rigid_saddles(scene, steel_cable(0.3, two_jacks), chain_points(5));
+  PlaneBench failing(scene), calm(scene);
+  for (PlaneBench* bench : {&failing, &calm}) {
+    REQUIRE(bench->jack(0, 0, 2e5).jack(0, 1, 2e5).go().ok());
+    REQUIRE(bench->jack(0, 0, 1.8e5).jack(0, 1, 1.9e5).go().ok());
+  }
+  const auto before = state_of(failing);
+  CHECK(failing.jack(0, 0, 0).go().code == Code::pulled_through);
+  CHECK(same_bits(before, state_of(failing)));
+  for (PlaneBench* bench : {&failing, &calm}) REQUIRE(bench->jack(0, 0, 2.1e5).go().ok());
+  CHECK(same_bits(state_of(failing), state_of(calm)));
+}
+
+TEST_CASE("an advance that runs into a mechanism leaves the last state") {
+  one_vertical_strut(0.05, false);
+  PlaneBench bench(scene);
+  const auto before = state_of(bench);
+  CHECK(bench.jack(0, 1, 1e5).go().code == Code::mechanism);
+  CHECK(same_bits(before, state_of(bench)));
+  CHECK(bench.jack(0, 1, 0).go().ok());
+}
