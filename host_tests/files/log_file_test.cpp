@@ -1,0 +1,168 @@
+// Logs: what the reader makes of them.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+
+#include <clocale>
+#include <limits>
+#include <locale>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "lib/input_error.hpp"
+#include "lib/log_file.hpp"
+#include "lib/scene_file.hpp"
+
+using namespace taut::host;
+
+namespace {
+
+const SceneDescription& scene() {
+  static const SceneDescription read = read_scene(R"({ "taut": 1, "name": "n", "dimension": 2,
+    "nodes": { "a": [0, 0], "b": [1, 0] },
+    "cables": [ { "name": "C", "path": ["a", "b"], "E": 1, "A": 1, "start": "jacked", "end": "anchored" } ],
+    "loads": { "Fy": { "forces": { "b": [0, 1] } }, "wind": {} } })",
+                                                  "f");
+  return read;
+}
+
+std::vector<LogRow> rows(const std::string& text, const LogRules& rules = {}) {
+  std::istringstream stream(text);
+  LogReader reader(stream, "log", scene(), rules);
+  std::vector<LogRow> all;
+  LogRow row = reader.first_row();
+  while (reader.next(row)) all.push_back(row);
+  return all;
+}
+
+std::string refusal(const std::string& text, const LogRules& rules = {}) {
+  try {
+    rows(text, rules);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+// Writes and reads 1.5 as 1,5.
+struct CommaLocale {
+  struct Punctuation : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+  };
+  std::locale before = std::locale::global(std::locale(std::locale(), new Punctuation));
+  CommaLocale() { std::setlocale(LC_ALL, "de_DE.UTF-8"); }  // without effect where it is not installed
+  ~CommaLocale() {
+    std::setlocale(LC_ALL, "C");
+    std::locale::global(before);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a log with every kind of column is read") {
+  const SceneDescription every_key = read_scene_file(TAUT_FILES "/every_key.json");
+  CHECK(check_log(TAUT_FILES "/every_column.csv", every_key, {}) == 4);
+}
+
+TEST_CASE("columns may come in any order") {
+  const auto read = rows("C.start,Fy,time\n1000,0.5,3\n");
+  CHECK(read[0].time == 3);
+  CHECK(read[0].factor[0] == 0.5);
+  CHECK(read[0].cables[0][0].force == 1000);
+}
+
+TEST_CASE("lines may end with carriage returns and the last one without a newline") {
+  const auto read = rows("time,Fy\r\n0,1\r\n1,2");
+  CHECK(read.size() == 2);
+  CHECK(read[1].factor[0] == 2);
+}
+
+TEST_CASE("a byte order mark before the header does not count") {
+  CHECK(rows("\xEF\xBB\xBFtime,Fy\n0,1\n").size() == 1);
+}
+
+TEST_CASE("blank lines at the end do not count") { CHECK(rows("time,Fy\n0,1\n\n \r\n\n").size() == 1); }
+
+TEST_CASE("fields may stand in quotes and between blanks") {
+  const auto read = rows("\"time\" , \"Fy\"\n 0 ,\t\"1.5\" \n");
+  CHECK(read[0].factor[0] == 1.5);
+}
+
+TEST_CASE("an empty field keeps the last load factor, jack force and lock") {
+  const auto read = rows("time,Fy,C.start,C.start.locked\n0,2,1000,1\n1,,,\n2,,,0\n");
+  CHECK(read[1].factor[0] == 2);
+  CHECK(read[1].cables[0][0].force == 1000);
+  CHECK(read[1].cables[0][0].locked);
+  CHECK(read[2].cables[0][0].force == 1000);
+  CHECK_FALSE(read[2].cables[0][0].locked);
+}
+
+TEST_CASE("an empty field is no measurement") {
+  const auto read = rows("time,C.start.stroke,C.end\n0,0.01,500\n1,,\n");
+  CHECK(read[0].cables[0][0].stroke == 0.01);
+  CHECK(read[0].cables[0][1].reading == 500.0);
+  CHECK_FALSE(read[1].cables[0][0].stroke.has_value());
+  CHECK_FALSE(read[1].cables[0][1].reading.has_value());
+}
+
+TEST_CASE("before anything is given everything is zero and unlocked") {
+  const auto read = rows("time,Fy,C.start\n0,,\n");
+  CHECK(read[0].factor == std::vector<double>{0, 0});
+  CHECK(read[0].cables[0][0].force == 0);
+  CHECK_FALSE(read[0].cables[0][0].locked);
+}
+
+TEST_CASE("rows and lines are counted from one") {
+  const auto read = rows("time\n5\n6\n");
+  CHECK(read[1].row == 2);
+  CHECK(read[1].line == 3);
+}
+
+TEST_CASE("numbers do not depend on the locale") {
+  const CommaLocale locale;
+  CHECK(rows("time,Fy\n0.25,-1.5e-3\n")[0].factor[0] == -1.5e-3);
+}
+
+TEST_CASE("the first time may be negative and times as close as doubles can be") {
+  CHECK(rows("time\n-1\n0\n4.9e-324\n1e-300\n").size() == 4);
+}
+
+TEST_CASE("a locked end may read below zero, an anchored one too") {
+  CHECK(rows("time,C.start,C.start.locked,C.end\n0,-3,1,-5\n").size() == 1);
+}
+
+TEST_CASE("a negative jack force is refused, unless readings may carry noise") {
+  const std::string log = "time,C.start\n0,-3\n";
+  CHECK(refusal(log) ==
+        "log: line 2, column 2 (C.start): the jack force -3 is below zero; write zero or more: a jack can "
+        "only pull");
+  LogRules noisy;
+  noisy.negative_jack_forces = true;
+  CHECK(rows(log, noisy)[0].cables[0][0].reading == -3.0);
+}
+
+TEST_CASE("numbers beyond single precision are refused for a computation in float") {
+  LogRules single;
+  single.largest = static_cast<double>(std::numeric_limits<float>::max());
+  CHECK(refusal("time,Fy\n0,1e39\n", single) ==
+        "log: line 2, column 2 (Fy): the number \"1e39\" is too large for single precision; use --scalar "
+        "double");
+  CHECK(rows("time,Fy\n0,1e38\n", single).size() == 1);
+}
+
+TEST_CASE("a line without end is refused before it takes all memory") {
+  CHECK(refusal("time\n" + std::string(2000000, '1')) ==
+        "log: line 2: the line is longer than 1 MiB; write one line a row");
+}
+
+TEST_CASE("a million rows are read one by one") {
+  std::string text = "time,Fy,C.start\n";
+  for (int i = 0; i < 1000000; ++i) text += std::to_string(i) + ",0.5,1000\n";
+  std::istringstream stream(text);
+  LogReader reader(stream, "log", scene());
+  LogRow row = reader.first_row();
+  while (reader.next(row)) {
+  }
+  CHECK(row.row == 1000000);
+  CHECK(row.time == 999999);
+}

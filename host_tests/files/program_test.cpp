@@ -1,0 +1,222 @@
+// The program on usable input: where its result goes and what its exit status says.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "files/run_program.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string scene = TAUT_FILES "/two_jacks.json";
+const std::string one_jack = TAUT_FILES "/one_jack.json";
+const std::string vertical_strut = TAUT_FILES "/vertical_strut.json";
+
+// The arguments of a simulation with this log.
+std::string simulation(const Scratch& scratch, const std::string& log, const std::string& of = scene) {
+  std::ofstream(scratch.path / "log.csv") << log;
+  return "simulate '" + of + "' " + scratch.quoted("log.csv");
+}
+
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> found;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');) found.push_back(field);
+  return found;
+}
+
+// The fields of a column of a result, row by row.
+std::vector<std::string> column(const std::string& result, const std::string& name) {
+  std::istringstream stream(result);
+  std::string line;
+  std::getline(stream, line);
+  const auto header = fields(line);
+  const auto at = static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+  std::vector<std::string> found;
+  while (std::getline(stream, line)) found.push_back(fields(line).at(at));
+  return found;
+}
+
+double number(const std::string& field) { return std::strtod(field.c_str(), nullptr); }
+
+// The largest difference of two results relative to the size of the numbers; words must be the same.
+double difference(const std::string& a, const std::string& b) {
+  std::istringstream first(a), second(b);
+  double largest = 0;
+  for (std::string x, y; std::getline(first, x) && std::getline(second, y);) {
+    const auto xs = fields(x), ys = fields(y);
+    REQUIRE(xs.size() == ys.size());
+    for (std::size_t i = 0; i < xs.size(); ++i) {
+      char* end = nullptr;
+      const double value = std::strtod(xs[i].c_str(), &end);
+      if (*end != '\0') CHECK(xs[i] == ys[i]);
+      if (*end == '\0')
+        largest = std::max(largest, std::fabs(value - number(ys[i])) / std::max(std::fabs(value), 1e-3));
+    }
+  }
+  return largest;
+}
+
+const std::string even = "time,C.start,C.end\n1,1000,1000\n2,2000,2000\n";
+const std::string torn = "time,C.start,C.end\n1,1000,1000\n2,9000,1000\n3,1000,1000\n";
+
+auto lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+
+}  // namespace
+
+TEST_CASE("check describes a usable scene on standard output") {
+  const Scratch scratch;
+  const Outcome outcome = run_taut(scratch, "check '" + scene + "'");
+  CHECK(outcome.status == 0);
+  CHECK(outcome.err.empty());
+  CHECK(outcome.out.find("capacity class          small\n") != std::string::npos);
+  CHECK(outcome.out.find(
+            "cable \"C\"               jacked to jacked, 2 segments, 1 joint, 0 locked by friction\n") !=
+        std::string::npos);
+  CHECK(outcome.out.find("flash                   about 68 bytes in float") != std::string::npos);
+  CHECK(outcome.out.find("mechanisms              none before any load\n") != std::string::npos);
+}
+
+TEST_CASE("check warns of a joint that sets its node free when it slides, and says what helps") {
+  const Scratch scratch;
+  const Outcome outcome = run_taut(scratch, "check '" + vertical_strut + "'");
+  CHECK(outcome.status == 0);
+  CHECK(outcome.out.find("mechanisms              none before any load; 1 joint free to slide\n") !=
+        std::string::npos);
+  CHECK(outcome.err ==
+        "warning: joint 1 of cable \"C\" at node \"top\": when the cable slides over it, nothing holds its "
+        "node; add a second strut, a support or a substructure at that node\n");
+}
+
+TEST_CASE("the method is the tracker unless another one is asked for") {
+  const Scratch scratch;
+  const std::string arguments = simulation(scratch, even) + " --hex";
+  CHECK(run_taut(scratch, arguments).out == run_taut(scratch, arguments + " --method tracker").out);
+}
+
+TEST_CASE("tracker and stepwise agree where the answer is one straight piece") {
+  const Scratch scratch;
+  const std::string arguments = simulation(scratch, "time,C.end\n1,1000\n2,30000\n3,90000\n", one_jack);
+  const Outcome tracker = run_taut(scratch, arguments);
+  const Outcome stepwise = run_taut(scratch, arguments + " --method stepwise");
+  CHECK(tracker.status == 0);
+  CHECK(stepwise.status == 0);
+  CHECK(column(tracker.out, "C.state1") == std::vector<std::string>(3, "forward"));
+  CHECK(difference(tracker.out, stepwise.out) < 1e-9);
+}
+
+TEST_CASE("load steps are accepted and remarked on where the tracker has none to divide") {
+  const Scratch scratch;
+  const std::string arguments = simulation(scratch, even);
+  const Outcome outcome = run_taut(scratch, arguments + " --substeps 7");
+  CHECK(outcome.status == 0);
+  CHECK(outcome.err.rfind("remark: --substeps has no effect", 0) == 0);
+  CHECK(outcome.out == run_taut(scratch, arguments).out);
+  CHECK(run_taut(scratch, arguments + " --substeps 7 --method stepwise").err.empty());
+}
+
+TEST_CASE("a locked jack keeps its payout less the seating, and takes hold again when it is unlocked") {
+  const Scratch scratch;
+  const std::string log = "time,C.end,C.end.locked\n1,50000,0\n2,,1\n3,,1\n4,70000,0\n";
+  const Outcome outcome = run_taut(scratch, simulation(scratch, log, one_jack));
+  CHECK(outcome.status == 0);
+  const auto payout = column(outcome.out, "C.end.payout"), T2 = column(outcome.out, "C.T2");
+  CHECK(std::fabs(number(payout[1]) - (number(payout[0]) - 0.002)) < 1e-12);
+  CHECK(number(T2[1]) < 50000);
+  CHECK(payout[2] == payout[1]);
+  CHECK(T2[2] == T2[1]);
+  CHECK(std::fabs(number(T2[3]) - 70000) < 1e-6);
+}
+
+TEST_CASE("a number that is zero has no sign") {
+  const Scratch scratch;
+  const std::string log = "time,C.end\n1,1000\n2,0\n3,1000\n4,0\n";
+  const std::string arguments = simulation(scratch, log, one_jack);
+  CHECK(run_taut(scratch, arguments).out.find(",-0,") == std::string::npos);
+  CHECK(run_taut(scratch, arguments + " --hex --scalar float").out.find("80000000") == std::string::npos);
+}
+
+TEST_CASE("a result has a row for every row of the log, on standard output or in a file") {
+  const Scratch scratch;
+  const std::string arguments = simulation(scratch, even);
+  const Outcome shown = run_taut(scratch, arguments);
+  CHECK(shown.status == 0);
+  CHECK(shown.err.empty());
+  CHECK(shown.out.rfind("time,C.T1,C.T2,C.slip1,C.state1,C.N1,C.f1,C.start.payout,C.end.payout\n1,", 0) == 0);
+  CHECK(lines(shown.out) == 3);
+  const Outcome kept = run_taut(scratch, arguments + " -o " + scratch.quoted("result.csv"));
+  CHECK(kept.status == 0);
+  CHECK(kept.out.empty());
+  CHECK(text_of(scratch.path / "result.csv") == shown.out);
+}
+
+TEST_CASE("hexadecimal results have eight digits in float and sixteen in double") {
+  const Scratch scratch;
+  const std::string arguments = simulation(scratch, even) + " --hex";
+  CHECK(run_taut(scratch, arguments + " --scalar float").out.find("\n3f800000,447a0000,") !=
+        std::string::npos);
+  CHECK(run_taut(scratch, arguments).out.find("\n3ff0000000000000,408f4") != std::string::npos);
+}
+
+TEST_CASE("a row without an answer ends the result with status 1 and the rows before it") {
+  const Scratch scratch;
+  const Outcome outcome =
+      run_taut(scratch, simulation(scratch, torn) + " -o " + scratch.quoted("result.csv"));
+  CHECK(outcome.status == 1);
+  CHECK(lines(text_of(scratch.path / "result.csv")) == 2);
+  CHECK(outcome.err.find("log.csv: line 3 (row 2, time 2 s), after ") != std::string::npos);
+  CHECK(outcome.err.find("cable \"C\"") != std::string::npos);
+  CHECK(lines(outcome.err) == 1);
+}
+
+TEST_CASE("a node that a sliding joint sets free ends the result with the row, the joint and what helps") {
+  const Scratch scratch;
+  const Outcome outcome =
+      run_taut(scratch, simulation(scratch, "time,wind,C.end\n1,0,90000\n2.5,10,90000\n", vertical_strut));
+  CHECK(outcome.status == 1);
+  CHECK(lines(outcome.out) == 2);
+  CHECK(outcome.err.find("log.csv: line 3 (row 2, time 2.5 s), after ") != std::string::npos);
+  CHECK(outcome.err.find("joint 1 of cable \"C\" at node \"top\": mechanism: when the cable slides over this "
+                         "joint, nothing holds its node; add a second strut, a support or a substructure at "
+                         "that node") != std::string::npos);
+}
+
+TEST_CASE("jacks that pull the cable through are told with the place on the path where it begins") {
+  const Scratch scratch;
+  const Outcome outcome = run_taut(scratch, simulation(scratch, torn));
+  CHECK(outcome.status == 1);
+  CHECK(outcome.err.find(
+            "log.csv: line 3 (row 2, time 2 s), after 2.778 % of the path to it: cable \"C\": the cable is "
+            "pulled through") != std::string::npos);
+}
+
+TEST_CASE(
+    "a jack without a force column is remarked on, and nothing but the result goes to standard output") {
+  const Scratch scratch;
+  const Outcome outcome = run_taut(scratch, simulation(scratch, "time,C.start\n1,0\n"));
+  CHECK(outcome.err == "remark: the log has no column \"C.end\": this jack force stays 0\n");
+  CHECK(outcome.out.rfind("time,", 0) == 0);
+}
+
+TEST_CASE("a result does not overwrite its own input") {
+  const Scratch scratch;
+  const Outcome outcome = run_taut(scratch, simulation(scratch, even) + " -o " + scratch.quoted("log.csv"));
+  CHECK(outcome.status == 2);
+  CHECK(text_of(scratch.path / "log.csv") == even);
+}
+
+TEST_CASE("a full disk is an error") {
+  if (!fs::exists("/dev/full")) return;
+  const Scratch scratch;
+  const std::string arguments = simulation(scratch, even);
+  CHECK(run_taut(scratch, arguments + " -o /dev/full").status == 2);
+}

@@ -1,0 +1,44 @@
+// Runs the program taut and keeps what it says.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+inline std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A folder that goes away with the test.
+struct Scratch {
+  std::filesystem::path path;
+  Scratch() {
+    std::string name = (std::filesystem::temp_directory_path() / "taut.XXXXXX").string();
+    if (mkdtemp(name.data()) != nullptr) path = name;
+  }
+  ~Scratch() { std::filesystem::remove_all(path); }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+
+  /// Path of a file in the folder, in quotes for the shell.
+  std::string quoted(const std::string& file) const { return "'" + (path / file).string() + "'"; }
+};
+
+struct Outcome {
+  int status = -1;  ///< exit status; -1 if the program was killed
+  std::string out, err;
+};
+
+/// Runs taut with the arguments, by a shell; TAUT_PROGRAM is its path.
+inline Outcome run_taut(const Scratch& scratch, const std::string& arguments) {
+  const std::string command =
+      "'" TAUT_PROGRAM "' " + arguments + " > " + scratch.quoted("out") + " 2> " + scratch.quoted("err");
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(scratch.path / "out"),
+          text_of(scratch.path / "err")};
+}

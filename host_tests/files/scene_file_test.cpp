@@ -1,0 +1,162 @@
+// Scene files: what the reader makes of them, and what reaches the core.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/capacities.hpp"
+#include "lib/input_error.hpp"
+#include "lib/scene_build.hpp"
+#include "lib/scene_file.hpp"
+#include "lib/status_text.hpp"
+#include "lib/valid_scene.hpp"
+
+using namespace taut;
+using namespace taut::host;
+
+namespace {
+
+SceneDescription every_key() { return read_scene_file(TAUT_FILES "/every_key.json"); }
+
+template <class Items>
+std::vector<std::string> names(const Items& items) {
+  std::vector<std::string> all;
+  for (const auto& item : items) all.push_back(item.name);
+  return all;
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    require_valid(read_scene(text, "f"));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("a scene with every key is accepted and valid") { CHECK_NOTHROW(require_valid(every_key())); }
+
+TEST_CASE("nodes, cables and loads keep the order of the file") {
+  const SceneDescription scene = every_key();
+  CHECK(names(scene.nodes) ==
+        std::vector<std::string>{"w", "mid/1", "mid~2", "e", "top1", "top2", "h1", "h2", "h3"});
+  CHECK(names(scene.cables) == std::vector<std::string>{"main", "hoop", "plain"});
+  CHECK(names(scene.loads) == std::vector<std::string>{"snow", "heat", "both"});
+  CHECK(scene.loads[0].forces[0].node == 2);
+  CHECK(scene.loads[1].temperatures[0].cable == 2);
+}
+
+TEST_CASE("every value of a cable arrives") {
+  const CableDescription cable = every_key().cables[0];
+  CHECK(cable.path == std::vector<int>{0, 1, 2, 3});
+  CHECK(cable.E == 1.6e11);
+  CHECK(cable.A == 1.0e-3);
+  CHECK(cable.is_jacked(0));
+  CHECK_FALSE(cable.is_jacked(1));
+  CHECK(cable.law == FrictionLaw::capstan);
+  CHECK(cable.mu == std::vector<double>{0.05, 0.06});
+  CHECK(cable.prestrain == std::vector<double>{0.0001, 0.0002, 0});
+  CHECK(cable.wobble == 0.005);
+  CHECK(cable.mu_sd == 0.02);
+  CHECK(cable.alpha == 1.2e-5);
+  CHECK(cable.seating == 0.006);
+  CHECK(cable.sensor_sd == std::array<double, 2>{100.5, 200});
+}
+
+TEST_CASE("one number for mu and prestrain goes to every joint and segment of a closed cable") {
+  const CableDescription hoop = every_key().cables[1];
+  CHECK(hoop.mu == std::vector<double>(3, 0.1));
+  CHECK(hoop.prestrain == std::vector<double>(3, 0.001));
+  CHECK(hoop.shared_mu);
+  CHECK_FALSE(hoop.is_jacked(0));
+}
+
+TEST_CASE("without a friction law a joint is a point contact without friction") {
+  const SceneDescription scene = read_scene(R"({ "taut": 1, "name": "", "dimension": 2,
+    "nodes": { "a": [0, 0], "b": [1, 0], "c": [2, 1] },
+    "cables": [ { "name": "C", "path": ["a", "b", "c"], "E": 1, "A": 1, "start": "jacked", "end": "jacked" } ] })",
+                                            "f");
+  CHECK(scene.cables[0].law == FrictionLaw::point);
+  CHECK(scene.cables[0].mu == std::vector<double>{0});
+  CHECK(scene.cables[0].prestrain == std::vector<double>{0, 0});
+}
+
+TEST_CASE("everything but the head and the nodes may be absent") {
+  const SceneDescription scene =
+      read_scene(R"({ "taut": 1, "name": "n", "dimension": 2, "nodes": { "a": [0, 0] } })", "f");
+  CHECK(scene.nodes.size() == 1);
+  CHECK(scene.nodes[0].held == held_none);
+  CHECK(scene.cables.empty());
+}
+
+TEST_CASE("letters of a support may come in any order") {
+  const SceneDescription scene = every_key();
+  CHECK(scene.nodes[3].held == held_xyz);
+  CHECK(scene.nodes[2].held == held_y);
+}
+
+TEST_CASE("a byte order mark before the scene does not count") {
+  CHECK_NOTHROW(read_scene(
+      "\xEF\xBB\xBF{ \"taut\": 1, \"name\": \"n\", \"dimension\": 2, \"nodes\": { \"a\": [0, 0] } }", "f"));
+}
+
+TEST_CASE("places of names with slashes and tildes are valid JSON pointers") {
+  const std::string head = R"({ "taut": 1, "name": "n", "dimension": 2, "nodes": )";
+  CHECK(refusal(head + R"({ "a/b": [1] } })").rfind("f: /nodes/a~1b: ", 0) == 0);
+  CHECK(refusal(head + R"({ "a~b": [1] } })").rfind("f: /nodes/a~0b: ", 0) == 0);
+}
+
+TEST_CASE("the core scene holds everything in the order of the file") {
+  const SceneDescription described = every_key();
+  const auto scene = make_valid_scene<3, Small>(described);
+  CHECK(scene->nodes.size() == 9);
+  CHECK(scene->nodes[4].at == std::array<double, 3>{4, 0, 2});
+  CHECK(scene->struts[1].nodes == std::array<int, 2>{2, 5});
+  CHECK(scene->cables.size() == 3);
+  CHECK(scene->cables[1].closed);
+  CHECK(scene->cables[2].first_segment == 6);
+  CHECK(scene->prestrain[1] == 0.0002);
+  CHECK(scene->mu[1] == 0.06);
+  CHECK(scene->mu[4] == 0.1);
+  CHECK(scene->substructures.size() == 2);
+  CHECK(scene->substructure_entries.size() == 9 + 36);
+  CHECK(scene->loads == 3);
+  CHECK(scene->forces[2].load == 2);
+  CHECK(scene->temperatures[2].cable == 1);
+}
+
+TEST_CASE("the smallest capacity that holds the scene is chosen") {
+  const auto chosen = [](const SceneDescription& scene) {
+    return std::string(with_capacity(scene, [](auto kind) { return decltype(kind)::Capacity::name; }));
+  };
+  SceneDescription scene;
+  scene.nodes.resize(24);
+  CHECK(chosen(scene) == "small");
+  scene.nodes.resize(25);
+  CHECK(chosen(scene) == "medium");
+  scene.nodes.resize(3);
+  scene.loads.resize(17);
+  CHECK(chosen(scene) == "large");
+}
+
+TEST_CASE("a scene beyond the largest capacity is refused with both numbers") {
+  SceneDescription scene;
+  scene.file = "big.json";
+  scene.struts.resize(2049);
+  CHECK_THROWS_WITH(require_valid(scene),
+                    "big.json: /struts: the scene has 2049 struts; this program holds at most 2048");
+}
+
+TEST_CASE("a failure of a run names the joint, its cable and its node") {
+  const SceneDescription scene = every_key();
+  CHECK(failure_text(Status::along(Code::state_iterations, Place::joint, 0, 1), scene) ==
+        "joint 2 of cable \"main\" at node \"mid~2\": jammed: the joint states do not settle; "
+        "divide the path: add rows in between, or use --method stepwise with --substeps");
+  CHECK(failure_text(Status::at(Code::mechanism, Place::node, 1), scene) ==
+        "node \"mid/1\": mechanism: nothing holds this node; add a strut, a support or a substructure that "
+        "holds it");
+}

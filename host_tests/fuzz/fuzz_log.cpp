@@ -1,0 +1,62 @@
+// Any bytes as a log of a scene that has every kind of column.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "lib/input_error.hpp"
+#include "lib/log_file.hpp"
+#include "lib/scene_file.hpp"
+
+namespace {
+
+using namespace taut::host;
+
+const SceneDescription& scene() {
+  static const SceneDescription read = read_scene(R"({ "taut": 1, "name": "fuzz", "dimension": 2,
+    "nodes": { "a": [0, 0], "b": [1, 0], "c": [1, 1] },
+    "cables": [ { "name": "C", "path": ["a", "b"], "E": 1, "A": 1, "start": "jacked", "end": "anchored" },
+                { "name": "main", "path": ["a", "b", "c"], "E": 1, "A": 1, "start": "jacked", "end": "jacked" },
+                { "name": "H", "path": ["a", "b", "c"], "E": 1, "A": 1, "closed": true } ],
+    "loads": { "Fy": {}, "snow": {}, "heat": {} } })",
+                                                  "fuzz");
+  return read;
+}
+
+void require(bool kept) {
+  if (!kept) std::abort();
+}
+
+// What the reader promises of every row.
+void check_row(const LogRow& row, double time_before) {
+  require(std::isfinite(row.time) && row.time > time_before);
+  for (const double factor : row.factor) require(std::isfinite(factor));
+  for (std::size_t c = 0; c < row.cables.size(); ++c) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const EndRow& given = row.cables[c][end];
+      require(std::isfinite(given.force));
+      require(scene().cables[c].is_jacked(end) ? given.locked || given.force >= 0
+                                               : !given.locked && !given.stroke);
+    }
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    std::istringstream stream(std::string(reinterpret_cast<const char*>(data), size));
+    LogReader reader(stream, "fuzz", scene());
+    LogRow row = reader.first_row();
+    double time = -std::numeric_limits<double>::infinity();
+    while (reader.next(row)) {
+      check_row(row, time);
+      time = row.time;
+    }
+  } catch (const InputError&) {
+  }
+  return 0;
+}
