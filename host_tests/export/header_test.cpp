@@ -1,0 +1,84 @@
+// The names in an exported header, its size, and where it is written.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "arch.hpp"
+#include "files/run_program.hpp"
+#include "lib/condensed_size.hpp"
+#include "lib/scene_file.hpp"
+#include "lib/scene_header.hpp"
+#include "saddles.hpp"
+#include "taut/tracking/tracker.hpp"
+
+namespace arch = scene_2_arches_ber;
+using namespace taut::host;
+
+namespace {
+
+std::string quoted(const char* file) { return std::string("'") + TAUT_EXPORT "/" + file + "'"; }
+
+template <class Cap, class Scalar>
+void check_size(const char* file, ScalarType scalar) {
+  const CondensedSize size =
+      condensed_size(condensed_counts(read_scene_file(std::string(TAUT_EXPORT "/") + file)), scalar);
+  const auto off = [](std::size_t told, std::size_t taken) {
+    return std::labs(static_cast<long>(told) - static_cast<long>(taken));
+  };
+  CHECK(size.scene == sizeof(taut::Condensed<Scalar, Cap>));
+  CHECK(size.strut_rows == (Cap::struts == 0 ? 0 : sizeof(taut::CondensedStruts<Scalar, Cap>)));
+  CHECK(off(size.tracker, sizeof(taut::Tracker<taut::Condensed<Scalar, Cap>>)) < 40);
+}
+
+}  // namespace
+
+TEST_CASE("a scene name becomes an identifier that C++ takes for a namespace") {
+  CHECK(identifier("suspen-dome") == "suspen_dome");
+  CHECK(identifier("  cable -- roller (model)") == "cable_roller_model");
+  CHECK(identifier("3 hoops") == "scene_3_hoops");
+  CHECK(identifier("namespace") == "scene_namespace");
+  CHECK(identifier("taut") == "scene_taut");
+  CHECK(identifier("__x__") == "x");
+  CHECK(identifier("\xE5\xB1\x8B") == "scene");
+}
+
+TEST_CASE("the bytes that are told are those of the exported types") {
+  check_size<arch::Capacity, float>("arch.json", ScalarType::float32);
+  check_size<arch::Capacity, double>("arch.json", ScalarType::float64);
+  check_size<saddles::Capacity, float>("saddles.json", ScalarType::float32);
+  check_size<saddles::Capacity, double>("saddles.json", ScalarType::float64);
+}
+
+TEST_CASE("a header goes to standard output or, the same, to a file") {
+  const Scratch scratch;
+  const Outcome shown = run_taut(scratch, "export " + quoted("arch.json"));
+  CHECK(shown.status == 0);
+  CHECK(shown.err.empty());
+  const Outcome kept = run_taut(scratch, "export " + quoted("arch.json") + " -o " + scratch.quoted("a.hpp"));
+  CHECK(kept.status == 0);
+  CHECK(kept.out.empty());
+  CHECK(text_of(scratch.path / "a.hpp") == shown.out);
+}
+
+TEST_CASE("a header does not overwrite its scene") {
+  const Scratch scratch;
+  std::filesystem::copy_file(TAUT_EXPORT "/wire.json", scratch.path / "wire.json");
+  const Outcome outcome =
+      run_taut(scratch, "export " + scratch.quoted("wire.json") + " -o " + scratch.quoted("wire.json"));
+  CHECK(outcome.status == 2);
+  CHECK(text_of(scratch.path / "wire.json") == text_of(TAUT_EXPORT "/wire.json"));
+}
+
+TEST_CASE("a scene that does not stand is not exported") {
+  const Scratch scratch;
+  std::string scene = text_of(TAUT_EXPORT "/arch.json");
+  scene.insert(scene.find("\"p\": [4, -1]"), "\"loose\": [20, 20], ");
+  std::ofstream(scratch.path / "loose.json") << scene;
+  const Outcome outcome =
+      run_taut(scratch, "export " + scratch.quoted("loose.json") + " -o " + scratch.quoted("loose.hpp"));
+  CHECK(outcome.status == 1);
+  CHECK(outcome.err.find("node \"loose\": mechanism") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(scratch.path / "loose.hpp"));
+}
