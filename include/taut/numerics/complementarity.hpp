@@ -30,17 +30,19 @@ class Lemke {
   void set_M(int row, int column, Scalar value) { at(row, n_ + column) = -value; }
   void set_q(int row, Scalar value) { at(row, 2 * n_ + 1) = value; }
 
-  /// Solves in place, in at most 16 n + 16 pivots.
-  Outcome solve() {
+  /// Solves in place, in at most 16 n + 16 pivots. Another `attempt` (0, 1, ...) takes another covering
+  /// vector: where M is in none of the classes for which Lemke's method is sure, one may lead to a ray and
+  /// another to a solution.
+  Outcome solve(int attempt = 0) {
     scale();
     for (int i = 0; i < n_; ++i) {
       at(i, i) = 1;
-      at(i, cover()) = -1;
+      at(i, cover()) = -covering(attempt, i);
       basic_[i] = i;
     }
     int row = 0;
     for (int i = 1; i < n_; ++i)
-      if (less(i, Scalar(1), row, Scalar(1))) row = i;
+      if (less(i, -at(i, cover()), row, -at(row, cover()))) row = i;
     if (n_ == 0 || at(row, last()) >= -64 * epsilon) return Outcome::solved;
     int entering = cover();
     for (int count = 0; count < 16 * n_ + 16; ++count) {
@@ -69,6 +71,7 @@ class Lemke {
 
  private:
   static constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
+  static constexpr Scalar solved_tie = sizeof(Scalar) == sizeof(float) ? Scalar(1e-5) : Scalar(1e-11);
 
   // Columns: w_0.. w_{n-1}, z_0.. z_{n-1}, the covering variable, the right-hand side. Rows: w - M z - 1
   // cover = q.
@@ -77,6 +80,12 @@ class Lemke {
   int last() const { return 2 * n_ + 1; }
   Scalar& at(int row, int column) { return table_[row * (2 * Max + 2) + column]; }
   const Scalar& at(int row, int column) const { return table_[row * (2 * Max + 2) + column]; }
+
+  /// Ones at first, then numbers between 1 and 3 without a pattern.
+  static Scalar covering(int attempt, int i) {
+    const int scattered = (i + 1) * (7 + 6 * attempt) % 17;
+    return Scalar(1) + (attempt == 0 ? Scalar(0) : static_cast<Scalar>(scattered) / Scalar(8));
+  }
 
   /// Measures every z so that the diagonal of M is one, and q by its largest entry.
   void scale() {
@@ -106,7 +115,7 @@ class Lemke {
 
   /// Whether row a / pa comes before row b / pb: right-hand side first, then the columns of the first basis.
   bool less(int a, Scalar pa, int b, Scalar pb) const {
-    const Scalar tie = 16 * epsilon;
+    const Scalar tie = 256 * epsilon;
     const Scalar first = at(a, last()) / pa - at(b, last()) / pb;
     if (std::fabs(first) > tie * (Scalar(1) + std::fabs(at(a, last()) / pa))) return first < 0;
     for (int c = 0; c < n_; ++c) {
@@ -127,11 +136,12 @@ class Lemke {
       if (best < 0 || less(i, at(i, entering), best, at(best, entering))) best = i;
     }
     if (best < 0) return -1;
-    // Among ties the covering variable leaves: the problem is solved.
+    // Among ties the covering variable leaves: the problem is solved. Dependent rows tie but for the rounding
+    // of all pivots.
     for (int i = 0; i < n_; ++i)
       if (basic_[i] == cover() && at(i, entering) > least &&
           at(i, last()) / at(i, entering) <=
-              at(best, last()) / at(best, entering) * (Scalar(1) + 16 * epsilon) + 16 * epsilon)
+              at(best, last()) / at(best, entering) * (Scalar(1) + solved_tie) + solved_tie)
         return i;
     return best;
   }

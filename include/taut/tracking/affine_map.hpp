@@ -174,15 +174,32 @@ class AffineMap {
     for (int k = 0; k < inputs(); ++k) rate += dx[k] * column_moves_[k][i];
     return rate;
   }
-  /// Whether, going along `dx`, every move keeps the sign it must have.
+  /// Whether, going along `dx`, every move keeps the sign it must have, give or take `tolerance` [N].
   template <class Values>
-  bool goes_on(const Values& dx) const {
+  bool goes_on(const Values& dx, Scalar tolerance = 0) const {
     bool each = true;
     for (int k = 0; k < inputs(); ++k)
       each = each && (dx[k] == 0 || (dx[k] > 0 ? keeps_if_up_[k] : keeps_if_down_[k]));
     for (int i = 0; !each && i < active(); ++i)
-      if (sense_[i] * move_rate(i, dx) < 0) return false;
+      if (sense_[i] * move_rate(i, dx) * model_->coupling(moves_[i].lengthened, moves_[i].lengthened) <
+          -tolerance)
+        return false;
     return true;
+  }
+  /// By how much tensions at `x` miss the laws of the active moves [N]: more than rounding if Scalar has too
+  /// few digits.
+  template <class Values>
+  Scalar law_violation(const Tensions& T, const Values& x) const {
+    Scalar most = 0;
+    for (int i = 0; i < active(); ++i) {
+      Scalar due = 0;
+      for (int k = 0; k < inputs(); ++k)
+        if (inputs_[k].kind == Input::Kind::jack_force && moves_[i].kind == Move::Kind::payout &&
+            inputs_[k].index == moves_[i].index)
+          due = x[k];
+      most = std::fmax(most, std::fabs(laws_[i].of(T) - due));
+    }
+    return most;
   }
   /// Whether at `x` every slack run still has length to spare.
   template <class Values>

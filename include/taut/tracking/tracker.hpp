@@ -66,6 +66,8 @@ class Tracker {
     last_ = {};
     live_ = {};
     slack_ = {};
+    loose_ = {};
+    has_loose_ = false;
     tension_ = {};
     now_ = {};
     goal_ = {};
@@ -85,6 +87,9 @@ class Tracker {
     const Status usable = check_sample(model_->cables, model_->loads, sample);
     if (!usable) return {usable, Scalar(0), 0};
     set_goal(sample);
+    for (const JackedEnd& jack : jacks_)
+      if (is_spare(jack.cable, jack.end) && !spare_agrees(jack.cable))
+        return {Status::at(Code::pulled_through, Place::cable, jack.cable), Scalar(0), 0};
     if (brings_new_input()) {
       freeze(moves());
       map_is_old_ = true;
@@ -122,10 +127,12 @@ class Tracker {
   bool is_slack(const Run<Scalar>& run) const { return is_slack(run.segment(0)); }
   /// What the joint did on the last piece of the path, apart from slack.
   JointState motion(int joint) const {
-    for (int i = 0; i < map_.active(); ++i)
-      if (map_.move(i).kind == Move::Kind::slip && map_.move(i).index == joint &&
-          map_.move_rate(i, last_) != 0)
-        return slides_[joint];
+    for (int i = 0; i < map_.active(); ++i) {
+      if (map_.move(i).kind != Move::Kind::slip || map_.move(i).index != joint) continue;
+      const Scalar rate = map_.move_rate(i, last_);
+      if (rate == 0 || !loose_[joint]) return rate == 0 ? JointState::stick : slides_[joint];
+      return rate > 0 ? JointState::forward : JointState::backward;
+    }
     return JointState::stick;
   }
   /// The largest tension so far [N].
@@ -196,11 +203,19 @@ class Tracker {
     });
     // A jack that takes hold of a slack run draws it straight; its payout follows from its force.
     for (int r = 0; r < runs_.size(); ++r)
-      if (slack_[r] && is_jacked(runs_[r])) {
-        slack_[r] = false;
-        excess_[r] = 0;
-      }
+      if (slack_[r] && is_jacked(runs_[r])) draw_straight(r);
     map_is_old_ = true;
+  }
+
+  /// What a slack run has too much goes out through the jack: over every joint, if that is at its far end.
+  void draw_straight(int r) {
+    const Run<Scalar>& run = runs_[r];
+    const auto& cable = model_->cables[run.cable];
+    const bool at_start = run.segment(0) == cable.end_segment(0) && cable.ends[0] == End::jacked &&
+                          !goal_.jack[run.cable][0].locked;
+    for (int i = 0; !at_start && i < run.joints(); ++i) slip_[run.joint(i)] += excess_[r];
+    slack_[r] = false;
+    excess_[r] = 0;
   }
 
   Scalar value(const Input& input, const Loads& loads) const {
@@ -249,6 +264,12 @@ class Tracker {
   bool is_spare(int c, std::size_t end) const {
     return end == 0 && model_->cables[c].segments() == 1 && model_->cables[c].ends[1] == End::jacked &&
            !goal_.jack[c][1].locked;
+  }
+
+  /// Two jacks on one segment balance only if they pull alike.
+  bool spare_agrees(int c) const {
+    const Scalar F0 = goal_.jack[c][0].force, F1 = goal_.jack[c][1].force;
+    return std::fabs(F0 - F1) <= Scalar(64) * tolerance * std::fmax(F0, F1);
   }
 
   // The map.
@@ -332,7 +353,7 @@ class Tracker {
   /// Goes to the goal if no state changes on the way; both ends of the straight path within the limits is
   /// enough.
   bool quick() {
-    if (map_is_old_) return false;
+    if (map_is_old_ || has_loose_) return false;
     Inputs x, dx;
     for (int k = 0; k < map_.inputs(); ++k) {
       const Input input = map_.input(k);
@@ -377,7 +398,7 @@ class Tracker {
     Progress<Scalar> progress;
     progress.fraction = 0;
     const Loads from = now_;
-    widen_peak();
+    measure_path();
     Candidate next;
     int stalled = 0;
     for (;;) {
@@ -395,6 +416,10 @@ class Tracker {
       map_.tensions(x, tension_);
       for (int i = 0; i < model_->segments; ++i) peak_ = std::fmax(peak_, std::fabs(tension_[i]));
       last_ = dx;
+      if (map_.law_violation(tension_, x) > Scalar(8) * force_tolerance()) {
+        progress.status = Status::at(Code::ill_conditioned, Place::none, -1);
+        return progress;
+      }
       if (done) return progress;
       stalled = step > 0 ? 0 : stalled + 1;
       if (stalled > 8 + 4 * joints()) {
@@ -405,17 +430,31 @@ class Tracker {
     }
   }
 
-  /// What the loads would do to a cable without friction and slack is as large a force as any: its rounding
-  /// is noise.
-  void widen_peak() {
+  /// What the loads would do with every joint stuck is as large as any force: it says what is rounding.
+  void measure_path() {
+    push_ = 0;
     for (int i = 0; i < model_->segments; ++i) {
-      peak_ = std::fmax(peak_, std::fabs(goal_.prestrain * model_->prestrain[i]));
+      measure(goal_.prestrain * model_->prestrain[i],
+              (goal_.prestrain - now_.prestrain) * model_->prestrain[i]);
       for (int k = 0; k < model_->loads; ++k)
-        peak_ = std::fmax(peak_, std::fabs(goal_.factor[k] * model_->load[k][i]));
+        measure(goal_.factor[k] * model_->load[k][i],
+                (goal_.factor[k] - now_.factor[k]) * model_->load[k][i]);
     }
-    for_each_jacked_end(model_->cables,
-                        [&](int c, std::size_t end) { peak_ = std::fmax(peak_, goal_.jack[c][end].force); });
+    for (const JackedEnd& jack : jacks_) {
+      const auto& start = now_.jack[jack.cable][jack.end];
+      const auto& goal = goal_.jack[jack.cable][jack.end];
+      const int segment = model_->cables[jack.cable].end_segment(jack.end);
+      measure(goal.force, goal.force - start.force);
+      const Scalar drawn = model_->coupling(segment, segment) * (goal.payout - start.payout);
+      measure(drawn, drawn);
+    }
   }
+  void measure(Scalar force, Scalar change) {
+    peak_ = std::fmax(peak_, std::fabs(force));
+    push_ = std::fmax(push_, std::fabs(change));
+  }
+  /// Rates of force along the path below this are zero [N].
+  Scalar rate_tolerance() const { return Scalar(64) * epsilon * push_; }
 
   /// Largest change of a tension, or of what a slack run's excess length stands for, along the whole path
   /// [N].
@@ -444,12 +483,11 @@ class Tracker {
   Scalar piece(const Inputs& dx, Scalar rest, Candidate& next) const {
     Tensions rate;
     map_.tension_rates(dx, rate);
-    const Scalar scale = change(dx);
     Scalar step = rest;
     next = {};
     const auto shorten = [&](Scalar room, Scalar falling, const Candidate& found) {
       // At the limit, and held there by decide(): what is left is rounding.
-      if (room <= force_tolerance() && falling >= -Scalar(1e3) * epsilon * scale) return;
+      if (room <= force_tolerance() && falling >= -Scalar(16) * rate_tolerance()) return;
       if (falling >= 0 || room > -falling * step) return;
       step = room > 0 ? room / -falling : Scalar(0);
       next = found;
@@ -486,30 +524,31 @@ class Tracker {
   /// not what slides.
   Status decide(const Loads& from, const Candidate& next) {
     freeze(moves());
-    FixedArray<bool, Cap::segments> asked;
-    bool any = false;
-    for (int r = 0; r < runs_.size(); ++r) {
-      asked[r] = is_without_tension(r);
-      slack_[r] = slack_[r] || asked[r];
-      any = any || asked[r];
-    }
-    if (!any) return decide_slides(from, next);
-    map_is_old_ = true;
-    for (int round = 0; round <= runs_.size(); ++round) {
-      const Status status = decide_slides(from, next);
-      any = false;
-      Inputs dx;
-      directions(from, dx);
-      for (int r = 0; r < runs_.size(); ++r) {
-        if (!slack_[r] || !asked[r] || (status.ok() && excess_grows(r, dx))) continue;
-        any = true;
-        slack_[r] = false;
-        excess_[r] = 0;
-        map_is_old_ = true;
+    FixedList<int, Cap::segments> asked;
+    for (int r = 0; r < runs_.size(); ++r)
+      if (is_without_tension(r)) asked.add(r);
+    if (asked.empty()) return decide_slides(from, next);
+    // All combinations of a few, slack first; of many, those that contradict themselves change.
+    const bool few = asked.size() <= 5;
+    const int tries = few ? 1 << asked.size() : 4 * asked.size();
+    for (const int r : asked) slack_[r] = true;
+    Status status;
+    for (int count = 0; count < tries; ++count) {
+      for (int i = 0; few && i < asked.size(); ++i) slack_[asked[i]] = (count >> i & 1) == 0;
+      map_is_old_ = true;
+      status = decide_slides(from, next);
+      bool agrees = status.ok();
+      for (const int r : asked) {
+        const bool fits = status.ok() && (slack_[r] ? excess_grows(r, from) : stays_taut(r, from));
+        agrees = agrees && fits;
+        if (!few && !fits) slack_[r] = !slack_[r];
       }
-      if (!any) return status;
+      if (!agrees) continue;
+      for (const int r : asked)
+        if (!slack_[r]) excess_[r] = 0;
+      return status;
     }
-    return decide_slides(from, next);
+    return status ? at_joint(Code::state_iterations, runs_[asked[0]].joint(0)) : status;
   }
   bool is_without_tension(int r) const {
     const Run<Scalar>& run = runs_[r];
@@ -522,11 +561,24 @@ class Tracker {
       if (tension_[run.segment(i)] > force_tolerance()) return false;
     return true;
   }
-  bool excess_grows(int r, const Inputs& dx) const {
-    for (int i = 0; i < map_.active(); ++i)
-      if (map_.move(i).kind == Move::Kind::excess && map_.move(i).index == r)
-        return map_.move_rate(i, dx) > 0;
+  bool excess_grows(int r, const Loads& from) const {
+    Inputs dx;
+    directions(from, dx);
+    for (int i = 0; i < map_.active(); ++i) {
+      const Move& move = map_.move(i);
+      if (move.kind == Move::Kind::excess && move.index == r)
+        return map_.move_rate(i, dx) * model_->coupling(move.lengthened, move.lengthened) > rate_tolerance();
+    }
     return false;
+  }
+  bool stays_taut(int r, const Loads& from) const {
+    Inputs dx;
+    directions(from, dx);
+    Tensions rate;
+    map_.tension_rates(dx, rate);
+    for (int i = 0; i < runs_[r].count; ++i)
+      if (rate[runs_[r].segment(i)] < -rate_tolerance()) return false;
+    return true;
   }
 
   using Candidates = FixedList<Candidate, 2 * Cap::joints>;
@@ -535,42 +587,73 @@ class Tracker {
   /// With runs as they are: rates v >= 0 of the joints at their limits, w = T_small - rho T_big kept >= 0, v
   /// w = 0.
   Status decide_slides(const Loads& from, const Candidate& next) {
+    const bool as_before = !map_is_old_ && !has_loose_;
+    loose_.fill(false);
+    has_loose_ = false;
     const FixedArray<JointState, Cap::joints> slid = slides_;
     const Candidates candidates = at_limit(slid, false);
     // Most often all goes on as it was and the joint that reached its limit slides too, or all stick.
-    if (!map_is_old_ && next.joint < 0 && is_consistent(from, candidates)) return Status::success();
+    if (as_before && next.joint < 0 && is_consistent(from, candidates)) return Status::success();
     if (next.joint >= 0) {
       slides_[next.joint] = next.way;
       if (rebuild() < 0 && is_consistent(from, candidates)) return Status::success();
     }
     const Status status = solve_slides(from, candidates);
+    if (status) return status;
     // Just above zero a joint is at both limits only by rounding; while tension falls it can keep but one.
-    return status ? status : solve_slides(from, at_limit(slid, true));
+    if (solve_slides(from, at_limit(slid, true))) return Status::success();
+    find_loose();
+    if (has_loose_ && solve_slides(from, at_limit(slid, false))) return Status::success();
+    return status;
   }
   /// Whether the rates under the present map agree with its states: v >= 0 where it slides, w >= 0 at the
   /// other limits.
   bool is_consistent(const Loads& from, const Candidates& candidates) const {
     Inputs dx;
     directions(from, dx);
-    if (!map_.goes_on(dx)) return false;
+    if (!map_.goes_on(dx, rate_tolerance())) return false;
     Tensions rate;
     map_.tension_rates(dx, rate);
-    const Scalar least = -Scalar(64) * epsilon * change(dx);
+    const Scalar least = -rate_tolerance();
     for (const Candidate& candidate : candidates)
       if (slides_[candidate.joint] != candidate.way &&
           limit_of(candidate.joint, candidate.way).of(rate) < least)
         return false;
     return true;
   }
+  /// In a run whose jacks rest at zero all tensions are zero and every joint slides as the structure moves,
+  /// without friction: the law T_before = rho T_after says that, whichever way it goes.
+  void find_loose() {
+    loose_.fill(false);
+    has_loose_ = false;
+    for (int r = 0; r < runs_.size(); ++r) {
+      const Run<Scalar>& run = runs_[r];
+      int jacks = 0;
+      bool zero = !slack_[r];
+      for (const JackedEnd& jack : jacks_) {
+        const int segment = model_->cables[jack.cable].end_segment(jack.end);
+        const auto& goal = goal_.jack[jack.cable][jack.end];
+        if (goal.locked || (segment != run.segment(0) && segment != run.segment(run.count - 1))) continue;
+        ++jacks;
+        zero = zero && goal.force <= force_tolerance() &&
+               now_.jack[jack.cable][jack.end].force <= force_tolerance();
+      }
+      for (int i = 0; i < run.count; ++i) zero = zero && tension_[run.segment(i)] <= force_tolerance();
+      if (!zero || jacks == 0) continue;
+      // Between two jacks the cable may move as a whole; one joint keeps its place.
+      for (int i = jacks - 1; i < run.joints(); ++i) loose_[run.joint(i)] = has_loose_ = true;
+    }
+  }
   Candidates at_limit(const FixedArray<JointState, Cap::joints>& slid, bool only_nearer) const {
     Candidates candidates;
     for (int j = 0; j < joints(); ++j) {
-      if (model_->is_locked(j) || is_slack(slip_of(j).lengthened)) continue;
+      if (loose_[j] || model_->is_locked(j) || is_slack(slip_of(j).lengthened)) continue;
       const Scalar room_forward = limit_of(j, JointState::forward).of(tension_);
       const Scalar room_backward = limit_of(j, JointState::backward).of(tension_);
       bool forward = slid[j] == JointState::forward || room_forward <= force_tolerance();
       bool backward = slid[j] == JointState::backward || room_backward <= force_tolerance();
-      if (only_nearer && forward && backward) {
+      const bool tense = tension_[sides_[j][0]] > 0 || tension_[sides_[j][1]] > 0;
+      if (only_nearer && tense && forward && backward) {
         const bool keep =
             slid[j] == JointState::stick ? room_forward <= room_backward : slid[j] == JointState::forward;
         forward = keep;
@@ -582,27 +665,20 @@ class Tracker {
     return candidates;
   }
   Status solve_slides(const Loads& from, const Candidates& candidates) {
-    slides_.fill(JointState::stick);
-    const int loose = rebuild();
-    if (loose >= 0) return no_answer(map_.move(loose));
+    for (int j = 0; j < joints(); ++j) slides_[j] = loose_[j] ? JointState::forward : JointState::stick;
+    const int unresisted = rebuild();
+    if (unresisted >= 0) return no_answer(map_.move(unresisted));
     if (candidates.empty()) return Status::success();
     Inputs dx;
     directions(from, dx);
     Tensions rate;
     map_.tension_rates(dx, rate);
     Rates rates;
-    rates.reset(candidates.size());
-    for (int k = 0; k < candidates.size(); ++k) {
-      Tensions column;
-      typename Map::Moves follow;
-      map_.column_of(slip_of(candidates[k].joint), column);
-      map_.project(column, -1, follow);
-      for (int i = 0; i < candidates.size(); ++i)
-        rates.set_M(i, k,
-                    sign(candidates[k].way) * limit_of(candidates[i].joint, candidates[i].way).of(column));
-      rates.set_q(k, limit_of(candidates[k].joint, candidates[k].way).of(rate));
+    auto outcome = Rates::Outcome::ray;
+    for (int attempt = 0; attempt < 6 && outcome != Rates::Outcome::solved; ++attempt) {
+      pose(rates, candidates, rate);
+      outcome = rates.solve(attempt);
     }
-    const auto outcome = rates.solve();
     if (outcome != Rates::Outcome::solved) return no_answer(slip_of(candidates[0].joint));
     bool any = false;
     for (int k = 0; k < candidates.size(); ++k) {
@@ -613,6 +689,22 @@ class Tracker {
     if (!any) return Status::success();
     const int free = rebuild();
     return free < 0 ? Status::success() : no_answer(map_.move(free));
+  }
+
+  /// w = q + M v from the map with all candidates stuck, and its tension rates.
+  void pose(Rates& rates, const Candidates& candidates, const Tensions& rate) const {
+    rates.reset(candidates.size());
+    for (int k = 0; k < candidates.size(); ++k) {
+      Tensions column;
+      typename Map::Moves follow;
+      map_.column_of(slip_of(candidates[k].joint), column);
+      map_.project(column, -1, follow);
+      for (int i = 0; i < candidates.size(); ++i)
+        rates.set_M(i, k,
+                    sign(candidates[k].way) * limit_of(candidates[i].joint, candidates[i].way).of(column));
+      const Scalar q = limit_of(candidates[k].joint, candidates[k].way).of(rate);
+      rates.set_q(k, std::fabs(q) > rate_tolerance() ? q : Scalar(0));
+    }
   }
 
   /// Why there is none: two jacks that pull the cable through, or a node that its cable alone had held.
@@ -675,6 +767,9 @@ class Tracker {
   FixedArray<bool, Cap::loads> live_;           // load patterns that are inputs of the map
   FixedArray<bool, Cap::segments> slack_;       // of runs
   Scalar peak_ = 0;
+  Scalar push_ = 0;  // largest change of force that the path would make with every joint stuck [N]
+  FixedArray<bool, Cap::joints> loose_;  // slides without tension, either way
+  bool has_loose_ = false;
   bool map_is_old_ = true;
 };
 
