@@ -78,3 +78,21 @@ function(taut_need_doctest)
       632ed2c05a7f53fa961381497bf8069093f0d6628c5f26286161fbd32a560186)
   endif()
 endfunction()
+
+# The one dependency that is compiled: it has no header-only form.
+function(taut_need_benchmark)
+  find_package(benchmark 1.6 CONFIG QUIET)
+  if(benchmark_FOUND)
+    taut_use_installed(benchmark benchmark::benchmark)
+  else()
+    message(STATUS "taut: Google Benchmark is not installed, using release 1.8.3")
+    set(BENCHMARK_ENABLE_TESTING OFF)
+    set(BENCHMARK_ENABLE_INSTALL OFF)
+    set(CMAKE_POLICY_DEFAULT_CMP0077 NEW)
+    FetchContent_Declare(
+      taut_benchmark
+      URL https://github.com/google/benchmark/archive/refs/tags/v1.8.3.tar.gz
+      URL_HASH SHA256=6bc180a57d23d4d9515519f92b0c83d61b05b5bab188961f36ac7b06b0d9e9ce)
+    FetchContent_MakeAvailable(taut_benchmark)
+  endif()
+endfunction()

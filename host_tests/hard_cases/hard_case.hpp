@@ -1,0 +1,79 @@
+// The list of hard cases, each a test and a row of the table.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "hard_cases/follow.hpp"
+
+namespace hard {
+
+struct HardCase {
+  const char* name;
+  const char* reason;  ///< why it is hard
+  Measured (*measure)();
+};
+
+inline std::vector<HardCase>& hard_cases() {
+  static std::vector<HardCase> all;
+  return all;
+}
+
+struct Registered {
+  Registered(const char* name, const char* reason, Measured (*measure)()) {
+    hard_cases().push_back({name, reason, measure});
+  }
+};
+
+/// Parts of the largest force so far. The tracker takes forces within 1e-12 (double) or 4e-6 (float) of it
+/// for equal; stiffness and friction add their rounding.
+constexpr double accepted_double = 1e-9, accepted_float = 1e-5;
+
+/// Where a scalar type cannot resolve a scene, saying so by name is the right answer.
+inline void accept_ill_conditioned(Deviation& found) {
+  if (found.trouble.find(taut::describe(taut::Code::ill_conditioned)) == std::string::npos) return;
+  found.refused_as_it_should = true;
+}
+
+inline void check(const Deviation& found, double accepted) {
+  if (found.refused_as_it_should) return;
+  CHECK(found.trouble == "");
+  CHECK(found.from_reference <= accepted);
+  CHECK(found.verified <= accepted);
+}
+inline void judge_in_double(const Measured& measured) {
+  CHECK(measured.several_answers == 0);
+  check(measured.in_double, accepted_double);
+}
+inline void judge_in_float(const Measured& measured) { check(measured.in_float, accepted_float); }
+inline void judge(const Measured& measured) {
+  judge_in_double(measured);
+  judge_in_float(measured);
+}
+
+}  // namespace hard
+
+/// A hard case that float cannot do yet: its own test, which fails as soon as float can.
+#define HARD_CASE_OPEN_IN_FLOAT(function, name, reason)                        \
+  static hard::Measured function();                                            \
+  static const hard::Registered registered_##function{name, reason, function}; \
+  TEST_CASE(name " (double)") {                                                \
+    INFO(reason);                                                              \
+    hard::judge_in_double(function());                                         \
+  }                                                                            \
+  TEST_CASE(name " (float, open)" * doctest::should_fail(true)) {              \
+    INFO(reason);                                                              \
+    hard::judge_in_float(function());                                          \
+  }                                                                            \
+  static hard::Measured function()
+
+/// A test case whose body returns what was measured; it is also a row of the table.
+#define HARD_CASE(function, name, reason)                                      \
+  static hard::Measured function();                                            \
+  static const hard::Registered registered_##function{name, reason, function}; \
+  TEST_CASE(name) {                                                            \
+    INFO(reason);                                                              \
+    hard::judge(function());                                                   \
+  }                                                                            \
+  static hard::Measured function()
