@@ -100,7 +100,8 @@ std::vector<std::string> loose_joints(const SceneDescription& scene, const Conde
     const CableLayout<double>& cable = condensed.cables[c];
     for (int j = 0; j < cable.joints(); ++j) {
       const auto sides = cable.joint_segments(j);
-      const double rho = condensed.rho[static_cast<std::size_t>(cable.first_joint + j)];
+      const int joint = cable.first_joint + j;
+      const double rho = condensed.rho[static_cast<std::size_t>(joint)];
       if (rho > 0 && is_free_to_slide(condensed, static_cast<std::size_t>(sides[0]),
                                       static_cast<std::size_t>(sides[1]), rho))
         texts.push_back(joint_text(scene, static_cast<int>(c), j));

@@ -63,11 +63,11 @@ class LogReader {
  private:
   bool read_line();
   void read_header();
-  LogColumn known_column(std::size_t column, const std::string& name) const;
-  [[noreturn]] void refuse_unknown_column(std::size_t column, const std::string& name) const;
+  LogColumn known_column(std::size_t i, const std::string& name) const;
+  [[noreturn]] void refuse_unknown_column(std::size_t i, const std::string& name) const;
   void split();
-  void take(std::size_t column, LogRow& row) const;
-  double number(std::size_t column) const;
+  void take(std::size_t i, LogRow& row) const;
+  double number(std::size_t i) const;
   void check_jacks(const LogRow& row) const;
   [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) const;
   [[noreturn]] void refuse_field(std::size_t column, const std::string& problem,
