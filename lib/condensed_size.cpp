@@ -52,7 +52,8 @@ std::size_t interpolated(const CondensedCounts& counts) {
     for (std::size_t b = 0; b < a; ++b)
       bytes += (at(a, b) - at(a, none) - at(b, none) + base) * steps(a) * steps(b);
   }
-  return static_cast<std::size_t>(std::ceil(bytes));
+  // All of them hold doubles.
+  return sizeof(double) * static_cast<std::size_t>(std::ceil(bytes / sizeof(double)));
 }
 
 template <class Scalar>

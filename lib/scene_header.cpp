@@ -200,8 +200,8 @@ class Constants {
            "()), " + count(a.prestrain) + ", " + count(a.rho) + ", " + std::to_string(a.load.size()) + ",\n" +
            field("coupling", "{" + coupling() + "}") + field("prestrain", numbers(a.prestrain, 10)) +
            field("load", rows(a.load)) + field("rho", numbers(a.rho, 10)) +
-           field("cos_alpha", numbers(a.cos_alpha, 10)) + "          /*sin_alpha*/ " +
-           numbers(a.sin_alpha, 10) + "};\n}\n";
+           field("cos_alpha", scalars(a.cos_alpha, 10)) + "          /*sin_alpha*/ " +
+           scalars(a.sin_alpha, 10) + "};\n}\n";
   }
   std::string struts() const {
     const CondensedArrays& a = arrays_;
@@ -222,17 +222,24 @@ class Constants {
   }
 
   // Hexadecimal digits give back the very value.
-  std::string number(double value) const {
+  static std::string number(double value) {
     std::array<char, 40> digits{};
     std::snprintf(digits.data(), digits.size(), "%a", value);
-    return digits.data() + std::string(single_ ? "F" : "");
+    return digits.data();
   }
-  std::string numbers(const Row& row, std::size_t indent) const {
+  // Of the scene's own scalar type; all that tensions are added up from is double.
+  std::string scalar(double value) const { return number(value) + (single_ ? "F" : ""); }
+  std::string scalars(const Row& row, std::size_t indent) const {
+    std::vector<std::string> items;
+    for (const double value : row) items.push_back(scalar(value));
+    return fixed_array(items, indent);
+  }
+  static std::string numbers(const Row& row, std::size_t indent) {
     std::vector<std::string> items;
     for (const double value : row) items.push_back(number(value));
     return fixed_array(items, indent);
   }
-  std::string rows(const std::vector<Row>& table) const {
+  static std::string rows(const std::vector<Row>& table) {
     std::string text;
     for (const Row& row : table)
       text += (text.empty() ? "{{{\n" : ",\n") + std::string(14, ' ') + numbers(row, 14);
@@ -252,7 +259,7 @@ class Constants {
   std::string cables() const {
     std::string text = "  ::taut::FixedList<::taut::CableLayout<" + name() + ">, Capacity::cables> cables;\n";
     for (const auto& cable : arrays_.cables)
-      text += "  cables.add(" + layout(cable, number(cable.seating)) + ");\n";
+      text += "  cables.add(" + layout(cable, scalar(cable.seating)) + ");\n";
     return text + "  return cables;\n";
   }
 

@@ -14,6 +14,9 @@
 
 #include "campaign/world.hpp"
 #include "reference/reference.hpp"
+#include "support/equilibrium.hpp"
+#include "support/run.hpp"
+#include "taut/stepwise/stepwise.hpp"
 
 namespace campaign {
 namespace {
@@ -66,15 +69,15 @@ class Trial {
   using Cap = typename SceneType::Capacity;
   using Sample = taut::Sample<double, Cap>;
   template <class Scalar>
-  using Tracker = taut::Tracker<taut::Condensed<Scalar, Cap>>;
+  using Run = support::Run<Scalar, SceneType>;
 
   Trial(const World<SceneType>& world, std::uint64_t seed, support::Random& random, Tally& tally)
-      : world_(world), seed_(seed), random_(random), tally_(tally) {}
+      : world_(world), seed_(seed), random_(random), tally_(tally), run_(world.scene) {}
 
   void run() {
     ++tally_.scenes;
     std::vector<std::vector<double>> found;
-    if (!begin<double>(model_, tracker_) || !follow(found)) return;
+    if (!begin(run_) || !follow(found)) return;
     if (in_float) follow_in_float();
     if (seed_ % cut_every == 0) follow_in_pieces(found);
     if (seed_ % reference_every == 0 || talkative) compare_with_reference(found);
@@ -85,45 +88,26 @@ class Trial {
   void fail(const std::string& what) { tally_.failures[world_.kind + ": " + what].push_back(seed_); }
 
   template <class Scalar>
-  bool begin(taut::Condensed<Scalar, Cap>& model, Tracker<Scalar>& tracker) {
+  bool begin(const Run<Scalar>& run) {
     const bool single = sizeof(Scalar) == sizeof(float);
-    auto condensation = std::make_unique<taut::Condensation<Scalar, SceneType>>();
-    const taut::Status condensed = condensation->run(world_.scene, model);
-    if (!condensed) {
-      tally_
-          .refusals[std::string(single ? "float, " : "") + "condensation: " + taut::describe(condensed.code)]
-          .push_back(seed_);
+    if (!run.condensed()) {
+      const std::string reason = taut::describe(run.condensed().code);
+      tally_.refusals[(single ? "float, condensation: " : "condensation: ") + reason].push_back(seed_);
       return false;
     }
-    const auto progress = tracker.start(model);
+    const auto progress = run.started();
     if (!progress.status) {
       if (single)
         fail(std::string("float start: ") + taut::describe(progress.status.code));
       else
-        judge_refusal(progress.status, progress.fraction, -1);
+        judge_refusal(progress.status, static_cast<double>(progress.fraction), -1);
     }
     return progress.status.ok();
   }
 
-  template <class Scalar>
-  static taut::Sample<Scalar, Cap> rounded(const Sample& sample) {
-    taut::Sample<Scalar, Cap> copy;
-    for (int i = 0; i < Cap::loads; ++i) copy.factor[i] = static_cast<Scalar>(sample.factor[i]);
-    for (int c = 0; c < Cap::cables; ++c)
-      for (std::size_t end = 0; end < 2; ++end)
-        copy.jack[c][end] = {static_cast<Scalar>(sample.jack[c][end].force), sample.jack[c][end].locked};
-    return copy;
-  }
-  template <class Scalar>
-  static std::vector<double> tensions(const Tracker<Scalar>& tracker) {
-    std::vector<double> all;
-    for (int i = 0; i < tracker.model().segments; ++i) all.push_back(static_cast<double>(tracker.tension(i)));
-    return all;
-  }
-
   bool follow(std::vector<std::vector<double>>& found) {
     for (std::size_t row = 0; row < world_.samples.size(); ++row) {
-      const auto progress = tracker_.advance(world_.samples[row]);
+      const auto progress = run_.advance(world_.samples[row]);
       ++tally_.rows;
       tally_.events += progress.events;
       if (!progress.status) {
@@ -134,29 +118,28 @@ class Trial {
         fail("event budget spent");
         return false;
       }
-      const double off = taut::verify(tracker_).worst();
+      const double off = run_.verified();
       if (talkative) std::printf("row %zu: %d events, verify %.1e\n", row, progress.events, off);
       if (!(off <= accepted_double)) {
         fail("verify() in double");
         return false;
       }
       tally_.worst_double = std::max(tally_.worst_double, off);
-      found.push_back(tensions(tracker_));
+      found.push_back(run_.tensions());
     }
     return true;
   }
 
   void follow_in_float() {
-    const auto model = std::make_unique<taut::Condensed<float, Cap>>();
-    const auto tracker = std::make_unique<Tracker<float>>();
-    if (!begin<float>(*model, *tracker)) return;
+    Run<float> run(world_.scene);
+    if (!begin(run)) return;
     for (std::size_t row = 0; row < world_.samples.size(); ++row) {
-      const auto progress = tracker->advance(rounded<float>(world_.samples[row]));
+      const auto progress = run.advance(world_.samples[row]);
       if (!progress.status || progress.fraction < 1) {
         fail(std::string("float: ") + taut::describe(progress.status.code));
         return;
       }
-      const double off = static_cast<double>(taut::verify(*tracker).worst());
+      const double off = run.verified();
       if (talkative) std::printf("float row %zu: %d events, verify %.1e\n", row, progress.events, off);
       if (!(off <= accepted_float)) {
         fail("verify() in float");
@@ -168,18 +151,18 @@ class Trial {
 
   /// Between rows without a change of locks the path is the same in one piece or in three.
   void follow_in_pieces(const std::vector<std::vector<double>>& found) {
-    const auto tracker = std::make_unique<Tracker<double>>();
-    if (!tracker->start(model_).status) return;
+    Run<double> run(world_.scene);
+    if (!run.status()) return;
     ++tally_.cut;
     Sample before;
     for (std::size_t row = 0; row < world_.samples.size(); ++row) {
       const Sample& goal = world_.samples[row];
       const double first = random_.between(0, 1), second = random_.between(first, 1);
       for (const double part : {first, second})
-        if (same_locks(before, goal) && !tracker->advance(between(before, goal, part)).status)
+        if (same_locks(before, goal) && !run.advance(between(before, goal, part)).status)
           return fail("refused in pieces");
-      if (!tracker->advance(goal).status) return fail("refused in pieces");
-      const double off = difference(tensions(*tracker), found[row], tracker->peak());
+      if (!run.advance(goal).status) return fail("refused in pieces");
+      const double off = difference(run.tensions(), found[row], run.peak());
       if (talkative) std::printf("in pieces, row %zu: off by %.1e\n", row, off);
       if (!(off <= accepted_double)) return fail("another answer in pieces");
       tally_.worst_cut = std::max(tally_.worst_cut, off);
@@ -208,7 +191,7 @@ class Trial {
   }
 
   void compare_with_reference(const std::vector<std::vector<double>>& found) {
-    reference::Reference<SceneType> reference(world_.scene);
+    reference::Reference reference(world_.scene);
     bool good = reference.start();
     ++tally_.referred;
     for (std::size_t row = 0; row < world_.samples.size(); ++row) {
@@ -222,7 +205,7 @@ class Trial {
       double off = 0;
       for (std::size_t i = 0; i < found[row].size(); ++i)
         off = std::max(off, double(std::fabs(Exact(found[row][i]) - reference.tension(int(i)))));
-      const double scale = std::max(double(reference.peak()), tracker_.peak());
+      const double scale = std::max(double(reference.peak()), run_.peak());
       if (scale > 0) off /= scale;
       if (talkative) std::printf("reference, row %zu: off by %.1e\n", row, off);
       if (!(off <= accepted_double)) return fail("other than the reference");
@@ -239,8 +222,9 @@ class Trial {
       for (std::size_t row = 0; row < world_.samples.size(); ++row) {
         if (!solver->advance(world_.samples[row], substeps[k])) return;
         std::vector<double> stepped;
-        for (int i = 0; i < model_.segments; ++i) stepped.push_back(solver->response().tension[i]);
-        off[k] += difference(stepped, found[row], tracker_.peak());
+        for (int i = 0; i < world_.scene.prestrain.size(); ++i)
+          stepped.push_back(solver->response().tension[i]);
+        off[k] += difference(stepped, found[row], run_.peak());
       }
     }
     ++tally_.stepped;
@@ -255,13 +239,13 @@ class Trial {
     if (talkative) {
       std::printf("refused in row %d at %.17g: %s, index %d\n", row, fraction, taut::describe(status.code),
                   status.index);
-      std::printf("verify %.1e\n", taut::verify(tracker_).worst());
+      std::printf("verify %.1e\n", run_.verified());
     }
     if (status.code == taut::Code::pulled_through) {
       if (!is_pulled_through(status.index)) fail("pulled_through below the friction there is");
       return;
     }
-    reference::Reference<SceneType> reference(world_.scene);
+    reference::Reference reference(world_.scene);
     bool good = reference.start();
     for (int k = 0; good && k <= row; ++k) good = reference.advance(world_.samples[std::size_t(k)]);
     if (talkative)
@@ -279,24 +263,22 @@ class Trial {
     const auto& cable = world_.scene.cables[c];
     Exact carried = 1;
     for (int j = 0; j < cable.joints(); ++j) carried *= anatomy.ratio(c, j);
-    const Exact F0 = Exact(tracker_.loads().jack[c][0].force), F1 = Exact(tracker_.loads().jack[c][1].force);
-    return std::min(F0, F1) <= carried * std::max(F0, F1) + Exact(accepted_double) * Exact(tracker_.peak());
+    const Exact F0 = Exact(run_.jack_force(c, 0)), F1 = Exact(run_.jack_force(c, 1));
+    return std::min(F0, F1) <= carried * std::max(F0, F1) + Exact(accepted_double) * Exact(run_.peak());
   }
 
   const World<SceneType>& world_;
   std::uint64_t seed_;
   support::Random& random_;
   Tally& tally_;
-  taut::Condensed<double, Cap> model_;
-  Tracker<double> tracker_;
+  Run<double> run_;
 };
 
 void try_seed(std::uint64_t seed, Tally& tally) {
   visit_world(seed, [&](const auto& world, support::Random& random) {
     using SceneType = std::decay_t<decltype(world.scene)>;
     if (talkative) std::printf("%s, %d joints\n", world.kind.c_str(), world.scene.mu.size());
-    const auto trial = std::make_unique<Trial<SceneType>>(world, seed, random, tally);
-    trial->run();
+    Trial<SceneType>(world, seed, random, tally).run();
   });
 }
 

@@ -4,15 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "support/saddles.hpp"
 #include "support/scenes.hpp"
-#include "taut/taut.hpp"
+#include "taut/scene/sample.hpp"
 
 namespace campaign {
 
-struct SaddleCapacity : taut::Capacity {
-  static constexpr int nodes = 10, cables = 1, segments = 9, joints = 9, loads = 1, temperatures = 1;
-};
-using Saddles = taut::Scene<double, 2, SaddleCapacity>;
+using support::Saddles;
 
 /// A scene of one type with its log.
 template <class SceneType>

@@ -19,6 +19,6 @@ TEST_CASE("a scene between rigid saddles is exported with every bit, and tracked
 TEST_CASE("between rigid saddles no coupling matrix is stored") {
   constexpr std::size_t n = saddles::Capacity::segments;
   CHECK(taut::has_rigid_saddles<saddles::Capacity>);
-  CHECK(sizeof(saddles::condensed<float>) + (n * n - n) * sizeof(float) ==
+  CHECK(sizeof(saddles::condensed<float>) + (n * n - n) * sizeof(double) ==
         sizeof(taut::Condensed<float, Elastic>));
 }

@@ -7,6 +7,7 @@
 
 #include "hard_cases/follow.hpp"
 #include "hard_cases/long_run.hpp"
+#include "support/equilibrium.hpp"
 #include "support/status_check.hpp"
 #include "support/transform.hpp"
 
@@ -30,7 +31,7 @@ double difference(const std::vector<double>& a, const std::vector<double>& b, do
 }
 template <class Scalar, class SceneType>
 double difference(Run<Scalar, SceneType>& a, Run<Scalar, SceneType>& b) {
-  return difference(a.tensions(), b.tensions(), static_cast<double>(a.tracker().peak()));
+  return difference(a.tensions(), b.tensions(), a.peak());
 }
 
 double ratio(const Saddles& scene, int joint) {
@@ -105,7 +106,7 @@ TEST_CASE("a long noisy cycling jack does not drift: hard because friction keeps
     REQUIRE(pull(fresh_plane, fresh_chain, force, 0));
   CHECK(difference(plane_run, fresh_plane) <= 1e-12);
   CHECK(difference(chain_run, fresh_chain) <= 1e-12);
-  CHECK(taut::verify(plane_run.tracker()).worst() <= 1e-12);
+  CHECK(plane_run.verified() <= 1e-12);
 }
 
 TEST_CASE("of a long noisy log only the nested turning points matter: hard because every one is remembered") {
@@ -180,7 +181,7 @@ TEST_CASE(
   plane.add_force(plane.add_load(), foot, {-1e5, 0});
   Run<double, Plane> run(plane);
   REQUIRE(run.status().ok());
-  reference::Reference<Plane> reference(plane);
+  reference::Reference reference(plane);
   REQUIRE(reference.start());
 
   // Beyond the limit there is no answer at all: the foot would swing away.
@@ -204,9 +205,8 @@ TEST_CASE(
   double nearest = 1;
   for (const auto& rates : possible) {
     std::vector<double> expected = before;
-    for (std::size_t i = 0; i < expected.size(); ++i)
-      expected[i] += static_cast<double>(rates[static_cast<Eigen::Index>(i)]);
-    nearest = std::min(nearest, difference(expected, run.tensions(), run.tracker().peak()));
+    for (std::size_t i = 0; i < expected.size(); ++i) expected[i] += static_cast<double>(rates[i]);
+    nearest = std::min(nearest, difference(expected, run.tensions(), run.peak()));
   }
   CHECK(nearest <= 1e-9);
 }
@@ -234,7 +234,7 @@ TEST_CASE("an event budget of one ends in the same state: hard because a call st
     int calls = 0;
     for (bool there = false; !there; ++calls) {
       REQUIRE(calls < 1000);
-      const auto progress = in_calls.tracker().advance(sample, 1);
+      const auto progress = in_calls.advance(sample, 1);
       REQUIRE(progress.status.ok());
       REQUIRE(progress.events <= 1);
       there = progress.fraction >= 1;
@@ -307,7 +307,7 @@ TEST_CASE(
   advance_all(mirrored, loads_and_jack<Plane>(0));
   auto tensions = mirrored.tensions();
   std::reverse(tensions.begin(), tensions.end());
-  CHECK(difference(run.tensions(), tensions, run.tracker().peak()) <= rounding);
+  CHECK(difference(run.tensions(), tensions, run.peak()) <= rounding);
 }
 
 TEST_CASE("a scene turned in space gives the same answer: hard because no axis is special any more") {

@@ -2,38 +2,23 @@
 #pragma once
 
 #include <algorithm>
-#include <memory>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "reference/reference.hpp"
+#include "support/run.hpp"
+#include "support/saddles.hpp"
 #include "support/scenes.hpp"
-#include "taut/taut.hpp"
 
 namespace hard {
 
-using support::Exact;
-
-/// Capacity of a scene without anything elastic but its cables.
-struct SaddleCapacity : taut::Capacity {
-  static constexpr int nodes = 18, cables = 2, segments = 16, joints = 16, loads = 2, temperatures = 2;
-};
-using Saddles = taut::Scene<double, 2, SaddleCapacity>;
+using reference::Exact;
 
 template <class SceneType>
 using SampleOf = taut::Sample<double, typename SceneType::Capacity>;
 template <class SceneType>
 using Samples = std::vector<SampleOf<SceneType>>;
-
-template <class Scalar, class Cap>
-taut::Sample<Scalar, Cap> rounded(const taut::Sample<double, Cap>& sample) {
-  taut::Sample<Scalar, Cap> copy;
-  for (int i = 0; i < Cap::loads; ++i) copy.factor[i] = static_cast<Scalar>(sample.factor[i]);
-  for (int c = 0; c < Cap::cables; ++c)
-    for (std::size_t end = 0; end < 2; ++end)
-      copy.jack[c][end] = {static_cast<Scalar>(sample.jack[c][end].force), sample.jack[c][end].locked};
-  return copy;
-}
 
 /// The samples of one jack at the end of the first cable.
 template <class SceneType>
@@ -55,38 +40,6 @@ Samples<SceneType> two_jack_forces(const std::vector<std::array<double, 2>>& for
   }
   return samples;
 }
-
-/// A tracker with the condensed scene that it follows, somewhere on the heap.
-template <class Scalar, class SceneType>
-class Run {
- public:
-  using Cap = typename SceneType::Capacity;
-  using Model = taut::Condensed<Scalar, Cap>;
-
-  explicit Run(const SceneType& scene) : model_(new Model), tracker_(new taut::Tracker<Model>) {
-    const auto condensation = std::make_unique<taut::Condensation<Scalar, SceneType>>();
-    status_ = condensation->run(scene, *model_);
-    if (status_) status_ = tracker_->start(*model_).status;
-  }
-  taut::Status status() const { return status_; }
-  const Model& model() const { return *model_; }
-  taut::Tracker<Model>& tracker() { return *tracker_; }
-  double tension(int segment) const { return static_cast<double>(tracker_->tension(segment)); }
-  taut::Progress<Scalar> advance(const SampleOf<SceneType>& sample) {
-    return tracker_->advance(rounded<Scalar>(sample));
-  }
-  std::vector<double> tensions() const {
-    std::vector<double> all;
-    for (int i = 0; i < model_->segments; ++i) all.push_back(tension(i));
-    return all;
-  }
-  double verified() const { return static_cast<double>(taut::verify(*tracker_).worst()); }
-
- private:
-  std::unique_ptr<Model> model_;
-  std::unique_ptr<taut::Tracker<Model>> tracker_;
-  taut::Status status_;
-};
 
 /// The largest deviation of one scalar type over all samples, as parts of the largest force so far.
 struct Deviation {
@@ -133,7 +86,7 @@ struct Expected {
 template <class SceneType>
 Expected answer(const SceneType& scene, const Samples<SceneType>& samples) {
   Expected expected;
-  reference::Reference<SceneType> found(scene);
+  reference::Reference found(scene);
   bool good = found.start();
   for (std::size_t row = 0;; ++row) {
     if (!good) {
@@ -154,7 +107,7 @@ Expected answer(const SceneType& scene, const Samples<SceneType>& samples) {
 template <class Scalar, class SceneType>
 Deviation deviation(const SceneType& scene, const Samples<SceneType>& samples, const Expected& expected) {
   Deviation found;
-  Run<Scalar, SceneType> run(scene);
+  support::Run<Scalar, SceneType> run(scene);
   if (!run.status()) {
     found.trouble = "start: " + in_words(run.status(), 0);
     return found;
@@ -186,28 +139,6 @@ Measured follow(const SceneType& scene, const Samples<SceneType>& samples) {
   measured.several_answers = expected.several_answers;
   if (!expected.trouble.empty()) measured.in_double.trouble = "reference, " + expected.trouble;
   return measured;
-}
-
-/// A cable over held nodes, in a scene type that has room for nothing else.
-inline void saddles(Saddles& scene, const taut::Cable<double>& cable,
-                    const std::vector<support::PlanePoint>& points) {
-  scene = {};
-  std::vector<int> path;
-  for (const auto& point : points) path.push_back(scene.add_node(point, taut::held_xy));
-  scene.add_cable(cable, path.data(), static_cast<int>(path.size()));
-}
-
-/// Points of a path from its segment lengths and the angles by which it turns between them.
-inline std::vector<support::PlanePoint> path_points(const std::vector<double>& lengths,
-                                                    const std::vector<double>& turns) {
-  std::vector<support::PlanePoint> points{{0, 0}};
-  double angle = 0;
-  for (std::size_t i = 0; i < lengths.size(); ++i) {
-    if (i > 0) angle += turns[i - 1];
-    const auto last = points.back();
-    points.push_back({last[0] + lengths[i] * std::cos(angle), last[1] + lengths[i] * std::sin(angle)});
-  }
-  return points;
 }
 
 }  // namespace hard

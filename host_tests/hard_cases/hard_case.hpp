@@ -54,20 +54,6 @@ inline void judge(const Measured& measured) {
 
 }  // namespace hard
 
-/// A hard case that float cannot do yet: its own test, which fails as soon as float can.
-#define HARD_CASE_OPEN_IN_FLOAT(function, name, reason)                        \
-  static hard::Measured function();                                            \
-  static const hard::Registered registered_##function{name, reason, function}; \
-  TEST_CASE(name " (double)") {                                                \
-    INFO(reason);                                                              \
-    hard::judge_in_double(function());                                         \
-  }                                                                            \
-  TEST_CASE(name " (float, open)" * doctest::should_fail(true)) {              \
-    INFO(reason);                                                              \
-    hard::judge_in_float(function());                                          \
-  }                                                                            \
-  static hard::Measured function()
-
 /// A test case whose body returns what was measured; it is also a row of the table.
 #define HARD_CASE(function, name, reason)                                      \
   static hard::Measured function();                                            \

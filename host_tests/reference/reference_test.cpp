@@ -7,6 +7,7 @@
 #include "support/scenes.hpp"
 
 using namespace support;
+using reference::Exact;
 using reference::Reference;
 
 namespace {
@@ -34,7 +35,7 @@ Exact chain_ratio(double mu, int joint) {
 TEST_CASE("over rigid saddles the jack's force falls by the ratio of every joint") {
   const double mu = 0.3;
   rigid_saddles(scene, steel_cable(mu), chain_points(8));
-  Reference<Plane> found(scene);
+  Reference found(scene);
   REQUIRE(found.start());
   REQUIRE(found.advance(jack_force(2e5)));
   Exact T = 2e5L;
@@ -55,7 +56,7 @@ TEST_CASE("the loaded cable over a roller shares its load as friction allows") {
     cable.A = 1e-4;
     cable.mu = mu;
     cable_roller(scene, cable);
-    Reference<Plane> found(scene);
+    Reference found(scene);
     REQUIRE(found.start());
     Sample sample;
     sample.factor[0] = 1;
@@ -72,7 +73,7 @@ TEST_CASE("the loaded cable over a roller shares its load as friction allows") {
 TEST_CASE("a released joint sticks until its friction has turned round") {
   rigid_saddles(scene, steel_cable(0.4), chain_points(2));
   const Exact rho = chain_ratio(0.4, 0), F = 1e5L;
-  Reference<Plane> found(scene);
+  Reference found(scene);
   REQUIRE(found.start());
   REQUIRE(found.advance(jack_force(1e5)));
   CHECK(std::fabs(found.tension(0) - rho * F) <= 1e-14L * F);
@@ -94,7 +95,7 @@ TEST_CASE("a released joint sticks until its friction has turned round") {
 
 TEST_CASE("two jacks meet where the friction from both sides holds the same force") {
   rigid_saddles(scene, steel_cable(0.3, two_jacks), chain_points(6));
-  Reference<Plane> found(scene);
+  Reference found(scene);
   REQUIRE(found.start());
   Sample sample = jack_force(2e5);
   sample.jack[0][0].force = 1.9e5;
@@ -116,7 +117,7 @@ TEST_CASE("a draw-in without friction costs EA / L x seating everywhere, and mor
     taut::Cable<double> cable = steel_cable(0);
     cable.seating = seating;
     rigid_saddles(scene, cable, chain_points(4));
-    Reference<Plane> found(scene);
+    Reference found(scene);
     REQUIRE(found.start());
     REQUIRE(found.advance(jack_force(2e5)));
     Sample locked = jack_force(2e5);
@@ -131,7 +132,7 @@ TEST_CASE("a draw-in without friction costs EA / L x seating everywhere, and mor
 
 TEST_CASE("jacks that differ by more than all friction are refused where they begin to") {
   rigid_saddles(scene, steel_cable(0.3, two_jacks), chain_points(4));
-  Reference<Plane> found(scene);
+  Reference found(scene);
   REQUIRE(found.start());
   Sample even = jack_force(1e5);
   even.jack[0][0].force = 1e5;

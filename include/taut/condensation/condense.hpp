@@ -40,7 +40,7 @@ class Condensation {
   }
 
   /// See Structure::condition(); 1 between rigid saddles.
-  Scalar condition() const {
+  Wide<Scalar> condition() const {
     if constexpr (has_rigid_saddles<Cap>)
       return 1;
     else
@@ -49,23 +49,23 @@ class Condensation {
 
  private:
   struct Nothing {};
-  using Solver = std::conditional_t<has_rigid_saddles<Cap>, Nothing, Structure<Scalar, SceneType>>;
+  using Solver = std::conditional_t<has_rigid_saddles<Cap>, Nothing, Structure<Wide<Scalar>, SceneType>>;
 
-  using Real = typename SceneType::Scalar;
-  static constexpr auto no_force = [](int, int) { return Scalar(0); };
+  using Real = Wide<Scalar>;
+  using Given = typename SceneType::Scalar;
+  static constexpr auto no_force = [](int, int) { return Real(0); };
 
-  void set_joint(Condensed<Scalar, Cap>& condensed, int j,
-                 const FrictionElement<Scalar, dimension>& element) {
+  void set_joint(Condensed<Scalar, Cap>& condensed, int j, const FrictionElement<Real, dimension>& element) {
     condensed.rho[j] = element.grip.rho();
-    condensed.cos_alpha[j] = element.frame.cos_alpha;
-    condensed.sin_alpha[j] = element.frame.sin_alpha;
+    condensed.cos_alpha[j] = static_cast<Scalar>(element.frame.cos_alpha);
+    condensed.sin_alpha[j] = static_cast<Scalar>(element.frame.sin_alpha);
   }
 
   /// Kelvin that a unit of a load pattern warms a cable by.
-  Scalar warming(int load, int cable) const {
-    Scalar kelvin = 0;
+  Real warming(int load, int cable) const {
+    Real kelvin = 0;
     for (const auto& change : scene_->temperatures)
-      if (change.load == load && change.cable == cable) kelvin += static_cast<Scalar>(change.kelvin);
+      if (change.load == load && change.cable == cable) kelvin += static_cast<Real>(change.kelvin);
     return kelvin;
   }
 
@@ -77,7 +77,7 @@ class Condensation {
     for (int c = 0; c < scene_->cables.size(); ++c) {
       const auto& cable = scene_->cables[c];
       for (int i = 0; i < cable.segments(); ++i) {
-        const auto element = CableElement<Scalar, dimension>::of(*scene_, c, i);
+        const auto element = CableElement<Real, dimension>::of(*scene_, c, i);
         const int segment = cable.first_segment + i;
         condensed.coupling.set(segment, segment, element.axial);
         condensed.prestrain[segment] = element.initial;
@@ -85,7 +85,7 @@ class Condensation {
           condensed.load[load][segment] = -element.thermal * warming(load, c);
       }
       for (int j = 0; j < cable.joints(); ++j)
-        set_joint(condensed, cable.first_joint + j, FrictionElement<Scalar, dimension>::of(*scene_, c, j));
+        set_joint(condensed, cable.first_joint + j, FrictionElement<Real, dimension>::of(*scene_, c, j));
     }
     return Status::success();
   }
@@ -95,8 +95,8 @@ class Condensation {
     if (!status) return status;
     const auto& elements = structure_.elements();
     for (int j = 0; j < condensed.joints; ++j) set_joint(condensed, j, elements.joints[j]);
-    const auto store = [&](auto imposed, FixedArray<Scalar, Cap::segments>& tensions,
-                           FixedArray<Scalar, Cap::struts>* rows) {
+    const auto store = [&](auto imposed, FixedArray<Real, Cap::segments>& tensions,
+                           FixedArray<Real, Cap::struts>* rows) {
       for (int i = 0; i < condensed.segments; ++i) tensions[i] = structure_.tension(i, imposed(i));
       for (int i = 0; rows != nullptr && i < scene_->struts.size(); ++i)
         (*rows)[i] = structure_.strut_force(i);
@@ -118,9 +118,9 @@ class Condensation {
       store(warmed, condensed.load[load], struts ? &struts->load[load] : nullptr);
     }
 
-    FixedArray<Scalar, Cap::segments> column;
+    FixedArray<Real, Cap::segments> column;
     for (int k = 0; k < condensed.segments; ++k) {
-      const auto unit = [k](int i) { return i == k ? Scalar(1) : Scalar(0); };
+      const auto unit = [k](int i) { return i == k ? Real(1) : Real(0); };
       status = structure_.solve(no_force, unit);
       if (!status) return status;
       store(unit, column, struts ? &struts->elongation[k] : nullptr);
@@ -129,11 +129,11 @@ class Condensation {
     return Status::success();
   }
 
-  Scalar nodal_force(int load, int node, int axis) const {
-    Real sum = 0;
+  Real nodal_force(int load, int node, int axis) const {
+    Given sum = 0;
     for (const auto& given : scene_->forces)
       if (given.load == load && given.node == node) sum += given.force[static_cast<std::size_t>(axis)];
-    return static_cast<Scalar>(sum);
+    return static_cast<Real>(sum);
   }
 
   const SceneType* scene_ = nullptr;

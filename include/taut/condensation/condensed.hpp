@@ -3,6 +3,7 @@
 
 #include <type_traits>
 
+#include "taut/numerics/wide.hpp"
 #include "taut/scene/fixed_list.hpp"
 #include "taut/scene/path.hpp"
 #include "taut/scene/scene.hpp"
@@ -49,21 +50,25 @@ struct NoCoupling {
 /// T = load x factors + prestrain + coupling x e, where e is the elongation imposed on each segment by what
 /// moves along the cable: e_i = delta_i - delta_{i-1} + payout at a jacked end + slack. An aggregate: it can
 /// be a constant in flash.
+///
+/// The numbers are double for a tracker in float too: what is redundant in a structure makes rows that all
+/// but depend on one another, and rounded one by one they would contradict.
 template <class Scalar_, class Cap>
 struct Condensed {
   using Scalar = Scalar_;
   using Capacity = Cap;
-  using Coupling = std::conditional_t<has_rigid_saddles<Cap>, NoCoupling<Scalar, Cap::segments>,
-                                      ElasticCoupling<Scalar, Cap::segments>>;
+  using Real = Wide<Scalar>;
+  using Coupling = std::conditional_t<has_rigid_saddles<Cap>, NoCoupling<Real, Cap::segments>,
+                                      ElasticCoupling<Real, Cap::segments>>;
 
   FixedList<CableLayout<Scalar>, Cap::cables> cables;
   int segments = 0;
   int joints = 0;
   int loads = 0;
   Coupling coupling;
-  FixedArray<Scalar, Cap::segments> prestrain;                     ///< tensions from prestrain alone [N]
-  FixedArray<FixedArray<Scalar, Cap::segments>, Cap::loads> load;  ///< tensions from a unit factor [N]
-  FixedArray<Scalar, Cap::joints> rho;        ///< smallest T_small / T_big of every joint; 0: locked
+  FixedArray<Real, Cap::segments> prestrain;                     ///< tensions from prestrain alone [N]
+  FixedArray<FixedArray<Real, Cap::segments>, Cap::loads> load;  ///< tensions from a unit factor [N]
+  FixedArray<Real, Cap::joints> rho;          ///< smallest T_small / T_big of every joint; 0: locked
   FixedArray<Scalar, Cap::joints> cos_alpha;  ///< half the angle between the segments, for N and f
   FixedArray<Scalar, Cap::joints> sin_alpha;
 
@@ -73,9 +78,11 @@ struct Condensed {
 /// On request: the rows that give strut forces, S = load x factors + prestrain + elongation x e [N].
 template <class Scalar, class Cap>
 struct CondensedStruts {
-  FixedArray<FixedArray<Scalar, Cap::struts>, Cap::loads> load;
-  FixedArray<Scalar, Cap::struts> prestrain;
-  FixedArray<FixedArray<Scalar, Cap::struts>, Cap::segments>
+  using Real = Wide<Scalar>;
+
+  FixedArray<FixedArray<Real, Cap::struts>, Cap::loads> load;
+  FixedArray<Real, Cap::struts> prestrain;
+  FixedArray<FixedArray<Real, Cap::struts>, Cap::segments>
       elongation;  ///< for a unit elongation of each segment [N/m]
 };
 

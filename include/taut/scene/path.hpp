@@ -64,23 +64,23 @@ Status check_sample(const Cables& cables, int loads, const Sample<Scalar, Cap>& 
 /// Both ends of the path from the present state to a sample. Lock-off keeps the payout and draws the wedge in
 /// along the path; a released end starts at the force it has.
 ///
-/// `from` enters as the present drive, `to` as the goal of the path before (the same, if that was reached),
-/// and `present` is the present response.
-template <class Cables, class Scalar, class Cap>
-void set_path(const Cables& cables, int loads, const Response<Scalar, Cap>& present,
-              const Sample<Scalar, Cap>& sample, Drive<Scalar, Cap>& from, Drive<Scalar, Cap>& to) {
-  for (int i = 0; i < loads; ++i) to.factor[i] = sample.factor[i];
+/// `from` enters as the present drive, `to` as the goal of the path before (the same, if that was reached);
+/// force(c, end) and payout(c, end) tell what a jacked end has at present.
+template <class Cables, class Scalar, class Real, class Cap, class Force, class Payout>
+void set_path(const Cables& cables, int loads, const Sample<Scalar, Cap>& sample, Force force, Payout payout,
+              Drive<Real, Cap>& from, Drive<Real, Cap>& to) {
+  for (int i = 0; i < loads; ++i) to.factor[i] = static_cast<Real>(sample.factor[i]);
   for_each_jacked_end(cables, [&](int c, std::size_t end) {
     const Jack<Scalar>& jack = sample.jack[c][end];
     auto& start = from.jack[c][end];
     auto& goal = to.jack[c][end];
     goal.locked = jack.locked;
     if (jack.locked && !start.locked) {
-      start.payout = present.payout[c][end];
-      goal.payout = start.payout - static_cast<Scalar>(cables[c].seating);
+      start.payout = payout(c, end);
+      goal.payout = start.payout - static_cast<Real>(cables[c].seating);
     } else if (!jack.locked) {
-      if (start.locked) start.force = present.tension[cables[c].end_segment(end)];
-      goal.force = jack.force;
+      if (start.locked) start.force = force(c, end);
+      goal.force = static_cast<Real>(jack.force);
       start.payout = goal.payout = 0;
     }
   });

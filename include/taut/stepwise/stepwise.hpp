@@ -54,7 +54,11 @@ class Stepwise {
     const Status usable = check_sample(scene_->cables, scene_->loads, sample);
     if (!usable) return usable;
     Loads from = now_;
-    set_path(scene_->cables, scene_->loads, response_, sample, from, goal_);
+    const auto force = [this](int c, std::size_t end) {
+      return response_.tension[scene_->cables[c].end_segment(end)];
+    };
+    const auto payout = [this](int c, std::size_t end) { return response_.payout[c][end]; };
+    set_path(scene_->cables, scene_->loads, sample, force, payout, from, goal_);
     return follow(from, goal_, substeps);
   }
 

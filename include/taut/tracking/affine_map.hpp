@@ -2,244 +2,236 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
-#include "taut/condensation/condensed.hpp"
 #include "taut/numerics/band_lu.hpp"
+#include "taut/tracking/moves.hpp"
 
 namespace taut {
 
-/// Something that moves along a cable and imposes an elongation: the slip of a joint lengthens the segment
-/// before it and shortens the one after, a payout or an excess length lengthens one segment.
-struct Move {
-  enum class Kind : std::uint8_t { slip, payout, excess } kind = Kind::slip;
-  int index = 0;        ///< joint; 2 x cable + end; run
-  int lengthened = -1;  ///< segment
-  int shortened = -1;   ///< segment, slip only
-};
-
-/// What an active move obeys: a weighted sum of two tensions, T_first - weight T_second, is zero or an input.
-template <class Scalar>
-struct Law {
-  int first = 0;
-  int second = -1;
-  Scalar weight = 0;
-
-  template <class Tensions>
-  Scalar of(const Tensions& T) const {
-    return second < 0 ? T[first] : T[first] - weight * T[second];
-  }
-};
-
-/// Something outside that changes along a path.
-struct Input {
-  enum class Kind : std::uint8_t { load, jack_force, payout, prestrain } kind = Kind::load;
-  int index = 0;  ///< load pattern; 2 x cable + end
-};
-
-/// T = base + sum of input x column, and the same for the active moves.
+/// T = base + sum of (input - anchor) x column, and the same for the active moves.
 ///
 /// Made from totals whenever the set of active moves changes: with R the laws' coefficients, W the columns of
-/// the moves and v the tensions with the active moves at zero, m = (R W)^-1 (s - R v) and T = v + W m.
+/// the moves, T0 the tensions at the anchor and s what the laws are to be, the moves change by
+/// m = (R W)^-1 (s - R T0), and T = T0 + W m.
 template <class CondensedType>
 class AffineMap {
  public:
   using Scalar = typename CondensedType::Scalar;
+  using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
   static constexpr int max_active = Cap::segments + 2 * Cap::cables;
   static constexpr int max_inputs = Cap::loads + 2 * Cap::cables + 1;
-  using Tensions = FixedArray<Scalar, Cap::segments>;
-  using Moves = FixedArray<Scalar, max_active>;
+  using Tensions = FixedArray<Real, Cap::segments>;
+  using Moves = FixedArray<Real, max_active>;
+  using Inputs = FixedArray<Real, max_inputs>;
+  /// The same in the scene's scalar.
+  using Rounded = FixedArray<Scalar, Cap::segments>;
 
   void clear(const CondensedType& model) {
     model_ = &model;
-    moves_.clear();
-    laws_.clear();
-    sense_.clear();
+    active_.clear();
     inputs_.clear();
     has_slack_ = false;
   }
-  /// `sense` is the sign that the move's rate must have, 0 for any.
-  void add_active(const Move& move, const Law<Scalar>& law, Scalar sense = 0) {
-    moves_.add(move);
-    laws_.add(law);
-    sense_.add(sense);
-    has_slack_ = has_slack_ || move.kind == Move::Kind::excess;
+  void add(const Active<Real>& active) {
+    active_.add(active);
+    has_slack_ = has_slack_ || active.move.kind == Move::Kind::excess;
   }
-  void add_input(const Input& input) { inputs_.add(input); }
+  void add_input(Input::Kind kind, int index) { inputs_.add({kind, static_cast<std::int16_t>(index)}); }
 
-  int active() const { return moves_.size(); }
-  const Move& move(int i) const { return moves_[i]; }
+  int active() const { return active_.size(); }
+  const Move& move(int i) const { return active_[i].move; }
+  const FixedList<Active<Real>, max_active>& actives() const { return active_; }
   int inputs() const { return inputs_.size(); }
   const Input& input(int k) const { return inputs_[k]; }
+  bool has_slack() const { return has_slack_; }
 
-  /// Factors R W. Returns -1, or an active move that changes no law: nothing resists it.
-  int factor() {
+  /// Makes the map. `T` are the tensions of all moves as they are at the anchor, `moves` the active ones,
+  /// `anchor` the inputs. Returns -1, or an active move that changes no law: nothing resists it.
+  int make(const Tensions& T, const Moves& moves, const Inputs& anchor) {
     const int n = active();
-    laws_times_moves_.reset(n, n > 0 ? n - 1 : 0);
-    Tensions column;
+    BandLu<Real, max_active> laws_times_moves;
+    laws_times_moves.reset(n, n > 0 ? n - 1 : 0);
     for (int k = 0; k < n; ++k) {
-      column_of(moves_[k], column);
-      for (int i = 0; i < n; ++i) laws_times_moves_.add(i, k, laws_[i].of(column));
-      laws_times_moves_.set_column_scale(
-          k, Scalar(1) / model_->coupling(moves_[k].lengthened, moves_[k].lengthened));
+      for (int i = 0; i < n; ++i)
+        laws_times_moves.add(i, k, resistance(*model_, active_[i].law, active_[k].move));
+      laws_times_moves.set_column_scale(k, Real(1) / stiffness(k));
     }
-    return laws_times_moves_.factor();
-  }
+    const int loose = laws_times_moves.factor();
+    if (loose >= 0) return loose;
 
-  /// From the tensions of the frozen moves and constant loads.
-  void make_base(const Tensions& frozen) {
-    base_ = frozen;
-    project(base_, -1, base_moves_);
-  }
-  /// Tensions that a unit of an input makes.
-  void make_columns() {
-    for (int k = 0; k < inputs(); ++k) {
-      Tensions& column = column_[k];
-      column.fill(Scalar(0));
-      const Input& input = inputs_[k];
-      int driven = -1;
-      if (input.kind == Input::Kind::load) column = model_->load[input.index];
-      if (input.kind == Input::Kind::prestrain) column = model_->prestrain;
-      if (input.kind == Input::Kind::payout) column_of(payout_move(input.index), column);
-      if (input.kind == Input::Kind::jack_force) driven = row_of_jack(input.index);
-      project(column, driven, column_moves_[k]);
-      keeps_if_up_[k] = keeps_if_down_[k] = true;
-      for (int i = 0; i < active(); ++i) {
-        keeps_if_up_[k] = keeps_if_up_[k] && sense_[i] * column_moves_[k][i] >= 0;
-        keeps_if_down_[k] = keeps_if_down_[k] && sense_[i] * column_moves_[k][i] <= 0;
-      }
-    }
-  }
-  /// Makes input `k` constant at x: one column less to add up, until the next map.
-  void fold(int k, Scalar x) {
-    for (int i = 0; i < model_->segments; ++i) base_[i] += x * column_[k][i];
-    for (int i = 0; i < active(); ++i) base_moves_[i] += x * column_moves_[k][i];
-    for (int later = k; later + 1 < inputs(); ++later) {
-      inputs_[later] = inputs_[later + 1];
-      column_[later] = column_[later + 1];
-      column_moves_[later] = column_moves_[later + 1];
-      keeps_if_up_[later] = keeps_if_up_[later + 1];
-      keeps_if_down_[later] = keeps_if_down_[later + 1];
-    }
-    inputs_.drop_last();
-  }
-
-  /// Tensions that a unit of a move makes, all other moves frozen.
-  void column_of(const Move& move, Tensions& column) const {
-    Tensions e;
-    e.fill(Scalar(0));
-    impose(move, Scalar(1), e);
-    column.fill(Scalar(0));
-    model_->coupling.add(model_->segments, e, column);
-  }
-  /// Adds the elongations that a move imposes on the segments.
-  static void impose(const Move& move, Scalar by, Tensions& e) {
-    e[move.lengthened] += by;
-    if (move.shortened >= 0) e[move.shortened] -= by;
-  }
-
-  /// Lets the active moves follow: on entry T with them at zero; on return T with their laws kept, and the
-  /// moves. `driven` is the law that equals one instead of zero, or -1.
-  void project(Tensions& T, int driven, Moves& moves) const {
-    moves.fill(Scalar(0));
-    // The second pass takes out what the first one's rounding left.
-    for (int pass = 0; pass < 2 && active() > 0; ++pass) {
-      Moves change;
-      for (int i = 0; i < active(); ++i) change[i] = (i == driven ? Scalar(1) : Scalar(0)) - laws_[i].of(T);
-      laws_times_moves_.solve(change);
-      Tensions e;
-      e.fill(Scalar(0));
-      for (int i = 0; i < active(); ++i) {
-        moves[i] += change[i];
-        impose(moves_[i], change[i], e);
-      }
-      model_->coupling.add(model_->segments, e, T);
-    }
-  }
-
-  template <class Values>
-  void tensions(const Values& x, Tensions& T) const {
-    for (int i = 0; i < model_->segments; ++i) T[i] = base_[i];
+    anchor_ = anchor;
+    base_ = T;
+    base_moves_ = moves;
+    Moves due;
+    due.fill(Real(0));
     for (int k = 0; k < inputs(); ++k)
-      for (int i = 0; i < model_->segments; ++i) T[i] += x[k] * column_[k][i];
-  }
-  template <class Values>
-  Scalar active_move(int i, const Values& x) const {
-    return base_moves_[i] + move_rate(i, x);
-  }
-  /// Rates along a direction `dx` of the inputs.
-  template <class Values>
-  Scalar move_rate(int i, const Values& dx) const {
-    Scalar rate = 0;
-    for (int k = 0; k < inputs(); ++k) rate += dx[k] * column_moves_[k][i];
-    return rate;
-  }
-  /// Whether, going along `dx`, every move keeps the sign it must have, give or take `tolerance` [N].
-  template <class Values>
-  bool goes_on(const Values& dx, Scalar tolerance = 0) const {
-    bool each = true;
-    for (int k = 0; k < inputs(); ++k)
-      each = each && (dx[k] == 0 || (dx[k] > 0 ? keeps_if_up_[k] : keeps_if_down_[k]));
-    for (int i = 0; !each && i < active(); ++i)
-      if (sense_[i] * move_rate(i, dx) * model_->coupling(moves_[i].lengthened, moves_[i].lengthened) <
-          -tolerance)
-        return false;
-    return true;
-  }
-  /// By how much tensions at `x` miss the laws of the active moves [N]: more than rounding if Scalar has too
-  /// few digits.
-  template <class Values>
-  Scalar law_violation(const Tensions& T, const Values& x) const {
-    Scalar most = 0;
-    for (int i = 0; i < active(); ++i) {
-      Scalar due = 0;
-      for (int k = 0; k < inputs(); ++k)
-        if (inputs_[k].kind == Input::Kind::jack_force && moves_[i].kind == Move::Kind::payout &&
-            inputs_[k].index == moves_[i].index)
-          due = x[k];
-      most = std::fmax(most, std::fabs(laws_[i].of(T) - due));
-    }
-    return most;
-  }
-  /// Whether at `x` every slack run still has length to spare.
-  template <class Values>
-  bool stays_slack(const Values& x) const {
-    for (int i = 0; has_slack_ && i < active(); ++i)
-      if (moves_[i].kind == Move::Kind::excess && active_move(i, x) < 0) return false;
-    return true;
-  }
-  template <class Values>
-  void tension_rates(const Values& dx, Tensions& rates) const {
-    rates.fill(Scalar(0));
-    for (int k = 0; k < inputs(); ++k)
-      for (int i = 0; i < model_->segments; ++i) rates[i] += dx[k] * column_[k][i];
-  }
-
-  Move payout_move(int index) const {
-    const auto& cable = model_->cables[index / 2];
-    return {Move::Kind::payout, index, cable.end_segment(static_cast<std::size_t>(index % 2)), -1};
-  }
-
- private:
-  int row_of_jack(int index) const {
-    for (int i = 0; i < active(); ++i)
-      if (moves_[i].kind == Move::Kind::payout && moves_[i].index == index) return i;
+      if (inputs_[k].kind == Input::Kind::jack_force) due[row_of_jack(inputs_[k].index)] = anchor[k];
+    settle(laws_times_moves, due, base_, base_moves_);
+    for (int k = 0; k < inputs(); ++k) make_column(laws_times_moves, k);
+    round();
     return -1;
   }
 
+  const Inputs& anchor() const { return anchor_; }
+  template <class Values>
+  void tensions(const Values& x, Tensions& T) const {
+    T = base_;
+    for (int k = 0; k < inputs(); ++k) {
+      const Real dx = x[k] - anchor_[k];
+      for (int i = 0; i < model_->segments; ++i) T[i] += dx * column_[k][i];
+    }
+  }
+  void tension_rates(const Inputs& dx, Tensions& rates) const {
+    rates.fill(Real(0));
+    for (int k = 0; k < inputs(); ++k)
+      for (int i = 0; i < model_->segments; ++i) rates[i] += dx[k] * column_[k][i];
+  }
+  Real active_move(int i, const Inputs& x) const {
+    Real at = base_moves_[i];
+    for (int k = 0; k < inputs(); ++k) at += (x[k] - anchor_[k]) * column_moves_[k][i];
+    return at;
+  }
+  /// Rate along a direction `dx` of the inputs.
+  Real move_rate(int i, const Inputs& dx) const {
+    Real rate = 0;
+    for (int k = 0; k < inputs(); ++k) rate += dx[k] * column_moves_[k][i];
+    return rate;
+  }
+  /// What an elongation by an active move is in its own segment [N/m].
+  Real stiffness(int i) const {
+    const int segment = active_[i].move.lengthened;
+    return model_->coupling(segment, segment);
+  }
+
+  /// Whether every move keeps the sign it must have when input `k` alone grows, or shrinks.
+  bool keeps(int k, bool up) const { return up ? keeps_if_up_[k] : keeps_if_down_[k]; }
+  /// The same going along `dx`, give or take `tolerance` [N].
+  bool goes_on(const Inputs& dx, Real tolerance) const {
+    for (int i = 0; i < active(); ++i)
+      if (static_cast<Real>(active_[i].sense) * move_rate(i, dx) * stiffness(i) < -tolerance) return false;
+    return true;
+  }
+  /// By how much tensions at `x` miss the laws of the active moves [N]: more than rounding if Real has too
+  /// few digits.
+  Real law_violation(const Tensions& T, const Inputs& x) const {
+    Moves off;
+    for (int i = 0; i < active(); ++i) off[i] = active_[i].law.of(T);
+    for (int k = 0; k < inputs(); ++k)
+      if (inputs_[k].kind == Input::Kind::jack_force) off[row_of_jack(inputs_[k].index)] -= x[k];
+    Real most = 0;
+    for (int i = 0; i < active(); ++i) most = std::fmax(most, std::fabs(off[i]));
+    return most;
+  }
+  /// Whether at `x` every slack run still has length to spare.
+  bool stays_slack(const Inputs& x) const {
+    for (int i = 0; i < active(); ++i)
+      if (move(i).kind == Move::Kind::excess && active_move(i, x) < 0) return false;
+    return true;
+  }
+
+  // In the scene's scalar, for samples without an event.
+
+  const Rounded& rounded_base() const {
+    if constexpr (is_wide)
+      return base_;
+    else
+      return rounded_.base;
+  }
+  const Rounded& rounded_column(int k) const {
+    if constexpr (is_wide)
+      return column_[k];
+    else
+      return rounded_.column[k];
+  }
+
+  static Move payout_move(const CondensedType& model, int index) {
+    const auto& cable = model.cables[index / 2];
+    return Move::of(Move::Kind::payout, index, cable.end_segment(static_cast<std::size_t>(index % 2)));
+  }
+
+ private:
+  static constexpr bool is_wide = std::is_same<Real, Scalar>::value;
+  struct None {};
+  struct Copies {
+    Rounded base;
+    FixedArray<Rounded, max_inputs> column;
+  };
+  using Factors = BandLu<Real, max_active>;
+
+  void round() {
+    if constexpr (!is_wide) {
+      for (int i = 0; i < model_->segments; ++i) {
+        rounded_.base[i] = static_cast<Scalar>(base_[i]);
+        for (int k = 0; k < inputs(); ++k) rounded_.column[k][i] = static_cast<Scalar>(column_[k][i]);
+      }
+    }
+  }
+
+  /// Tensions that a unit of an input makes.
+  void make_column(const Factors& laws_times_moves, int k) {
+    Tensions& column = column_[k];
+    column.fill(Real(0));
+    const Input& input = inputs_[k];
+    Moves due;
+    due.fill(Real(0));
+    if (input.kind == Input::Kind::load) column = model_->load[input.index];
+    if (input.kind == Input::Kind::prestrain) column = model_->prestrain;
+    if (input.kind == Input::Kind::payout) {
+      Tensions e;
+      e.fill(Real(0));
+      payout_move(*model_, input.index).impose(Real(1), e);
+      model_->coupling.add(model_->segments, e, column);
+    }
+    if (input.kind == Input::Kind::jack_force) due[row_of_jack(input.index)] = 1;
+    column_moves_[k].fill(Real(0));
+    settle(laws_times_moves, due, column, column_moves_[k]);
+    keeps_if_up_[k] = keeps_if_down_[k] = true;
+    for (int i = 0; i < active(); ++i) {
+      const Real along = static_cast<Real>(active_[i].sense) * column_moves_[k][i];
+      keeps_if_up_[k] = keeps_if_up_[k] && along >= 0;
+      keeps_if_down_[k] = keeps_if_down_[k] && along <= 0;
+    }
+  }
+
+  /// Lets the active moves follow until their laws are what is due.
+  void settle(const Factors& laws_times_moves, const Moves& due, Tensions& T, Moves& moves) const {
+    // The second pass takes out what the first one's rounding left.
+    for (int pass = 0; pass < 2 && active() > 0; ++pass) {
+      Moves change;
+      for (int i = 0; i < active(); ++i) change[i] = due[i] - active_[i].law.of(T);
+      laws_times_moves.solve(change);
+      Tensions e;
+      e.fill(Real(0));
+      for (int i = 0; i < active(); ++i) {
+        moves[i] += change[i];
+        active_[i].move.impose(change[i], e);
+      }
+      model_->coupling.add(model_->segments, e, T);
+    }
+    // What a law gives outright has no rounding.
+    for (int i = 0; i < active(); ++i)
+      if (active_[i].law.second < 0) T[active_[i].law.first] = due[i];
+  }
+  int row_of_jack(int index) const {
+    for (int i = 0; i < active(); ++i)
+      if (move(i).kind == Move::Kind::payout && move(i).index == index) return i;
+    return 0;
+  }
+
   const CondensedType* model_ = nullptr;
-  FixedList<Move, max_active> moves_;
-  FixedList<Law<Scalar>, max_active> laws_;
-  FixedList<Scalar, max_active> sense_;
+  FixedList<Active<Real>, max_active> active_;
   FixedList<Input, max_inputs> inputs_;
-  BandLu<Scalar, max_active> laws_times_moves_;
+  Inputs anchor_;
   Tensions base_;
   Moves base_moves_;
   FixedArray<Tensions, max_inputs> column_;
   FixedArray<Moves, max_inputs> column_moves_;
-  FixedArray<bool, max_inputs> keeps_if_up_;  // whether every move keeps its sign when the input grows
+  FixedArray<bool, max_inputs> keeps_if_up_;
   FixedArray<bool, max_inputs> keeps_if_down_;
   bool has_slack_ = false;
+  std::conditional_t<is_wide, None, Copies> rounded_;
 };
 
 }  // namespace taut

@@ -5,11 +5,11 @@
 #include <limits>
 
 #include "taut/condensation/condensed.hpp"
-#include "taut/numerics/complementarity.hpp"
 #include "taut/scene/path.hpp"
 #include "taut/scene/runs.hpp"
 #include "taut/status.hpp"
 #include "taut/tracking/affine_map.hpp"
+#include "taut/tracking/sliding.hpp"
 
 namespace taut {
 
@@ -35,12 +35,14 @@ template <class CondensedType>
 class Tracker {
  public:
   using Scalar = typename CondensedType::Scalar;
+  using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
+  using Loads = Drive<Real, Cap>;
   /// Everything that has moved along the cables.
   struct Moving {
-    FixedArray<Scalar, Cap::joints> slip;                   ///< delta of every joint [m]
-    FixedArray<std::array<Scalar, 2>, Cap::cables> payout;  ///< at start and end of every cable [m]
-    FixedArray<Scalar, Cap::segments> excess;  ///< length that every run has too much [m], zero if taut
+    FixedArray<Real, Cap::joints> slip;                   ///< delta of every joint [m]
+    FixedArray<std::array<Real, 2>, Cap::cables> payout;  ///< at start and end of every cable [m]
+    FixedArray<Real, Cap::segments> excess;  ///< length that every run has too much [m], zero if taut
   };
   /// Events in one call. Of 100,000 random logs 26 reached it.
   static constexpr int default_budget = 64 + 16 * Cap::segments;
@@ -49,29 +51,22 @@ class Tracker {
   Progress<Scalar> start(const CondensedType& condensed, int event_budget = default_budget) {
     model_ = &condensed;
     runs_.find(condensed.cables, [&condensed](int j) { return condensed.is_locked(j); });
-    first_of_run_.clear();
-    for (const auto& run : runs_) first_of_run_.add(run.segment(0));
     jacks_.clear();
     for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) { jacks_.add({c, end}); });
-    for (const auto& cable : condensed.cables)
-      for (int j = 0; j < cable.joints(); ++j) {
-        const auto sides = cable.joint_segments(j);
-        sides_[cable.first_joint + j] = {static_cast<std::int16_t>(sides[0]),
-                                         static_cast<std::int16_t>(sides[1])};
-      }
-    slip_ = {};
-    payout_ = {};
-    excess_ = {};
+    laws_.find(condensed);
+    for (int j = 0; j < joints(); ++j) rho_[j] = static_cast<Scalar>(condensed.rho[j]);
+    moved_ = {};
     slides_ = {};
     last_ = {};
-    live_ = {};
     slack_ = {};
-    loose_ = {};
-    has_loose_ = false;
+    rests_ = {};
     tension_ = {};
+    force_ = {};
     now_ = {};
     goal_ = {};
     goal_.prestrain = 1;
+    has_spare_ = false;
+    for (const JackedEnd& jack : jacks_) has_spare_ = has_spare_ || is_spare(jack.cable, jack.end);
     map_is_old_ = true;
     peak_ = 0;
     return follow(event_budget);
@@ -84,17 +79,13 @@ class Tracker {
   /// Fails with `bad_sample` (nothing was done), or at `fraction` of the path with `pulled_through` (names
   /// the cable), `mechanism` (names a joint whose sliding sets its node free) or `state_iterations`.
   Progress<Scalar> advance(const Sample<Scalar, Cap>& sample, int event_budget = default_budget) {
+    if (quick(sample)) return {};
     const Status usable = check_sample(model_->cables, model_->loads, sample);
     if (!usable) return {usable, Scalar(0), 0};
     set_goal(sample);
     for (const JackedEnd& jack : jacks_)
       if (is_spare(jack.cable, jack.end) && !spare_agrees(jack.cable))
         return {Status::at(Code::pulled_through, Place::cable, jack.cable), Scalar(0), 0};
-    if (brings_new_input()) {
-      freeze(moves());
-      map_is_old_ = true;
-    }
-    if (quick()) return {};
     return follow(event_budget);
   }
 
@@ -103,53 +94,59 @@ class Tracker {
 
   /// Slips, payouts and excess lengths at the end of the path followed.
   Moving moves() const {
-    Moving moving{slip_, payout_, excess_};
+    Moving moving = moved_;
     if (map_is_old_) return moving;
     Inputs x;
     values(now_, x);
     for (int i = 0; i < map_.active(); ++i) {
       const Move& move = map_.move(i);
-      const Scalar at = map_.active_move(i, x);
+      const Real at = map_.active_move(i, x);
       if (move.kind == Move::Kind::slip) moving.slip[move.index] = at;
       if (move.kind == Move::Kind::payout)
         moving.payout[move.index / 2][static_cast<std::size_t>(move.index % 2)] = at;
       if (move.kind == Move::Kind::excess) moving.excess[move.index] = at;
     }
-    for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
-      if (goal_.jack[c][end].locked) moving.payout[c][end] = now_.jack[c][end].payout;
-    });
+    for (const JackedEnd& jack : jacks_)
+      if (goal_.jack[jack.cable][jack.end].locked)
+        moving.payout[jack.cable][jack.end] = now_.jack[jack.cable][jack.end].payout;
     return moving;
   }
   const CondensedType& model() const { return *model_; }
   /// The loads and jack forces reached.
-  const Drive<Scalar, Cap>& loads() const { return now_; }
+  const Loads& loads() const { return now_; }
   const Runs<Scalar, Cap>& runs() const { return runs_; }
   bool is_slack(const Run<Scalar>& run) const { return is_slack(run.segment(0)); }
   /// What the joint did on the last piece of the path, apart from slack.
   JointState motion(int joint) const {
-    for (int i = 0; i < map_.active(); ++i) {
+    for (int i = 0; !map_is_old_ && i < map_.active(); ++i) {
       if (map_.move(i).kind != Move::Kind::slip || map_.move(i).index != joint) continue;
-      const Scalar rate = map_.move_rate(i, last_);
-      if (rate == 0 || !loose_[joint]) return rate == 0 ? JointState::stick : slides_[joint];
+      const Real rate = map_.move_rate(i, last_);
+      if (rate == 0 || slides_[joint] != JointState::stick)
+        return rate == 0 ? JointState::stick : slides_[joint];
       return rate > 0 ? JointState::forward : JointState::backward;
     }
     return JointState::stick;
   }
-  /// The largest tension so far [N].
-  Scalar peak() const { return peak_; }
+  /// The largest force so far, but for what came and went between two events [N].
+  Scalar peak() const {
+    Scalar most = static_cast<Scalar>(peak_);
+    for (int i = 0; i < model_->segments; ++i) most = std::fmax(most, tension_[i]);
+    return most;
+  }
 
   /// The state at the end of the path followed. Forces of struts only if their rows are given.
   void respond(Response<Scalar, Cap>& response, const CondensedStruts<Scalar, Cap>* struts = nullptr) const {
     const Moving moved = moves();
     for (int i = 0; i < model_->segments; ++i) response.tension[i] = tension(i);
     for (int c = 0; c < model_->cables.size(); ++c) {
-      response.payout[c] = moved.payout[c];
+      for (std::size_t end = 0; end < 2; ++end)
+        response.payout[c][end] = static_cast<Scalar>(moved.payout[c][end]);
       const auto& cable = model_->cables[c];
       for (int k = 0; k < cable.joints(); ++k) {
         const int j = cable.first_joint + k;
         const auto sides = cable.joint_segments(k);
         const Scalar T1 = tension(sides[0]), T2 = tension(sides[1]);
-        response.slip[j] = moved.slip[j];
+        response.slip[j] = static_cast<Scalar>(moved.slip[j]);
         response.contact[j] = (T1 + T2) * model_->cos_alpha[j];
         response.friction[j] = (T2 - T1) * model_->sin_alpha[j];
         response.state[j] = is_slack(sides[0]) && is_slack(sides[1]) ? JointState::open : motion(j);
@@ -161,22 +158,151 @@ class Tracker {
  private:
   using Map = AffineMap<CondensedType>;
   using Tensions = typename Map::Tensions;
-  using Inputs = FixedArray<Scalar, Map::max_inputs>;
-  using Loads = Drive<Scalar, Cap>;
+  using Inputs = typename Map::Inputs;
+  using Rounded = typename Map::Rounded;
+  using States = FixedArray<JointState, Cap::joints>;
 
-  static constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
+  static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
   /// Forces closer than this part of the largest force so far are equal.
-  static constexpr Scalar tolerance = sizeof(Scalar) == sizeof(float) ? Scalar(4e-6) : Scalar(1e-12);
+  static constexpr Real tolerance = sizeof(Real) == sizeof(float) ? Real(4e-6) : Real(1e-12);
+  /// The same in a sample without an event.
+  static constexpr Scalar quick_tolerance = sizeof(Scalar) == sizeof(float) ? Scalar(1e-6) : Scalar(1e-12);
 
   struct JackedEnd {
     int cable = 0;
     std::size_t end = 0;
   };
 
-  Scalar force_tolerance() const { return tolerance * peak_; }
+  struct RunLimit {
+    int segment;
+    Scalar spare;  ///< least tension
+  };
+  /// How rounding is allowed for when the states are decided.
+  struct Doubt {
+    Real width = 1;            ///< times the tolerance
+    bool nearer_only = false;  ///< a joint under tension is at the nearer of its limits alone
+    bool may_rest = true;      ///< see find_resting()
+    int attempts = 3;          ///< to find what slides
+  };
+  static constexpr Doubt doubts[] = {{1, false, false, 3}, {1, true, true, 3},    {16, false, true, 3},
+                                     {16, true, true, 3},  {256, false, true, 3}, {256, true, true, 3},
+                                     {1, false, true, 64}};
+
+  Real force_tolerance() const { return tolerance * peak_; }
+  Real equal() const { return doubt_.width * force_tolerance(); }
   bool is_slack(int segment) const { return slack_[runs_.of(segment)]; }
   /// Zero at compile time where the capacity is, so that no code for joints is left.
   int joints() const { return Cap::joints == 0 ? 0 : model_->joints; }
+
+  // A sample without an event.
+
+  /// Goes to the sample if no state changes on the way; both ends of the straight path within the limits is
+  /// enough. Otherwise nothing is changed.
+  bool quick(const Sample<Scalar, Cap>& sample) {
+    if (map_is_old_ || !arrived_ || has_spare_) return false;
+    for (const JackedEnd& jack : jacks_)
+      if (sample.jack[jack.cable][jack.end].locked != goal_.jack[jack.cable][jack.end].locked) return false;
+    FixedArray<Scalar, Map::max_inputs> x;
+    bool keeps = true, regroups = false, moves = false;
+    for (int k = 0; k < map_.inputs(); ++k) {
+      x[k] = given(map_.input(k), sample, at_[k]);
+      const Scalar dx = x[k] - at_[k];
+      if (!(dx - dx == 0)) return false;
+      const bool changes = dx != 0;
+      if (changes && !(std::fabs(x[k]) <= reach_[k])) return false;
+      if (changes && map_.input(k).kind == Input::Kind::jack_force && (x[k] < 0 || has_resting_))
+        return false;
+      keeps = keeps && (!changes || map_.keeps(k, dx > 0));
+      moves = moves || changes;
+      regroups = regroups || (changes && !live_[k]);
+    }
+    if (!moves) {
+      last_.fill(Real(0));
+      return true;
+    }
+    if (!keeps || map_.has_slack()) {
+      if (!goes_on(x)) return false;
+    }
+    if (regroups) regroup(x);
+    Rounded T = constant_;
+    for (int k = 0; k < map_.inputs(); ++k) {
+      if (!live_[k]) continue;
+      const Scalar dx = x[k] - anchor_[k];
+      const Rounded& column = map_.rounded_column(k);
+      for (int i = 0; i < model_->segments; ++i) T[i] += dx * column[i];
+    }
+    if (!is_within_limits(T)) return false;
+    tension_ = T;
+    for (int k = 0; k < map_.inputs(); ++k) {
+      last_[k] = static_cast<Real>(x[k] - at_[k]);
+      if (last_[k] == 0) continue;
+      set_value(map_.input(k), static_cast<Real>(x[k]), now_);
+      at_[k] = x[k];
+    }
+    return true;
+  }
+  static Scalar given(const Input& input, const Sample<Scalar, Cap>& sample, Scalar otherwise) {
+    if (input.kind == Input::Kind::load) return sample.factor[input.index];
+    if (input.kind == Input::Kind::jack_force)
+      return sample.jack[input.index / 2][static_cast<std::size_t>(input.index % 2)].force;
+    return otherwise;
+  }
+  bool goes_on(const FixedArray<Scalar, Map::max_inputs>& given) const {
+    Inputs x, dx;
+    for (int k = 0; k < map_.inputs(); ++k) {
+      x[k] = static_cast<Real>(given[k]);
+      dx[k] = static_cast<Real>(given[k] - at_[k]);
+    }
+    return map_.goes_on(dx, Real(0)) && map_.stays_slack(x);
+  }
+  /// Inputs that do not change are added up once.
+  void regroup(const FixedArray<Scalar, Map::max_inputs>& x) {
+    constant_ = map_.rounded_base();
+    for (int k = 0; k < map_.inputs(); ++k) {
+      live_[k] = x[k] != at_[k];
+      if (live_[k]) continue;
+      const Scalar dx = at_[k] - anchor_[k];
+      const Rounded& column = map_.rounded_column(k);
+      for (int i = 0; i < model_->segments; ++i) constant_[i] += dx * column[i];
+    }
+  }
+  /// The friction cones, and T >= 0: with something to spare where a joint sticks or a run is taut, give or
+  /// take rounding where a law holds them at the limit.
+  bool is_within_limits(const Rounded& T) const {
+    int outside = 0;
+    if constexpr (Cap::joints > 0) {
+      for (const auto& cable : model_->cables) outside += joints_outside(cable, T);
+    }
+    for (const RunLimit& run : run_limits_) outside += !(T[run.segment] >= run.spare);
+    return outside == 0;
+  }
+  int joints_outside(const CableLayout<Scalar>& cable, const Rounded& T) const {
+    const int n = cable.segments();
+    const Scalar* const t = T.items.data() + cable.first_segment;
+    // The joint after segment i is joint i of an open cable, joint i + 1 of a hoop.
+    const int after = cable.first_joint + (cable.closed ? 1 : 0);
+    const Scalar* const rho = rho_.items.data() + after;
+    const Scalar* const spare = spare_.items.data() + after;
+    int outside = 0;
+    for (int i = 0; i + 1 < n; ++i)
+      outside += !(t[i] - rho[i] * t[i + 1] >= spare[i]) + !(t[i + 1] - rho[i] * t[i] >= spare[i]);
+    if (cable.closed) {
+      const Scalar closing = rho_[cable.first_joint], left = spare_[cable.first_joint];
+      outside += !(t[n - 1] - closing * t[0] >= left) + !(t[0] - closing * t[n - 1] >= left);
+    }
+    return outside;
+  }
+  void set_limits() {
+    const Scalar part = quick_tolerance * static_cast<Scalar>(peak_);
+    for (int j = 0; j < joints(); ++j)
+      spare_[j] = slides_[j] == JointState::stick && can_slide(j) ? part : -part;
+    run_limits_.clear();
+    has_resting_ = false;
+    for (int r = 0; r < runs_.size(); ++r) {
+      run_limits_.add({runs_[r].segment(0), slack_[r] || is_jacked(runs_[r]) ? -part : part});
+      has_resting_ = has_resting_ || rests_[r];
+    }
+  }
 
   // From sample to path.
 
@@ -186,21 +312,19 @@ class Tracker {
     for (const JackedEnd& jack : jacks_)
       changes =
           changes || sample.jack[jack.cable][jack.end].locked != goal_.jack[jack.cable][jack.end].locked;
-    if (!changes) {
-      for (int i = 0; i < model_->loads; ++i) goal_.factor[i] = sample.factor[i];
-      for (const JackedEnd& jack : jacks_) {
-        auto& goal = goal_.jack[jack.cable][jack.end];
-        if (!goal.locked) goal.force = sample.jack[jack.cable][jack.end].force;
-      }
-      return;
+    if (changes) {
+      moved_ = moves();
+      find_forces();
     }
-    Response<Scalar, Cap> present;
-    respond(present);
-    freeze(moves());
-    set_path(model_->cables, model_->loads, present, sample, now_, goal_);
-    for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
-      now_.jack[c][end].locked = goal_.jack[c][end].locked;
-    });
+    const auto force = [this](int c, std::size_t end) { return force_[model_->cables[c].end_segment(end)]; };
+    const auto payout = [this](int c, std::size_t end) { return moved_.payout[c][end]; };
+    set_path(model_->cables, model_->loads, sample, force, payout, now_, goal_);
+    if (!changes) return;
+    has_spare_ = false;
+    for (const JackedEnd& jack : jacks_) {
+      now_.jack[jack.cable][jack.end].locked = goal_.jack[jack.cable][jack.end].locked;
+      has_spare_ = has_spare_ || is_spare(jack.cable, jack.end);
+    }
     // A jack that takes hold of a slack run draws it straight; its payout follows from its force.
     for (int r = 0; r < runs_.size(); ++r)
       if (slack_[r] && is_jacked(runs_[r])) draw_straight(r);
@@ -213,321 +337,321 @@ class Tracker {
     const auto& cable = model_->cables[run.cable];
     const bool at_start = run.segment(0) == cable.end_segment(0) && cable.ends[0] == End::jacked &&
                           !goal_.jack[run.cable][0].locked;
-    for (int i = 0; !at_start && i < run.joints(); ++i) slip_[run.joint(i)] += excess_[r];
+    for (int i = 0; !at_start && i < run.joints(); ++i) moved_.slip[run.joint(i)] += moved_.excess[r];
     slack_[r] = false;
-    excess_[r] = 0;
+    moved_.excess[r] = 0;
   }
 
-  Scalar value(const Input& input, const Loads& loads) const {
+  static Real value(const Input& input, const Loads& loads) {
     if (input.kind == Input::Kind::load) return loads.factor[input.index];
     if (input.kind == Input::Kind::prestrain) return loads.prestrain;
     const auto& jack = loads.jack[input.index / 2][static_cast<std::size_t>(input.index % 2)];
     return input.kind == Input::Kind::jack_force ? jack.force : jack.payout;
   }
+  /// Of a load or a jack force.
+  static void set_value(const Input& input, Real value, Loads& loads) {
+    if (input.kind == Input::Kind::load) loads.factor[input.index] = value;
+    if (input.kind == Input::Kind::jack_force)
+      loads.jack[input.index / 2][static_cast<std::size_t>(input.index % 2)].force = value;
+  }
   void values(const Loads& loads, Inputs& x) const {
     for (int k = 0; k < map_.inputs(); ++k) x[k] = value(map_.input(k), loads);
   }
 
-  // Moves.
-
-  void freeze(const Moving& moves) {
-    slip_ = moves.slip;
-    payout_ = moves.payout;
-    excess_ = moves.excess;
-  }
-
-  Move slip_of(int joint) const {
-    if (Cap::joints == 0) return {};
-    const auto& sides = sides_[joint];
-    return {Move::Kind::slip, joint, sides[0], sides[1]};
-  }
-  /// Forward: T_before = rho T_after. Backward: T_after = rho T_before.
-  Law<Scalar> limit_of(int joint, JointState way) const {
-    const Move slip = slip_of(joint);
-    const bool forward = way == JointState::forward;
-    return {forward ? slip.lengthened : slip.shortened, forward ? slip.shortened : slip.lengthened,
-            model_->rho[joint]};
-  }
-  static Scalar sign(JointState way) { return way == JointState::forward ? Scalar(1) : Scalar(-1); }
-
   /// A run that ends in an unlocked jack cannot go slack: the jack draws it straight.
   bool is_jacked(const Run<Scalar>& run) const {
-    bool jacked = false;
-    for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
-      const int segment = model_->cables[c].end_segment(end);
-      jacked = jacked || (c == run.cable && !goal_.jack[c][end].locked &&
-                          (segment == run.segment(0) || segment == run.segment(run.count - 1)));
-    });
-    return jacked;
+    for (const JackedEnd& jack : jacks_)
+      if (pulls(jack, run)) return true;
+    return false;
+  }
+  bool pulls(const JackedEnd& jack, const Run<Scalar>& run) const {
+    if (jack.cable != run.cable || goal_.jack[jack.cable][jack.end].locked) return false;
+    const int segment = model_->cables[jack.cable].end_segment(jack.end);
+    return segment == run.segment(0) || segment == run.segment(run.count - 1);
   }
   /// On a cable of one segment with two jacks at work the start's payout rests, and the end's does for both.
   bool is_spare(int c, std::size_t end) const {
     return end == 0 && model_->cables[c].segments() == 1 && model_->cables[c].ends[1] == End::jacked &&
            !goal_.jack[c][1].locked;
   }
-
   /// Two jacks on one segment balance only if they pull alike.
   bool spare_agrees(int c) const {
-    const Scalar F0 = goal_.jack[c][0].force, F1 = goal_.jack[c][1].force;
-    return std::fabs(F0 - F1) <= Scalar(64) * tolerance * std::fmax(F0, F1);
+    const Real F0 = goal_.jack[c][0].force, F1 = goal_.jack[c][1].force;
+    return std::fabs(F0 - F1) <= Real(64) * tolerance * std::fmax(F0, F1);
   }
 
   // The map.
 
-  /// Makes the map of the present state from totals. Returns -1, or an active move that nothing resists.
+  /// Makes the map of the present state from totals; the moves must be frozen at it. Returns -1, or an active
+  /// move that nothing resists: then there is none.
   int rebuild() {
     map_.clear(*model_);
-    for_each_jacked_end(model_->cables, [&](int c, std::size_t end) { add_jack(c, end); });
+    for (const JackedEnd& jack : jacks_) add_jack(jack.cable, jack.end);
     for (int r = 0; r < runs_.size(); ++r)
-      if (slack_[r]) add_slack_run(r);
+      if (slack_[r])
+        add_slack_run(r);
+      else if (rests_[r])
+        add_resting_run(r);
     for (int j = 0; j < joints(); ++j)
-      if (slides_[j] != JointState::stick)
-        map_.add_active(slip_of(j), limit_of(j, slides_[j]), sign(slides_[j]));
-    for (int i = 0; i < model_->loads; ++i) {
-      live_[i] = now_.factor[i] != goal_.factor[i];
-      if (live_[i]) map_.add_input({Input::Kind::load, i});
-    }
-    if (now_.prestrain != goal_.prestrain) map_.add_input({Input::Kind::prestrain, 0});
-    map_is_old_ = false;
-    const int loose = map_.factor();
-    if (loose >= 0) return loose;
-    map_.make_base(frozen_tensions());
-    map_.make_columns();
-    return -1;
+      if (slides_[j] != JointState::stick) map_.add(laws_.sliding(Candidate::of(j, slides_[j])));
+    for (int i = 0; i < model_->loads; ++i) map_.add_input(Input::Kind::load, i);
+    if (now_.prestrain != goal_.prestrain) map_.add_input(Input::Kind::prestrain, 0);
+    typename Map::Moves moves;
+    for (int i = 0; i < map_.active(); ++i) moves[i] = moved(map_.move(i));
+    Inputs x;
+    values(now_, x);
+    const int loose = map_.make(totals(), moves, x);
+    map_is_old_ = loose >= 0;
+    return loose;
   }
   void add_jack(int c, std::size_t end) {
     const int index = 2 * c + static_cast<int>(end);
     const auto& start = now_.jack[c][end];
     const auto& goal = goal_.jack[c][end];
     if (!goal.locked && !is_spare(c, end)) {
-      map_.add_active(map_.payout_move(index), {model_->cables[c].end_segment(end), -1, Scalar(0)});
-      map_.add_input({Input::Kind::jack_force, index});
+      map_.add({Map::payout_move(*model_, index), Law<Real>::on(model_->cables[c].end_segment(end)), 0});
+      map_.add_input(Input::Kind::jack_force, index);
     }
-    if (goal.locked && start.payout != goal.payout) map_.add_input({Input::Kind::payout, index});
+    if (goal.locked && start.payout != goal.payout) map_.add_input(Input::Kind::payout, index);
   }
   /// Its tensions are zero; its slips and its excess length follow. A ring keeps the slip of one joint: it
   /// may turn freely.
   void add_slack_run(int r) {
     const Run<Scalar>& run = runs_[r];
     for (int i = 0; i < run.count; ++i) {
-      const int joint = run.joint(i);
       const bool last = i == run.count - 1;
-      map_.add_active(last ? Move{Move::Kind::excess, r, run.segment(0), -1} : slip_of(joint),
-                      {run.segment(i), -1, Scalar(0)});
+      map_.add({last ? Move::of(Move::Kind::excess, r, run.segment(0)) : laws_.slip(run.joint(i)),
+                Law<Real>::on(run.segment(i)), 0});
     }
   }
-  /// Tensions of everything that does not change along the path, the active moves at zero.
-  Tensions frozen_tensions() const {
+  /// Its jacks keep the end segments at zero, its slips all others. Between two jacks the cable may move as a
+  /// whole; one joint keeps its place.
+  void add_resting_run(int r) {
+    const Run<Scalar>& run = runs_[r];
+    bool at_start = false, at_end = false;
+    for (const JackedEnd& jack : jacks_) {
+      at_start = at_start || (pulls(jack, run) && jack.end == 0);
+      at_end = at_end || (pulls(jack, run) && jack.end == 1);
+    }
+    for (int i = at_start && at_end ? 1 : 0; i < run.joints(); ++i)
+      map_.add({laws_.slip(run.joint(i)), Law<Real>::on(run.segment(at_end ? i : i + 1)), 0});
+  }
+  Real moved(const Move& move) const {
+    if (move.kind == Move::Kind::slip) return moved_.slip[move.index];
+    if (move.kind == Move::Kind::excess) return moved_.excess[move.index];
+    return moved_.payout[move.index / 2][static_cast<std::size_t>(move.index % 2)];
+  }
+  /// Tensions from the present loads and everything that has moved.
+  Tensions totals() const {
     Tensions e, T;
-    e.fill(Scalar(0));
-    T.fill(Scalar(0));
-    if (now_.prestrain == goal_.prestrain)
-      for (int i = 0; i < model_->segments; ++i) T[i] = now_.prestrain * model_->prestrain[i];
-    for (int k = 0; k < model_->loads; ++k)
-      for (int i = 0; !live_[k] && i < model_->segments; ++i) T[i] += now_.factor[k] * model_->load[k][i];
-    FixedArray<bool, Cap::joints> moves;
-    moves.fill(false);
-    for (int i = 0; i < map_.active(); ++i)
-      if (map_.move(i).kind == Move::Kind::slip) moves[map_.move(i).index] = true;
-    for (int j = 0; j < joints(); ++j)
-      if (!moves[j]) Map::impose(slip_of(j), slip_[j], e);
-    for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
-      const Move move = map_.payout_move(2 * c + static_cast<int>(end));
-      const auto& goal = goal_.jack[c][end];
-      if (goal.locked && now_.jack[c][end].payout == goal.payout) Map::impose(move, goal.payout, e);
-      if (!goal.locked && is_spare(c, end)) Map::impose(move, payout_[c][end], e);
-    });
+    e.fill(Real(0));
+    T.fill(Real(0));
+    for (int i = 0; i < model_->segments; ++i) {
+      T[i] = now_.prestrain * model_->prestrain[i];
+      for (int k = 0; k < model_->loads; ++k) T[i] += now_.factor[k] * model_->load[k][i];
+    }
+    impose(moved_, e);
     model_->coupling.add(model_->segments, e, T);
     return T;
   }
-
-  // A sample without an event.
-
-  /// Whether a load changes that the present map has as a constant.
-  bool brings_new_input() const {
-    for (int k = 0; k < model_->loads; ++k)
-      if (!live_[k] && goal_.factor[k] != now_.factor[k]) return true;
-    return false;
-  }
-
-  /// Goes to the goal if no state changes on the way; both ends of the straight path within the limits is
-  /// enough.
-  bool quick() {
-    if (map_is_old_ || has_loose_) return false;
-    Inputs x, dx;
-    for (int k = 0; k < map_.inputs(); ++k) {
-      const Input input = map_.input(k);
-      x[k] = value(input, goal_);
-      dx[k] = x[k] - value(input, now_);
-      if (dx[k] == 0 && input.kind == Input::Kind::load) {
-        map_.fold(k--, goal_.factor[input.index]);
-        live_[input.index] = false;
-      }
-    }
-    if (!map_.goes_on(dx) || !map_.stays_slack(x)) return false;
-    Tensions T;
-    map_.tensions(x, T);
-    if (!is_within_limits(T)) return false;
-    tension_ = T;
-    now_ = goal_;
-    last_ = dx;
-    return true;
-  }
-  /// The friction cones, and T >= 0. Sliding joints are at their limit, give or take the rounding that is
-  /// allowed for.
-  bool is_within_limits(const Tensions& T) const {
-    const Scalar least = -force_tolerance();
-    bool within = true;
-    for (int j = 0; j < joints(); ++j) {
-      const Scalar T1 = T[sides_[j][0]], T2 = T[sides_[j][1]], rho = model_->rho[j];
-      within = within & (T1 - rho * T2 >= least) & (T2 - rho * T1 >= least);
-    }
-    for (const int segment : first_of_run_) within = within & (T[segment] >= least);
-    return within;
+  void impose(const Moving& moved, Tensions& e) const {
+    for (int j = 0; j < joints(); ++j) laws_.slip(j).impose(moved.slip[j], e);
+    for (const JackedEnd& jack : jacks_)
+      e[model_->cables[jack.cable].end_segment(jack.end)] += moved.payout[jack.cable][jack.end];
+    for (int r = 0; r < runs_.size(); ++r) e[runs_[r].segment(0)] += moved.excess[r];
   }
 
   // From event to event.
 
-  /// A joint that would leave its friction cone, and where.
-  struct Candidate {
-    int joint = -1;
-    JointState way = JointState::stick;
-  };
-
   Progress<Scalar> follow(int event_budget) {
     Progress<Scalar> progress;
-    progress.fraction = 0;
-    const Loads from = now_;
-    measure_path();
+    find_forces();
+    Real rest = 1;  // of the path
     Candidate next;
     int stalled = 0;
     for (;;) {
-      progress.status = decide(from, next);
-      if (!progress.status) return progress;
+      measure_path();
+      progress.status = decide_for_sure(next);
+      if (!progress.status) break;
       Inputs dx;
-      directions(from, dx);
-      const Scalar rest = Scalar(1) - progress.fraction;
-      const Scalar step = piece(dx, rest, next);
-      const bool done = step >= rest || (rest - step) * change(dx) <= force_tolerance();
-      progress.fraction = done ? Scalar(1) : progress.fraction + step;
-      now_ = Loads::between(from, goal_, progress.fraction);
+      directions(dx);
+      const Real step = piece(dx, next);  // of what is left of the path
+      const bool done =
+          Real(1) - step <= Real(4) * epsilon || (Real(1) - step) * change(dx) <= force_tolerance();
+      now_ = Loads::between(now_, goal_, done ? Real(1) : step);
+      rest = done ? Real(0) : rest * (Real(1) - step);
       Inputs x;
       values(now_, x);
-      map_.tensions(x, tension_);
-      for (int i = 0; i < model_->segments; ++i) peak_ = std::fmax(peak_, std::fabs(tension_[i]));
+      map_.tensions(x, force_);
+      for (int i = 0; i < model_->segments; ++i) peak_ = std::fmax(peak_, std::fabs(force_[i]));
       last_ = dx;
-      if (map_.law_violation(tension_, x) > Scalar(8) * force_tolerance()) {
+      if (map_.law_violation(force_, x) > Real(8) * force_tolerance())
         progress.status = Status::at(Code::ill_conditioned, Place::none, -1);
-        return progress;
-      }
-      if (done) return progress;
+      if (!progress.status || done) break;
       stalled = step > 0 ? 0 : stalled + 1;
       if (stalled > 8 + 4 * joints()) {
         progress.status = at_joint(Code::state_iterations, next.joint);
-        return progress;
+        break;
       }
-      if (++progress.events >= event_budget) return progress;
+      if (++progress.events >= event_budget) break;
+    }
+    progress.fraction = static_cast<Scalar>(Real(1) - rest);
+    // Rounding must not say that a path came to its end which did not.
+    if (rest > 0 && progress.fraction >= Scalar(1))
+      progress.fraction = Scalar(1) - std::numeric_limits<Scalar>::epsilon();
+    arrived_ = progress.status.ok() && rest == 0;
+    round();
+    return progress;
+  }
+  /// What samples without an event start from.
+  void round() {
+    set_limits();
+    for (int i = 0; i < model_->segments; ++i) tension_[i] = static_cast<Scalar>(force_[i]);
+    live_.fill(false);
+    for (int k = 0; k < map_.inputs(); ++k) {
+      at_[k] = static_cast<Scalar>(value(map_.input(k), now_));
+      reach_[k] = Scalar(16) * std::fabs(at_[k]);
+      anchor_[k] = static_cast<Scalar>(map_.anchor()[k]);
     }
   }
+  void find_forces() {
+    if (map_is_old_) return;
+    Inputs x;
+    values(now_, x);
+    map_.tensions(x, force_);
+  }
 
-  /// What the loads would do with every joint stuck is as large as any force: it says what is rounding.
+  /// What the loads would do with every joint stuck, on what is left of the path, is as large as any force:
+  /// it says what is rounding.
   void measure_path() {
     push_ = 0;
     for (int i = 0; i < model_->segments; ++i) {
-      measure(goal_.prestrain * model_->prestrain[i],
-              (goal_.prestrain - now_.prestrain) * model_->prestrain[i]);
-      for (int k = 0; k < model_->loads; ++k)
-        measure(goal_.factor[k] * model_->load[k][i],
-                (goal_.factor[k] - now_.factor[k]) * model_->load[k][i]);
+      peak_ = std::fmax(peak_, force_[i]);
+      const auto prestrain = model_->prestrain[i];
+      measure(goal_.prestrain * prestrain, (goal_.prestrain - now_.prestrain) * prestrain);
+      for (int k = 0; k < model_->loads; ++k) {
+        const auto load = model_->load[k][i];
+        measure(goal_.factor[k] * load, (goal_.factor[k] - now_.factor[k]) * load);
+      }
     }
     for (const JackedEnd& jack : jacks_) {
       const auto& start = now_.jack[jack.cable][jack.end];
       const auto& goal = goal_.jack[jack.cable][jack.end];
       const int segment = model_->cables[jack.cable].end_segment(jack.end);
       measure(goal.force, goal.force - start.force);
-      const Scalar drawn = model_->coupling(segment, segment) * (goal.payout - start.payout);
+      const Real drawn = model_->coupling(segment, segment) * (goal.payout - start.payout);
       measure(drawn, drawn);
     }
   }
-  void measure(Scalar force, Scalar change) {
+  void measure(Real force, Real change) {
     peak_ = std::fmax(peak_, std::fabs(force));
     push_ = std::fmax(push_, std::fabs(change));
   }
-  /// Rates of force along the path below this are zero [N].
-  Scalar rate_tolerance() const { return Scalar(64) * epsilon * push_; }
+  /// Rates of force along the path below this are zero [N]; all of them if the path itself is rounding.
+  Real rate_tolerance() const {
+    return push_ > epsilon * peak_ ? Real(64) * epsilon * push_ : Real(64) * epsilon * peak_;
+  }
 
   /// Largest change of a tension, or of what a slack run's excess length stands for, along the whole path
   /// [N].
-  Scalar change(const Inputs& dx) const {
+  Real change(const Inputs& dx) const {
     Tensions rate;
     map_.tension_rates(dx, rate);
-    Scalar most = 0;
+    Real most = 0;
     for (int i = 0; i < model_->segments; ++i) most = std::fmax(most, std::fabs(rate[i]));
-    for (int i = 0; i < map_.active(); ++i) {
-      const Move& move = map_.move(i);
-      if (move.kind == Move::Kind::excess)
-        most = std::fmax(
-            most, std::fabs(model_->coupling(move.lengthened, move.lengthened) * map_.move_rate(i, dx)));
-    }
+    for (int i = 0; i < map_.active(); ++i)
+      if (map_.move(i).kind == Move::Kind::excess)
+        most = std::fmax(most, std::fabs(map_.stiffness(i) * map_.move_rate(i, dx)));
     return most;
   }
-  void directions(const Loads& from, Inputs& dx) const {
-    Inputs end;
-    values(goal_, end);
-    values(from, dx);
-    for (int k = 0; k < map_.inputs(); ++k) dx[k] = end[k] - dx[k];
+  /// What is left of the path.
+  void directions(Inputs& dx) const {
+    for (int k = 0; k < map_.inputs(); ++k) dx[k] = value(map_.input(k), goal_) - value(map_.input(k), now_);
   }
 
-  /// How far the present piece goes, at most `rest` [fraction of the path]; `next` is the joint at its end,
+  /// How far the present piece goes, as a part of what is left of the path; `next` is the joint at its end,
   /// if it is one.
-  Scalar piece(const Inputs& dx, Scalar rest, Candidate& next) const {
+  Real piece(const Inputs& dx, Candidate& next) const {
     Tensions rate;
     map_.tension_rates(dx, rate);
-    Scalar step = rest;
+    Real step = 1;
     next = {};
-    const auto shorten = [&](Scalar room, Scalar falling, const Candidate& found) {
+    const auto shorten = [&](Real room, Real falling, const Candidate& found) {
       // At the limit, and held there by decide(): what is left is rounding.
-      if (room <= force_tolerance() && falling >= -Scalar(16) * rate_tolerance()) return;
+      if (room <= force_tolerance() && falling >= -Real(16) * rate_tolerance()) return;
       if (falling >= 0 || room > -falling * step) return;
-      step = room > 0 ? room / -falling : Scalar(0);
+      step = room > 0 ? room / -falling : Real(0);
       next = found;
     };
     for (int j = 0; j < joints(); ++j) {
-      if (slides_[j] != JointState::stick || model_->is_locked(j) || is_slack(slip_of(j).lengthened))
-        continue;
+      if (slides_[j] != JointState::stick || !can_slide(j)) continue;
       for (const JointState way : {JointState::forward, JointState::backward}) {
-        const Law<Scalar> limit = limit_of(j, way);
-        shorten(limit.of(tension_), limit.of(rate), {j, way});
+        const Candidate candidate = Candidate::of(j, way);
+        const Law<Real> limit = laws_.limit(candidate);
+        shorten(limit.of(force_), limit.of(rate), candidate);
       }
     }
     for (int r = 0; r < runs_.size(); ++r) {
       const int segment = runs_[r].segment(0);
-      if (!slack_[r]) shorten(tension_[segment], rate[segment], {});
+      if (!slack_[r]) shorten(force_[segment], rate[segment], {});
     }
     Inputs x;
     values(now_, x);
-    for (int i = 0; i < map_.active(); ++i) {
-      const Move& move = map_.move(i);
-      if (move.kind != Move::Kind::excess) continue;
-      const Scalar stiffness = model_->coupling(move.lengthened, move.lengthened);
-      shorten(stiffness * map_.active_move(i, x), stiffness * map_.move_rate(i, dx), {});
-    }
+    for (int i = 0; i < map_.active(); ++i)
+      if (map_.move(i).kind == Move::Kind::excess)
+        shorten(map_.stiffness(i) * map_.active_move(i, x), map_.stiffness(i) * map_.move_rate(i, dx), {});
     return step;
+  }
+  /// Locked joints never do; in a run without tension they move as they must.
+  bool can_slide(int joint) const {
+    const int run = runs_.of(laws_.sides(joint)[0]);
+    return !model_->is_locked(joint) && !slack_[run] && !rests_[run];
   }
 
   // The states in the next piece.
 
+  /// Near zero and near two limits at once rounding has a say: if there is no answer, again with more, or
+  /// less, taken for equal.
+  Status decide_for_sure(const Candidate& next) {
+    doubt_ = {};
+    find_resting();
+    const Status status = decide(next);
+    if (status) return status;
+    for (const Doubt& doubt : doubts) {
+      doubt_ = doubt;
+      find_resting();
+      if (decide({})) return Status::success();
+    }
+    return status;
+  }
+  /// Where all jacks of a run are at zero and stay there, friction has nothing to hold: no segment has
+  /// tension, and the cable moves over every joint as the structure does.
+  void find_resting() {
+    for (int r = 0; r < runs_.size(); ++r) {
+      bool rests = doubt_.may_rest && is_jacked(runs_[r]);
+      for (int i = 0; i < runs_[r].count; ++i) rests = rests && force_[runs_[r].segment(i)] <= equal();
+      for (const JackedEnd& jack : jacks_)
+        if (pulls(jack, runs_[r]))
+          rests = rests && now_.jack[jack.cable][jack.end].force <= equal() &&
+                  goal_.jack[jack.cable][jack.end].force <= equal();
+      if (rests == rests_[r]) continue;
+      moved_ = moves();
+      rests_[r] = rests;
+      map_is_old_ = true;
+      for (int i = 0; rests && i < runs_[r].joints(); ++i) slides_[runs_[r].joint(i)] = JointState::stick;
+    }
+  }
   /// Decides which joints slide and which runs are slack from here on, and makes the map for it. `next` is
   /// the joint that ended the piece before.
   ///
   /// A run without tension is first asked whether it would go slack (its excess length grows), and only if
   /// not what slides.
-  Status decide(const Loads& from, const Candidate& next) {
-    freeze(moves());
+  Status decide(const Candidate& next) {
+    moved_ = moves();
     FixedList<int, Cap::segments> asked;
     for (int r = 0; r < runs_.size(); ++r)
       if (is_without_tension(r)) asked.add(r);
-    if (asked.empty()) return decide_slides(from, next);
+    if (asked.empty()) return decide_slides(next);
     // All combinations of a few, slack first; of many, those that contradict themselves change.
     const bool few = asked.size() <= 5;
     const int tries = few ? 1 << asked.size() : 4 * asked.size();
@@ -536,18 +660,19 @@ class Tracker {
     for (int count = 0; count < tries; ++count) {
       for (int i = 0; few && i < asked.size(); ++i) slack_[asked[i]] = (count >> i & 1) == 0;
       map_is_old_ = true;
-      status = decide_slides(from, next);
+      status = decide_slides(next);
       bool agrees = status.ok();
       for (const int r : asked) {
-        const bool fits = status.ok() && (slack_[r] ? excess_grows(r, from) : stays_taut(r, from));
+        const bool fits = status.ok() && (slack_[r] ? excess_grows(r) : stays_taut(r));
         agrees = agrees && fits;
         if (!few && !fits) slack_[r] = !slack_[r];
       }
       if (!agrees) continue;
       for (const int r : asked)
-        if (!slack_[r]) excess_[r] = 0;
+        if (!slack_[r]) moved_.excess[r] = 0;
       return status;
     }
+    map_is_old_ = true;
     return status ? at_joint(Code::state_iterations, runs_[asked[0]].joint(0)) : status;
   }
   bool is_without_tension(int r) const {
@@ -555,25 +680,23 @@ class Tracker {
     if (is_jacked(run)) return false;
     if (slack_[r]) {
       const int segment = run.segment(0);
-      return excess_[r] * model_->coupling(segment, segment) <= force_tolerance();
+      return moved_.excess[r] * model_->coupling(segment, segment) <= equal();
     }
     for (int i = 0; i < run.count; ++i)
-      if (tension_[run.segment(i)] > force_tolerance()) return false;
+      if (force_[run.segment(i)] > equal()) return false;
     return true;
   }
-  bool excess_grows(int r, const Loads& from) const {
+  bool excess_grows(int r) const {
     Inputs dx;
-    directions(from, dx);
-    for (int i = 0; i < map_.active(); ++i) {
-      const Move& move = map_.move(i);
-      if (move.kind == Move::Kind::excess && move.index == r)
-        return map_.move_rate(i, dx) * model_->coupling(move.lengthened, move.lengthened) > rate_tolerance();
-    }
+    directions(dx);
+    for (int i = 0; i < map_.active(); ++i)
+      if (map_.move(i).kind == Move::Kind::excess && map_.move(i).index == r)
+        return map_.move_rate(i, dx) * map_.stiffness(i) > rate_tolerance();
     return false;
   }
-  bool stays_taut(int r, const Loads& from) const {
+  bool stays_taut(int r) const {
     Inputs dx;
-    directions(from, dx);
+    directions(dx);
     Tensions rate;
     map_.tension_rates(dx, rate);
     for (int i = 0; i < runs_[r].count; ++i)
@@ -581,130 +704,95 @@ class Tracker {
     return true;
   }
 
-  using Candidates = FixedList<Candidate, 2 * Cap::joints>;
-  using Rates = Lemke<Scalar, 2 * Cap::joints>;
+  using Rates = Sliding<CondensedType>;
+  using Candidates = typename Rates::Candidates;
 
   /// With runs as they are: rates v >= 0 of the joints at their limits, w = T_small - rho T_big kept >= 0, v
   /// w = 0.
-  Status decide_slides(const Loads& from, const Candidate& next) {
-    const bool as_before = !map_is_old_ && !has_loose_;
-    loose_.fill(false);
-    has_loose_ = false;
-    const FixedArray<JointState, Cap::joints> slid = slides_;
-    const Candidates candidates = at_limit(slid, false);
-    // Most often all goes on as it was and the joint that reached its limit slides too, or all stick.
-    if (as_before && next.joint < 0 && is_consistent(from, candidates)) return Status::success();
-    if (next.joint >= 0) {
-      slides_[next.joint] = next.way;
-      if (rebuild() < 0 && is_consistent(from, candidates)) return Status::success();
+  Status decide_slides(const Candidate& next) {
+    const States slid = slides_;
+    const Candidates candidates = at_limit(slid);
+    // Most often all goes on as it was, and the joint that reached its limit slides too.
+    if (!map_is_old_ && next.joint < 0 && is_consistent(candidates)) return Status::success();
+    if (next.joint >= 0) slides_[next.joint] = next.way;
+    if (next.joint >= 0 && rebuild() < 0 && is_consistent(candidates)) return Status::success();
+    if (guess_toward_jacks() && rebuild() < 0 && is_consistent(candidates)) return Status::success();
+    const Status status = solve_slides(candidates);
+    if (!status) {
+      slides_ = slid;
+      map_is_old_ = true;
     }
-    const Status status = solve_slides(from, candidates);
-    if (status) return status;
-    // Just above zero a joint is at both limits only by rounding; while tension falls it can keep but one.
-    if (solve_slides(from, at_limit(slid, true))) return Status::success();
-    find_loose();
-    if (has_loose_ && solve_slides(from, at_limit(slid, false))) return Status::success();
     return status;
   }
   /// Whether the rates under the present map agree with its states: v >= 0 where it slides, w >= 0 at the
   /// other limits.
-  bool is_consistent(const Loads& from, const Candidates& candidates) const {
+  bool is_consistent(const Candidates& candidates) const {
     Inputs dx;
-    directions(from, dx);
+    directions(dx);
     if (!map_.goes_on(dx, rate_tolerance())) return false;
     Tensions rate;
     map_.tension_rates(dx, rate);
-    const Scalar least = -rate_tolerance();
+    const Real least = -rate_tolerance();
     for (const Candidate& candidate : candidates)
-      if (slides_[candidate.joint] != candidate.way &&
-          limit_of(candidate.joint, candidate.way).of(rate) < least)
-        return false;
+      if (slides_[candidate.joint] != candidate.way && laws_.limit(candidate).of(rate) < least) return false;
     return true;
   }
-  /// In a run whose jacks rest at zero all tensions are zero and every joint slides as the structure moves,
-  /// without friction: the law T_before = rho T_after says that, whichever way it goes.
-  void find_loose() {
-    loose_.fill(false);
-    has_loose_ = false;
-    for (int r = 0; r < runs_.size(); ++r) {
-      const Run<Scalar>& run = runs_[r];
-      int jacks = 0;
-      bool zero = !slack_[r];
-      for (const JackedEnd& jack : jacks_) {
-        const int segment = model_->cables[jack.cable].end_segment(jack.end);
-        const auto& goal = goal_.jack[jack.cable][jack.end];
-        if (goal.locked || (segment != run.segment(0) && segment != run.segment(run.count - 1))) continue;
-        ++jacks;
-        zero = zero && goal.force <= force_tolerance() &&
-               now_.jack[jack.cable][jack.end].force <= force_tolerance();
-      }
-      for (int i = 0; i < run.count; ++i) zero = zero && tension_[run.segment(i)] <= force_tolerance();
-      if (!zero || jacks == 0) continue;
-      // Between two jacks the cable may move as a whole; one joint keeps its place.
-      for (int i = jacks - 1; i < run.joints(); ++i) loose_[run.joint(i)] = has_loose_ = true;
-    }
-  }
-  Candidates at_limit(const FixedArray<JointState, Cap::joints>& slid, bool only_nearer) const {
+  Candidates at_limit(const States& slid) const {
     Candidates candidates;
     for (int j = 0; j < joints(); ++j) {
-      if (loose_[j] || model_->is_locked(j) || is_slack(slip_of(j).lengthened)) continue;
-      const Scalar room_forward = limit_of(j, JointState::forward).of(tension_);
-      const Scalar room_backward = limit_of(j, JointState::backward).of(tension_);
-      bool forward = slid[j] == JointState::forward || room_forward <= force_tolerance();
-      bool backward = slid[j] == JointState::backward || room_backward <= force_tolerance();
-      const bool tense = tension_[sides_[j][0]] > 0 || tension_[sides_[j][1]] > 0;
-      if (only_nearer && tense && forward && backward) {
-        const bool keep =
-            slid[j] == JointState::stick ? room_forward <= room_backward : slid[j] == JointState::forward;
-        forward = keep;
-        backward = !keep;
+      if (!can_slide(j)) continue;
+      const Candidate ahead = Candidate::of(j, JointState::forward),
+                      back = Candidate::of(j, JointState::backward);
+      const Real to_forward = laws_.limit(ahead).of(force_), to_backward = laws_.limit(back).of(force_);
+      bool forward = slid[j] == JointState::forward || to_forward <= equal();
+      bool backward = slid[j] == JointState::backward || to_backward <= equal();
+      if (doubt_.nearer_only && forward && backward && force_[laws_.sides(j)[0]] > 0) {
+        forward = slid[j] == JointState::stick ? to_forward <= to_backward : slid[j] == JointState::forward;
+        backward = !forward;
       }
-      if (forward) candidates.add({j, JointState::forward});
-      if (backward) candidates.add({j, JointState::backward});
+      if (forward) candidates.add(ahead);
+      if (backward) candidates.add(back);
     }
     return candidates;
   }
-  Status solve_slides(const Loads& from, const Candidates& candidates) {
-    for (int j = 0; j < joints(); ++j) slides_[j] = loose_[j] ? JointState::forward : JointState::stick;
+  /// Where a run without tension ends in one jack, the cable moves toward it.
+  bool guess_toward_jacks() {
+    bool any = false;
+    for (const Run<Scalar>& run : runs_) {
+      const JackedEnd* puller = nullptr;
+      int pullers = 0;
+      for (const JackedEnd& jack : jacks_)
+        if (pulls(jack, run)) {
+          puller = &jack;
+          ++pullers;
+        }
+      if (pullers != 1 || force_[run.segment(0)] > force_tolerance()) continue;
+      for (int i = 0; i < run.joints(); ++i) {
+        slides_[run.joint(i)] = puller->end == 1 ? JointState::forward : JointState::backward;
+        any = true;
+      }
+    }
+    return any;
+  }
+  Status solve_slides(const Candidates& candidates) {
+    slides_.fill(JointState::stick);
     const int unresisted = rebuild();
     if (unresisted >= 0) return no_answer(map_.move(unresisted));
     if (candidates.empty()) return Status::success();
     Inputs dx;
-    directions(from, dx);
+    directions(dx);
     Tensions rate;
     map_.tension_rates(dx, rate);
+    const auto others = map_.actives();
     Rates rates;
-    auto outcome = Rates::Outcome::ray;
-    for (int attempt = 0; attempt < 6 && outcome != Rates::Outcome::solved; ++attempt) {
-      pose(rates, candidates, rate);
-      outcome = rates.solve(attempt);
+    for (int attempt = 0; attempt < doubt_.attempts; ++attempt) {
+      const auto outcome = rates.solve(*model_, laws_, others, candidates, rate, rate_tolerance(), attempt);
+      if (outcome != Rates::Outcome::solved) continue;
+      slides_.fill(JointState::stick);
+      for (int i = 0; i < rates.size(); ++i) slides_[candidates[rates[i]].joint] = candidates[rates[i]].way;
+      if (rebuild() < 0) return Status::success();
     }
-    if (outcome != Rates::Outcome::solved) return no_answer(slip_of(candidates[0].joint));
-    bool any = false;
-    for (int k = 0; k < candidates.size(); ++k) {
-      if (!(rates.z(k) > 0)) continue;
-      slides_[candidates[k].joint] = candidates[k].way;
-      any = true;
-    }
-    if (!any) return Status::success();
-    const int free = rebuild();
-    return free < 0 ? Status::success() : no_answer(map_.move(free));
-  }
-
-  /// w = q + M v from the map with all candidates stuck, and its tension rates.
-  void pose(Rates& rates, const Candidates& candidates, const Tensions& rate) const {
-    rates.reset(candidates.size());
-    for (int k = 0; k < candidates.size(); ++k) {
-      Tensions column;
-      typename Map::Moves follow;
-      map_.column_of(slip_of(candidates[k].joint), column);
-      map_.project(column, -1, follow);
-      for (int i = 0; i < candidates.size(); ++i)
-        rates.set_M(i, k,
-                    sign(candidates[k].way) * limit_of(candidates[i].joint, candidates[i].way).of(column));
-      const Scalar q = limit_of(candidates[k].joint, candidates[k].way).of(rate);
-      rates.set_q(k, std::fabs(q) > rate_tolerance() ? q : Scalar(0));
-    }
+    return no_answer(laws_.slip(candidates[0].joint));
   }
 
   /// Why there is none: two jacks that pull the cable through, or a node that its cable alone had held.
@@ -714,10 +802,10 @@ class Tracker {
       const bool both = !cable.closed && cable.ends[0] == End::jacked && cable.ends[1] == End::jacked &&
                         !goal_.jack[c][0].locked && !goal_.jack[c][1].locked;
       if (!both) continue;
-      Scalar carried = 1;
+      Real carried = 1;
       for (int k = 0; k < cable.joints(); ++k) carried *= model_->rho[cable.first_joint + k];
-      const Scalar F0 = now_.jack[c][0].force, F1 = now_.jack[c][1].force;
-      const Scalar margin = 64 * tolerance * std::fmax(F0, F1);
+      const Real F0 = now_.jack[c][0].force, F1 = now_.jack[c][1].force;
+      const Real margin = 64 * tolerance * std::fmax(F0, F1);
       if (F0 <= carried * F1 + margin || F1 <= carried * F0 + margin)
         return Status::at(Code::pulled_through, Place::cable, c);
     }
@@ -732,45 +820,50 @@ class Tracker {
     return Status::at(code, Place::none, -1);
   }
 
-  void strut_forces(const Moving& moves, const CondensedStruts<Scalar, Cap>& rows,
+  void strut_forces(const Moving& moved, const CondensedStruts<Scalar, Cap>& rows,
                     Response<Scalar, Cap>& response) const {
     Tensions e;
-    e.fill(Scalar(0));
-    for (int j = 0; j < joints(); ++j) Map::impose(slip_of(j), moves.slip[j], e);
-    for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
-      Map::impose(map_.payout_move(2 * c + static_cast<int>(end)), moves.payout[c][end], e);
-    });
-    for (int r = 0; r < runs_.size(); ++r)
-      if (slack_[r]) e[runs_[r].segment(0)] += moves.excess[r];
+    e.fill(Real(0));
+    impose(moved, e);
     for (int i = 0; i < Cap::struts; ++i) {
-      Scalar force = now_.prestrain * rows.prestrain[i];
+      Real force = now_.prestrain * rows.prestrain[i];
       for (int k = 0; k < model_->loads; ++k) force += now_.factor[k] * rows.load[k][i];
       for (int segment = 0; segment < model_->segments; ++segment)
         force += e[segment] * rows.elongation[segment][i];
-      response.strut[i] = force;
+      response.strut[i] = static_cast<Scalar>(force);
     }
   }
 
   const CondensedType* model_ = nullptr;
   Runs<Scalar, Cap> runs_;
-  Map map_;
-  Loads now_, goal_;
-  Tensions tension_;
-  FixedArray<Scalar, Cap::joints> slip_;  // frozen, as payout_ and excess_
-  FixedArray<std::array<Scalar, 2>, Cap::cables> payout_;
-  FixedArray<Scalar, Cap::segments> excess_;
-  FixedList<int, Cap::segments> first_of_run_;  // its first segment
+  JointLaws<CondensedType> laws_;
   FixedList<JackedEnd, 2 * Cap::cables> jacks_;
-  FixedArray<std::array<std::int16_t, 2>, Cap::joints> sides_;  // the segments before and after every joint
-  FixedArray<JointState, Cap::joints> slides_;  // stick, forward or backward: the law in force
-  Inputs last_;                                 // direction of the inputs on the last piece
-  FixedArray<bool, Cap::loads> live_;           // load patterns that are inputs of the map
-  FixedArray<bool, Cap::segments> slack_;       // of runs
-  Scalar peak_ = 0;
-  Scalar push_ = 0;  // largest change of force that the path would make with every joint stuck [N]
-  FixedArray<bool, Cap::joints> loose_;  // slides without tension, either way
-  bool has_loose_ = false;
+
+  Loads now_, goal_;
+  Moving moved_;                           // frozen at the anchor of the map
+  States slides_;                          // stick, forward or backward: the law in force
+  FixedArray<bool, Cap::segments> slack_;  // of runs
+  FixedArray<bool, Cap::segments> rests_;  // of runs: without tension since its jacks are at zero
+  Map map_;
   bool map_is_old_ = true;
+  Doubt doubt_;
+  Tensions force_;  // where the last event, or the last call with events, ended
+  Inputs last_;     // direction of the inputs on the last piece
+  Real peak_ = 0;
+  Real push_ = 0;  // largest change of force that the path would make with every joint stuck [N]
+
+  // For samples without an event.
+  Rounded tension_;
+  FixedArray<Scalar, Cap::joints> rho_;
+  Rounded constant_;                       // the map's base and all inputs that do not change
+  FixedArray<Scalar, Cap::joints> spare_;  // least T_small - rho T_big of every joint
+  FixedList<RunLimit, Cap::segments> run_limits_;
+  FixedArray<Scalar, Map::max_inputs> at_, anchor_;
+  FixedArray<Scalar, Map::max_inputs> reach_;  // so large forces are still of the order of peak_
+  FixedArray<bool, Map::max_inputs> live_;     // inputs that do
+  bool arrived_ = false;
+  bool has_spare_ = false;
+  bool has_resting_ = false;
 };
 
 }  // namespace taut

@@ -7,7 +7,7 @@
 
 namespace taut {
 
-/// The largest violation of each condition, relative to the largest tension so far, and where the worst of
+/// The largest violation of each condition, relative to the largest force so far, and where the worst of
 /// all is.
 template <class Scalar>
 struct Verdict {
@@ -29,15 +29,19 @@ struct Verdict {
 template <class CondensedType>
 Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType>& tracker) {
   using Scalar = typename CondensedType::Scalar;
+  using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
   const CondensedType& model = tracker.model();
   const auto moves = tracker.moves();
   const auto& loads = tracker.loads();
-  const Scalar unit = tracker.peak() > 0 ? Scalar(1) / tracker.peak() : Scalar(1);
+  const Real unit = tracker.peak() > 0 ? Real(1) / static_cast<Real>(tracker.peak()) : Real(1);
   Verdict<Scalar> verdict;
+  const auto raise = [](Scalar& worst, Real violation) {
+    worst = std::fmax(worst, static_cast<Scalar>(violation));
+  };
 
-  FixedArray<Scalar, Cap::segments> e, T;
-  e.fill(Scalar(0));
+  FixedArray<Real, Cap::segments> e, T;
+  e.fill(Real(0));
   for (int c = 0; c < model.cables.size(); ++c) {
     const auto& cable = model.cables[c];
     for (int j = 0; j < cable.joints(); ++j) {
@@ -57,39 +61,38 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType>& tra
   model.coupling.add(model.segments, e, T);
 
   for (int i = 0; i < model.segments; ++i) {
-    const Scalar off = std::fabs(T[i] - tracker.tension(i)) * unit;
-    if (off > verdict.imbalance) verdict.segment = i;
-    verdict.imbalance = std::fmax(verdict.imbalance, off);
-    verdict.compression = std::fmax(verdict.compression, -T[i] * unit);
+    const Real off = std::fabs(T[i] - static_cast<Real>(tracker.tension(i))) * unit;
+    if (static_cast<Scalar>(off) > verdict.imbalance) verdict.segment = i;
+    raise(verdict.imbalance, off);
+    raise(verdict.compression, -T[i] * unit);
   }
   for_each_jacked_end(model.cables, [&](int c, std::size_t end) {
     const auto& jack = loads.jack[c][end];
     if (jack.locked) return;
-    const Scalar off = std::fabs(T[model.cables[c].end_segment(end)] - jack.force) * unit;
-    verdict.imbalance = std::fmax(verdict.imbalance, off);
+    const Real off = std::fabs(T[model.cables[c].end_segment(end)] - jack.force) * unit;
+    raise(verdict.imbalance, off);
   });
   for (int r = 0; r < tracker.runs().size(); ++r) {
     const auto& run = tracker.runs()[r];
     if (!tracker.is_slack(run)) continue;
-    const Scalar stiffness = model.coupling(run.segment(0), run.segment(0));
-    verdict.compression = std::fmax(verdict.compression, -moves.excess[r] * stiffness * unit);
-    for (int i = 0; i < run.count; ++i)
-      verdict.compression = std::fmax(verdict.compression, std::fabs(T[run.segment(i)]) * unit);
+    const Real stiffness = model.coupling(run.segment(0), run.segment(0));
+    raise(verdict.compression, -moves.excess[r] * stiffness * unit);
+    for (int i = 0; i < run.count; ++i) raise(verdict.compression, std::fabs(T[run.segment(i)]) * unit);
   }
   for (int c = 0; c < model.cables.size(); ++c) {
     const auto& cable = model.cables[c];
     for (int k = 0; k < cable.joints(); ++k) {
       const int j = cable.first_joint + k;
       const auto sides = cable.joint_segments(k);
-      const Scalar T1 = T[sides[0]], T2 = T[sides[1]], rho = model.rho[j];
-      const Scalar outside = std::fmax(rho * T2 - T1, rho * T1 - T2) * unit;
-      Scalar off_limit = 0;
+      const Real T1 = T[sides[0]], T2 = T[sides[1]], rho = model.rho[j];
+      const Real outside = std::fmax(rho * T2 - T1, rho * T1 - T2) * unit;
+      Real off_limit = 0;
       if (tracker.motion(j) == JointState::forward) off_limit = std::fabs(T1 - rho * T2) * unit;
       if (tracker.motion(j) == JointState::backward) off_limit = std::fabs(T2 - rho * T1) * unit;
-      const Scalar most = std::fmax(outside, off_limit);
+      const auto most = static_cast<Scalar>(std::fmax(outside, off_limit));
       if (most > std::fmax(verdict.outside, verdict.off_limit)) verdict.joint = j;
-      verdict.outside = std::fmax(verdict.outside, outside);
-      verdict.off_limit = std::fmax(verdict.off_limit, off_limit);
+      raise(verdict.outside, outside);
+      raise(verdict.off_limit, off_limit);
     }
   }
   return verdict;

@@ -1,0 +1,116 @@
+// A scene condensed and a tracker started on it, in either precision; compiled once for the scenes that tests
+// share.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "support/saddles.hpp"
+#include "support/scenes.hpp"
+#include "taut/condensation/condense.hpp"
+#include "taut/tracking/tracker.hpp"
+#include "taut/tracking/verify.hpp"
+
+namespace support {
+
+template <class Scalar, class Cap>
+taut::Sample<Scalar, Cap> rounded(const taut::Sample<double, Cap>& sample) {
+  taut::Sample<Scalar, Cap> copy;
+  for (int i = 0; i < Cap::loads; ++i) copy.factor[i] = static_cast<Scalar>(sample.factor[i]);
+  for (int c = 0; c < Cap::cables; ++c)
+    for (std::size_t end = 0; end < 2; ++end)
+      copy.jack[c][end] = {static_cast<Scalar>(sample.jack[c][end].force), sample.jack[c][end].locked};
+  return copy;
+}
+
+/// A tracker with the condensed scene that it follows, somewhere on the heap.
+template <class Scalar, class SceneType>
+class Run {
+ public:
+  using Cap = typename SceneType::Capacity;
+  using Sample = taut::Sample<double, Cap>;
+  using Model = taut::Condensed<Scalar, Cap>;
+  using Tracker = taut::Tracker<Model>;
+
+  explicit Run(const SceneType& scene);
+  ~Run();
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  /// Of the condensation; the tracker was started if this is ok.
+  taut::Status condensed() const { return condensed_; }
+  /// How far the start came.
+  taut::Progress<Scalar> started() const { return started_; }
+  /// Of both.
+  taut::Status status() const { return condensed_ ? started_.status : condensed_; }
+
+  taut::Progress<Scalar> advance(const Sample& sample, int event_budget = Tracker::default_budget);
+
+  double tension(int segment) const;
+  std::vector<double> tensions() const;
+  /// The largest tension so far [N].
+  double peak() const;
+  /// The jack force reached [N].
+  double jack_force(int cable, int end) const;
+  /// The worst of verify().
+  double verified() const;
+
+ private:
+  std::unique_ptr<Model> model_;
+  std::unique_ptr<Tracker> tracker_;
+  taut::Status condensed_;
+  taut::Progress<Scalar> started_;
+};
+
+// Outside the class, and so not inline: an instance that is declared extern is not compiled again.
+
+template <class Scalar, class SceneType>
+Run<Scalar, SceneType>::Run(const SceneType& scene) : model_(new Model), tracker_(new Tracker) {
+  const auto condensation = std::make_unique<taut::Condensation<Scalar, SceneType>>();
+  condensed_ = condensation->run(scene, *model_);
+  if (condensed_) started_ = tracker_->start(*model_);
+}
+
+template <class Scalar, class SceneType>
+Run<Scalar, SceneType>::~Run() = default;
+
+template <class Scalar, class SceneType>
+taut::Progress<Scalar> Run<Scalar, SceneType>::advance(const Sample& sample, int event_budget) {
+  return tracker_->advance(rounded<Scalar>(sample), event_budget);
+}
+
+template <class Scalar, class SceneType>
+double Run<Scalar, SceneType>::tension(int segment) const {
+  return static_cast<double>(tracker_->tension(segment));
+}
+
+template <class Scalar, class SceneType>
+std::vector<double> Run<Scalar, SceneType>::tensions() const {
+  std::vector<double> all;
+  for (int i = 0; i < model_->segments; ++i) all.push_back(tension(i));
+  return all;
+}
+
+template <class Scalar, class SceneType>
+double Run<Scalar, SceneType>::peak() const {
+  return static_cast<double>(tracker_->peak());
+}
+
+template <class Scalar, class SceneType>
+double Run<Scalar, SceneType>::jack_force(int cable, int end) const {
+  return static_cast<double>(tracker_->loads().jack[cable][static_cast<std::size_t>(end)].force);
+}
+
+template <class Scalar, class SceneType>
+double Run<Scalar, SceneType>::verified() const {
+  return static_cast<double>(taut::verify(*tracker_).worst());
+}
+
+extern template class Run<double, Plane>;
+extern template class Run<float, Plane>;
+extern template class Run<double, Space>;
+extern template class Run<float, Space>;
+extern template class Run<double, Saddles>;
+extern template class Run<float, Saddles>;
+
+}  // namespace support

@@ -1,0 +1,117 @@
+// What moves along the cables, and the laws that it obeys while it does.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "taut/condensation/condensed.hpp"
+#include "taut/scene/sample.hpp"
+
+namespace taut {
+
+/// Something that moves along a cable and imposes an elongation: the slip of a joint lengthens the segment
+/// before it and shortens the one after, a payout or an excess length lengthens one segment.
+struct Move {
+  enum class Kind : std::uint8_t { slip, payout, excess } kind = Kind::slip;
+  std::int16_t index = 0;        ///< joint; 2 x cable + end; run
+  std::int16_t lengthened = -1;  ///< segment
+  std::int16_t shortened = -1;   ///< segment, slip only
+
+  static Move of(Kind kind, int index, int lengthened, int shortened = -1) {
+    return {kind, static_cast<std::int16_t>(index), static_cast<std::int16_t>(lengthened),
+            static_cast<std::int16_t>(shortened)};
+  }
+  /// Adds the elongations that it imposes on the segments.
+  template <class Real, class Elongations>
+  void impose(Real by, Elongations& e) const {
+    e[lengthened] += by;
+    if (shortened >= 0) e[shortened] -= by;
+  }
+};
+
+/// What an active move obeys: a weighted sum of two tensions, T_first - weight T_second, is zero or given.
+template <class Real>
+struct Law {
+  std::int16_t first = 0;
+  std::int16_t second = -1;
+  Real weight = 0;
+
+  static Law on(int segment) { return {static_cast<std::int16_t>(segment), -1, Real(0)}; }
+
+  template <class Tensions>
+  Real of(const Tensions& T) const {
+    return second < 0 ? T[first] : T[first] - weight * T[second];
+  }
+};
+
+/// A move that is not frozen.
+template <class Real>
+struct Active {
+  Move move;
+  Law<Real> law;
+  std::int8_t sense = 0;  ///< sign that the move's rate must have, 0 for any
+};
+
+/// Something outside that changes along a path.
+struct Input {
+  enum class Kind : std::uint8_t { load, jack_force, payout, prestrain } kind = Kind::load;
+  std::int16_t index = 0;  ///< load pattern; 2 x cable + end
+};
+
+/// What the law of an active move changes by when another move grows by one: an entry of R W [N/m].
+template <class CondensedType>
+typename CondensedType::Real resistance(const CondensedType& model,
+                                        const Law<typename CondensedType::Real>& law, const Move& move) {
+  const auto tension = [&](int segment) {
+    const auto lengthened = model.coupling(segment, move.lengthened);
+    return move.shortened < 0 ? lengthened : lengthened - model.coupling(segment, move.shortened);
+  };
+  return law.second < 0 ? tension(law.first) : tension(law.first) - law.weight * tension(law.second);
+}
+
+/// A limit of a joint: sliding forward keeps T_before = rho T_after, backward T_after = rho T_before.
+struct Candidate {
+  std::int16_t joint = -1;
+  JointState way = JointState::stick;
+
+  static Candidate of(int joint, JointState way) { return {static_cast<std::int16_t>(joint), way}; }
+};
+
+/// Moves and laws of the joints of a condensed scene.
+template <class CondensedType>
+class JointLaws {
+ public:
+  using Real = typename CondensedType::Real;
+  using Cap = typename CondensedType::Capacity;
+
+  void find(const CondensedType& model) {
+    model_ = &model;
+    for (const auto& cable : model.cables)
+      for (int j = 0; j < cable.joints(); ++j) {
+        const auto sides = cable.joint_segments(j);
+        sides_[cable.first_joint + j] = {static_cast<std::int16_t>(sides[0]),
+                                         static_cast<std::int16_t>(sides[1])};
+      }
+  }
+  /// Segments before and after a joint.
+  const std::array<std::int16_t, 2>& sides(int joint) const { return sides_[joint]; }
+  Move slip(int joint) const {
+    if (Cap::joints == 0) return {};
+    return {Move::Kind::slip, static_cast<std::int16_t>(joint), sides_[joint][0], sides_[joint][1]};
+  }
+  Law<Real> limit(const Candidate& candidate) const {
+    const auto& sides = sides_[candidate.joint];
+    const bool forward = candidate.way == JointState::forward;
+    return {sides[forward ? 0 : 1], sides[forward ? 1 : 0], model_->rho[candidate.joint]};
+  }
+  Active<Real> sliding(const Candidate& candidate) const {
+    return {slip(candidate.joint), limit(candidate),
+            static_cast<std::int8_t>(candidate.way == JointState::forward ? 1 : -1)};
+  }
+
+ private:
+  const CondensedType* model_ = nullptr;
+  FixedArray<std::array<std::int16_t, 2>, Cap::joints> sides_;
+};
+
+}  // namespace taut
