@@ -27,11 +27,11 @@ using support::Exact;
 // equal.
 constexpr double accepted_double = 1e-9, accepted_float = 1e-5;
 
-constexpr int cut_every = 10, reference_every = 20, stepwise_every = 50;
+constexpr int restore_every = 10, cut_every = 10, reference_every = 20, stepwise_every = 50;
 
 /// What came of many scenes, added up.
 struct Tally {
-  long scenes = 0, rows = 0, events = 0, cut = 0, referred = 0, ambiguous = 0, stepped = 0;
+  long scenes = 0, rows = 0, events = 0, cut = 0, referred = 0, ambiguous = 0, stepped = 0, restored = 0;
   double worst_double = 0, worst_float = 0, worst_cut = 0, worst_reference = 0;
   std::array<double, 3> stepwise_off{};  ///< sums of the deviations with 1, 8 and 64 load steps a path
   std::map<std::string, std::vector<std::uint64_t>> refusals, failures;
@@ -44,6 +44,7 @@ struct Tally {
     referred += other.referred;
     ambiguous += other.ambiguous;
     stepped += other.stepped;
+    restored += other.restored;
     worst_double = std::max(worst_double, other.worst_double);
     worst_float = std::max(worst_float, other.worst_float);
     worst_cut = std::max(worst_cut, other.worst_cut);
@@ -80,6 +81,8 @@ class Trial {
     if (!begin(run_) || !follow(found)) return;
     if (in_float) follow_in_float();
     if (seed_ % cut_every == 0) follow_in_pieces(found);
+    if (seed_ % restore_every == 0) follow_restored<double>();
+    if (seed_ % restore_every == 0 && in_float) follow_restored<float>();
     if (seed_ % reference_every == 0 || talkative) compare_with_reference(found);
     if (seed_ % stepwise_every == 0) compare_with_stepwise(found);
   }
@@ -167,6 +170,22 @@ class Trial {
       if (!(off <= accepted_double)) return fail("another answer in pieces");
       tally_.worst_cut = std::max(tally_.worst_cut, off);
       before = goal;
+    }
+  }
+  /// A tracker that is saved and restored after every row goes on with the same bits.
+  template <class Scalar>
+  void follow_restored() {
+    Run<Scalar> run(world_.scene), restored(world_.scene);
+    if (!run.status()) return;
+    ++tally_.restored;
+    for (const Sample& goal : world_.samples) {
+      if (!restored.replace_tracker()) return fail("not restored");
+      const auto progress = run.advance(goal);
+      const auto again = restored.advance(goal);
+      if (progress.status.code != again.status.code || progress.events != again.events ||
+          run.tensions() != restored.tensions())
+        return fail("other bits after restore()");
+      if (!progress.status) return;
     }
   }
   static bool same_locks(const Sample& a, const Sample& b) {
@@ -316,6 +335,7 @@ bool report(Tally& tally) {
   std::printf("%ld scenes, %ld rows, %ld events\n", tally.scenes, tally.rows, tally.events);
   std::printf("worst verify(): double %.1e, float %.1e\n", tally.worst_double, tally.worst_float);
   std::printf("%ld scenes in pieces: worst %.1e\n", tally.cut, tally.worst_cut);
+  std::printf("%ld times saved and restored after every row\n", tally.restored);
   std::printf("%ld scenes against the reference: worst %.1e; %ld had several answers\n", tally.referred,
               tally.worst_reference, tally.ambiguous);
   const auto& off = tally.stepwise_off;

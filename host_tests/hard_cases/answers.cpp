@@ -196,8 +196,7 @@ HARD_CASE(stiff_structure, "a structure 1e3 and 1e6 times as stiff as its cable"
   return all |= stiffness_ratio(1e6);
 }
 
-HARD_CASE(long_and_short, "segments of 1 mm beside 100 m",
-                        "EA/L differs by 1e5 from segment to segment") {
+HARD_CASE(long_and_short, "segments of 1 mm beside 100 m", "EA/L differs by 1e5 from segment to segment") {
   saddles(chain, steel_cable(0.3), path_points({1e-3, 100, 1e-3, 1e-3, 50, 1e-3}, {0.3, 0.2, 0.4, 0.1, 0.3}));
   Measured all = follow(chain, jack_forces<Saddles>({F, F / 3, 1.5 * F, 0, F}));
   taut::Cable<double> cable = steel_cable(0.3, two_jacks);

@@ -46,6 +46,9 @@ class Run {
 
   taut::Progress<Scalar> advance(const Sample& sample, int event_budget = Tracker::default_budget);
 
+  /// Puts the tracker's state into a new one, as after a power failure.
+  taut::Status replace_tracker();
+
   double tension(int segment) const;
   std::vector<double> tensions() const;
   /// The largest tension so far [N].
@@ -73,6 +76,13 @@ Run<Scalar, SceneType>::Run(const SceneType& scene) : model_(new Model), tracker
 
 template <class Scalar, class SceneType>
 Run<Scalar, SceneType>::~Run() = default;
+
+template <class Scalar, class SceneType>
+taut::Status Run<Scalar, SceneType>::replace_tracker() {
+  const auto state = std::make_unique<typename Tracker::State>(tracker_->save());
+  tracker_.reset(new Tracker);
+  return tracker_->restore(*model_, *state);
+}
 
 template <class Scalar, class SceneType>
 taut::Progress<Scalar> Run<Scalar, SceneType>::advance(const Sample& sample, int event_budget) {

@@ -38,6 +38,7 @@ class Tracker {
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
   using Loads = Drive<Real, Cap>;
+  using Map = AffineMap<CondensedType>;
   /// Everything that has moved along the cables.
   struct Moving {
     FixedArray<Real, Cap::joints> slip;                   ///< delta of every joint [m]
@@ -47,29 +48,60 @@ class Tracker {
   /// Events in one call. Of 100,000 random logs 26 reached it.
   static constexpr int default_budget = 64 + 16 * Cap::segments;
 
+  /// All that restore() needs to go on with the same bits. A plain value: it may be stored and read back byte
+  /// by byte, on the same machine and with the same build.
+  struct State {
+    Loads now, goal, built;
+    Moving moved;
+    FixedArray<JointState, Cap::joints> slides;
+    FixedArray<bool, Cap::segments> slack, rests;
+    FixedArray<bool, Map::max_inputs> live;
+    FixedArray<Real, Map::max_inputs> last;
+    FixedArray<Scalar, Map::max_inputs> reach;
+    FixedArray<Scalar, Cap::segments> tension;
+    Real peak = 0;
+    bool has_map = false, arrived = false;
+  };
+
   /// Begins without loads and brings the prestrain on.
   Progress<Scalar> start(const CondensedType& condensed, int event_budget = default_budget) {
-    model_ = &condensed;
-    runs_.find(condensed.cables, [&condensed](int j) { return condensed.is_locked(j); });
-    jacks_.clear();
-    for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) { jacks_.add({c, end}); });
-    laws_.find(condensed);
-    for (int j = 0; j < joints(); ++j) rho_[j] = static_cast<Scalar>(condensed.rho[j]);
-    moved_ = {};
-    slides_ = {};
-    last_ = {};
-    slack_ = {};
-    rests_ = {};
-    tension_ = {};
-    force_ = {};
-    now_ = {};
-    goal_ = {};
-    goal_.prestrain = 1;
-    has_spare_ = false;
-    for (const JackedEnd& jack : jacks_) has_spare_ = has_spare_ || is_spare(jack.cable, jack.end);
-    map_is_old_ = true;
-    peak_ = 0;
+    begin(condensed);
     return follow(event_budget);
+  }
+
+  State save() const {
+    return {now_,  goal_, built_, moved_,   slides_, slack_,       rests_,
+            live_, last_, reach_, tension_, peak_,   !map_is_old_, arrived_};
+  }
+  /// Goes on where save() was called on a tracker of the same scene. Fails with `bad_sample` if the state is
+  /// none of this scene; then only start() or another restore() may follow.
+  Status restore(const CondensedType& condensed, const State& state) {
+    begin(condensed);
+    goal_ = state.goal;
+    now_ = state.built;
+    moved_ = state.moved;
+    slides_ = state.slides;
+    slack_ = state.slack;
+    rests_ = state.rests;
+    peak_ = state.peak;
+    find_spare();
+    const Status broken = Status::at(Code::bad_sample, Place::none, -1);
+    if (!(peak_ >= 0) || (state.has_map && rebuild() >= 0)) return broken;
+    now_ = state.now;
+    last_ = state.last;
+    if (state.has_map)
+      find_forces();
+    else
+      force_ = totals();
+    round();
+    reach_ = state.reach;
+    live_ = state.live;
+    sum_up_constant();
+    tension_ = state.tension;
+    arrived_ = state.arrived;
+    for (int i = 0; i < model_->segments; ++i)
+      if (!std::isfinite(force_[i]) || !std::isfinite(tension_[i])) return broken;
+    return Status::success();
   }
 
   /// Follows the straight path from the present state to the sample. When the event budget is spent
@@ -156,7 +188,6 @@ class Tracker {
   }
 
  private:
-  using Map = AffineMap<CondensedType>;
   using Tensions = typename Map::Tensions;
   using Inputs = typename Map::Inputs;
   using Rounded = typename Map::Rounded;
@@ -187,6 +218,29 @@ class Tracker {
   static constexpr Doubt doubts[] = {{1, false, false, 3}, {1, true, true, 3},    {16, false, true, 3},
                                      {16, true, true, 3},  {256, false, true, 3}, {256, true, true, 3},
                                      {1, false, true, 64}};
+
+  void begin(const CondensedType& condensed) {
+    model_ = &condensed;
+    runs_.find(condensed.cables, [&condensed](int j) { return condensed.is_locked(j); });
+    jacks_.clear();
+    for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) { jacks_.add({c, end}); });
+    laws_.find(condensed);
+    for (int j = 0; j < joints(); ++j) rho_[j] = static_cast<Scalar>(condensed.rho[j]);
+    moved_ = {};
+    slides_ = {};
+    last_ = {};
+    slack_ = {};
+    rests_ = {};
+    tension_ = {};
+    force_ = {};
+    now_ = {};
+    goal_ = {};
+    built_ = {};
+    goal_.prestrain = 1;
+    find_spare();
+    map_is_old_ = true;
+    peak_ = 0;
+  }
 
   Real force_tolerance() const { return tolerance * peak_; }
   Real equal() const { return doubt_.width * force_tolerance(); }
@@ -257,9 +311,12 @@ class Tracker {
   }
   /// Inputs that do not change are added up once.
   void regroup(const FixedArray<Scalar, Map::max_inputs>& x) {
+    for (int k = 0; k < map_.inputs(); ++k) live_[k] = x[k] != at_[k];
+    sum_up_constant();
+  }
+  void sum_up_constant() {
     constant_ = map_.rounded_base();
     for (int k = 0; k < map_.inputs(); ++k) {
-      live_[k] = x[k] != at_[k];
       if (live_[k]) continue;
       const Scalar dx = at_[k] - anchor_[k];
       const Rounded& column = map_.rounded_column(k);
@@ -313,24 +370,26 @@ class Tracker {
       changes =
           changes || sample.jack[jack.cable][jack.end].locked != goal_.jack[jack.cable][jack.end].locked;
     if (changes) {
-      moved_ = moves();
+      freeze();
       find_forces();
     }
     const auto force = [this](int c, std::size_t end) { return force_[model_->cables[c].end_segment(end)]; };
     const auto payout = [this](int c, std::size_t end) { return moved_.payout[c][end]; };
     set_path(model_->cables, model_->loads, sample, force, payout, now_, goal_);
     if (!changes) return;
-    has_spare_ = false;
-    for (const JackedEnd& jack : jacks_) {
+    for (const JackedEnd& jack : jacks_)
       now_.jack[jack.cable][jack.end].locked = goal_.jack[jack.cable][jack.end].locked;
-      has_spare_ = has_spare_ || is_spare(jack.cable, jack.end);
-    }
+    find_spare();
     // A jack that takes hold of a slack run draws it straight; its payout follows from its force.
     for (int r = 0; r < runs_.size(); ++r)
       if (slack_[r] && is_jacked(runs_[r])) draw_straight(r);
     map_is_old_ = true;
   }
 
+  /// Takes the moves where they are, to make another map from.
+  void freeze() {
+    if (!map_is_old_) moved_ = moves();
+  }
   /// What a slack run has too much goes out through the jack: over every joint, if that is at its far end.
   void draw_straight(int r) {
     const Run<Scalar>& run = runs_[r];
@@ -374,6 +433,10 @@ class Tracker {
     return end == 0 && model_->cables[c].segments() == 1 && model_->cables[c].ends[1] == End::jacked &&
            !goal_.jack[c][1].locked;
   }
+  void find_spare() {
+    has_spare_ = false;
+    for (const JackedEnd& jack : jacks_) has_spare_ = has_spare_ || is_spare(jack.cable, jack.end);
+  }
   /// Two jacks on one segment balance only if they pull alike.
   bool spare_agrees(int c) const {
     const Real F0 = goal_.jack[c][0].force, F1 = goal_.jack[c][1].force;
@@ -402,6 +465,7 @@ class Tracker {
     values(now_, x);
     const int loose = map_.make(totals(), moves, x);
     map_is_old_ = loose >= 0;
+    built_ = now_;
     return loose;
   }
   void add_jack(int c, std::size_t end) {
@@ -458,7 +522,8 @@ class Tracker {
     for (int j = 0; j < joints(); ++j) laws_.slip(j).impose(moved.slip[j], e);
     for (const JackedEnd& jack : jacks_)
       e[model_->cables[jack.cable].end_segment(jack.end)] += moved.payout[jack.cable][jack.end];
-    for (int r = 0; r < runs_.size(); ++r) e[runs_[r].segment(0)] += moved.excess[r];
+    for (int r = 0; r < runs_.size(); ++r)
+      if (slack_[r]) e[runs_[r].segment(0)] += moved.excess[r];
   }
 
   // From event to event.
@@ -635,7 +700,7 @@ class Tracker {
           rests = rests && now_.jack[jack.cable][jack.end].force <= equal() &&
                   goal_.jack[jack.cable][jack.end].force <= equal();
       if (rests == rests_[r]) continue;
-      moved_ = moves();
+      freeze();
       rests_[r] = rests;
       map_is_old_ = true;
       for (int i = 0; rests && i < runs_[r].joints(); ++i) slides_[runs_[r].joint(i)] = JointState::stick;
@@ -647,11 +712,11 @@ class Tracker {
   /// A run without tension is first asked whether it would go slack (its excess length grows), and only if
   /// not what slides.
   Status decide(const Candidate& next) {
-    moved_ = moves();
     FixedList<int, Cap::segments> asked;
     for (int r = 0; r < runs_.size(); ++r)
       if (is_without_tension(r)) asked.add(r);
     if (asked.empty()) return decide_slides(next);
+    freeze();
     // All combinations of a few, slack first; of many, those that contradict themselves change.
     const bool few = asked.size() <= 5;
     const int tries = few ? 1 << asked.size() : 4 * asked.size();
@@ -678,13 +743,18 @@ class Tracker {
   bool is_without_tension(int r) const {
     const Run<Scalar>& run = runs_[r];
     if (is_jacked(run)) return false;
-    if (slack_[r]) {
-      const int segment = run.segment(0);
-      return moved_.excess[r] * model_->coupling(segment, segment) <= equal();
-    }
+    if (slack_[r]) return excess(r) * model_->coupling(run.segment(0), run.segment(0)) <= equal();
     for (int i = 0; i < run.count; ++i)
       if (force_[run.segment(i)] > equal()) return false;
     return true;
+  }
+  Real excess(int r) const {
+    if (map_is_old_) return moved_.excess[r];
+    Inputs x;
+    values(now_, x);
+    for (int i = 0; i < map_.active(); ++i)
+      if (map_.move(i).kind == Move::Kind::excess && map_.move(i).index == r) return map_.active_move(i, x);
+    return 0;
   }
   bool excess_grows(int r) const {
     Inputs dx;
@@ -714,6 +784,7 @@ class Tracker {
     const Candidates candidates = at_limit(slid);
     // Most often all goes on as it was, and the joint that reached its limit slides too.
     if (!map_is_old_ && next.joint < 0 && is_consistent(candidates)) return Status::success();
+    freeze();
     if (next.joint >= 0) slides_[next.joint] = next.way;
     if (next.joint >= 0 && rebuild() < 0 && is_consistent(candidates)) return Status::success();
     if (guess_toward_jacks() && rebuild() < 0 && is_consistent(candidates)) return Status::success();
@@ -840,6 +911,7 @@ class Tracker {
   FixedList<JackedEnd, 2 * Cap::cables> jacks_;
 
   Loads now_, goal_;
+  Loads built_;                            // where the map was made
   Moving moved_;                           // frozen at the anchor of the map
   States slides_;                          // stick, forward or backward: the law in force
   FixedArray<bool, Cap::segments> slack_;  // of runs
