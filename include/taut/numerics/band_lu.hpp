@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "taut/numerics/larger.hpp"
+
 namespace taut {
 
 /// A square matrix of at most Max unknowns that is zero outside a band, its factorization and solutions.
@@ -85,7 +87,7 @@ class BandLu {
     Scalar smallest = std::fabs(at(0, 0)), largest = smallest;
     for (int k = 1; k < n_; ++k) {
       smallest = std::fmin(smallest, std::fabs(at(k, k)));
-      largest = std::fmax(largest, std::fabs(at(k, k)));
+      largest = larger(largest, std::fabs(at(k, k)));
     }
     return largest / smallest;
   }
@@ -109,7 +111,7 @@ class BandLu {
     for (int j = 0; j < n_; ++j)
       for (int i = first(j, band_); i <= last(j, band_); ++i) {
         at(i, j) *= column_scale_[index(j)];
-        row_scale_[index(i)] = std::fmax(row_scale_[index(i)], std::fabs(at(i, j)));
+        row_scale_[index(i)] = larger(row_scale_[index(i)], std::fabs(at(i, j)));
       }
     for (int i = 0; i < n_; ++i)
       row_scale_[index(i)] = row_scale_[index(i)] > 0 ? Scalar(1) / row_scale_[index(i)] : Scalar(1);

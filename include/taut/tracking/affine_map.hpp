@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "taut/numerics/band_lu.hpp"
+#include "taut/numerics/larger.hpp"
 #include "taut/tracking/moves.hpp"
 
 namespace taut {
@@ -121,7 +122,7 @@ class AffineMap {
     for (int k = 0; k < inputs(); ++k)
       if (inputs_[k].kind == Input::Kind::jack_force) off[row_of_jack(inputs_[k].index)] -= x[k];
     Real most = 0;
-    for (int i = 0; i < active(); ++i) most = std::fmax(most, std::fabs(off[i]));
+    for (int i = 0; i < active(); ++i) most = larger(most, std::fabs(off[i]));
     return most;
   }
   /// Whether at `x` every slack run still has length to spare.

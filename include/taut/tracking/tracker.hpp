@@ -55,6 +55,7 @@ class Tracker {
     Moving moved;
     FixedArray<JointState, Cap::joints> slides;
     FixedArray<bool, Cap::segments> slack, rests;
+    FixedArray<bool, Cap::loads> has_load;
     FixedArray<bool, Map::max_inputs> live;
     FixedArray<Real, Map::max_inputs> last;
     FixedArray<Scalar, Map::max_inputs> reach;
@@ -70,7 +71,7 @@ class Tracker {
   }
 
   State save() const {
-    return {now_,  goal_, built_, moved_,   slides_, slack_,       rests_,
+    return {now_,  goal_, built_, moved_,   slides_, slack_,       rests_,  has_load_,
             live_, last_, reach_, tension_, peak_,   !map_is_old_, arrived_};
   }
   /// Goes on where save() was called on a tracker of the same scene. Fails with `bad_sample` if the state is
@@ -83,10 +84,11 @@ class Tracker {
     slides_ = state.slides;
     slack_ = state.slack;
     rests_ = state.rests;
+    has_load_ = state.has_load;
     peak_ = state.peak;
     find_spare();
     const Status broken = Status::at(Code::bad_sample, Place::none, -1);
-    if (!(peak_ >= 0) || (state.has_map && rebuild() >= 0)) return broken;
+    if (!(peak_ >= 0) || (state.has_map && make_map() >= 0)) return broken;
     now_ = state.now;
     last_ = state.last;
     if (state.has_map)
@@ -118,6 +120,12 @@ class Tracker {
     for (const JackedEnd& jack : jacks_)
       if (is_spare(jack.cable, jack.end) && !spare_agrees(jack.cable))
         return {Status::at(Code::pulled_through, Place::cable, jack.cable), Scalar(0), 0};
+    for (int i = 0; i < model_->loads; ++i) {
+      if (has_load_[i] || goal_.factor[i] == now_.factor[i]) continue;
+      find_forces();
+      freeze();
+      map_is_old_ = true;
+    }
     return follow(event_budget);
   }
 
@@ -162,7 +170,7 @@ class Tracker {
   /// The largest force so far, but for what came and went between two events [N].
   Scalar peak() const {
     Scalar most = static_cast<Scalar>(peak_);
-    for (int i = 0; i < model_->segments; ++i) most = std::fmax(most, tension_[i]);
+    for (int i = 0; i < model_->segments; ++i) most = larger(most, tension_[i]);
     return most;
   }
 
@@ -236,6 +244,7 @@ class Tracker {
     now_ = {};
     goal_ = {};
     built_ = {};
+    has_load_ = {};
     goal_.prestrain = 1;
     find_spare();
     map_is_old_ = true;
@@ -256,6 +265,8 @@ class Tracker {
     if (map_is_old_ || !arrived_ || has_spare_) return false;
     for (const JackedEnd& jack : jacks_)
       if (sample.jack[jack.cable][jack.end].locked != goal_.jack[jack.cable][jack.end].locked) return false;
+    for (int i = 0; i < model_->loads; ++i)
+      if (!has_load_[i] && sample.factor[i] != factor_[i]) return false;
     FixedArray<Scalar, Map::max_inputs> x;
     bool keeps = true, regroups = false, moves = false;
     for (int k = 0; k < map_.inputs(); ++k) {
@@ -326,28 +337,30 @@ class Tracker {
   /// The friction cones, and T >= 0: with something to spare where a joint sticks or a run is taut, give or
   /// take rounding where a law holds them at the limit.
   bool is_within_limits(const Rounded& T) const {
-    int outside = 0;
     if constexpr (Cap::joints > 0) {
-      for (const auto& cable : model_->cables) outside += joints_outside(cable, T);
+      for (const auto& cable : model_->cables)
+        if (!are_joints_within(cable, T)) return false;
     }
-    for (const RunLimit& run : run_limits_) outside += !(T[run.segment] >= run.spare);
-    return outside == 0;
+    for (const RunLimit& run : run_limits_)
+      if (!(T[run.segment] >= run.spare)) return false;
+    return true;
   }
-  int joints_outside(const CableLayout<Scalar>& cable, const Rounded& T) const {
+  bool are_joints_within(const CableLayout<Scalar>& cable, const Rounded& T) const {
     const int n = cable.segments();
     const Scalar* const t = T.items.data() + cable.first_segment;
     // The joint after segment i is joint i of an open cable, joint i + 1 of a hoop.
     const int after = cable.first_joint + (cable.closed ? 1 : 0);
     const Scalar* const rho = rho_.items.data() + after;
     const Scalar* const spare = spare_.items.data() + after;
-    int outside = 0;
+    bool within = true;
+    // Without a branch at every joint.
     for (int i = 0; i + 1 < n; ++i)
-      outside += !(t[i] - rho[i] * t[i + 1] >= spare[i]) + !(t[i + 1] - rho[i] * t[i] >= spare[i]);
+      within = within & (t[i] - rho[i] * t[i + 1] >= spare[i]) & (t[i + 1] - rho[i] * t[i] >= spare[i]);
     if (cable.closed) {
       const Scalar closing = rho_[cable.first_joint], left = spare_[cable.first_joint];
-      outside += !(t[n - 1] - closing * t[0] >= left) + !(t[0] - closing * t[n - 1] >= left);
+      within = within & (t[n - 1] - closing * t[0] >= left) & (t[0] - closing * t[n - 1] >= left);
     }
-    return outside;
+    return within;
   }
   void set_limits() {
     const Scalar part = quick_tolerance * static_cast<Scalar>(peak_);
@@ -440,7 +453,7 @@ class Tracker {
   /// Two jacks on one segment balance only if they pull alike.
   bool spare_agrees(int c) const {
     const Real F0 = goal_.jack[c][0].force, F1 = goal_.jack[c][1].force;
-    return std::fabs(F0 - F1) <= Real(64) * tolerance * std::fmax(F0, F1);
+    return std::fabs(F0 - F1) <= Real(64) * tolerance * larger(F0, F1);
   }
 
   // The map.
@@ -448,6 +461,10 @@ class Tracker {
   /// Makes the map of the present state from totals; the moves must be frozen at it. Returns -1, or an active
   /// move that nothing resists: then there is none.
   int rebuild() {
+    for (int i = 0; i < model_->loads; ++i) has_load_[i] = now_.factor[i] != goal_.factor[i];
+    return make_map();
+  }
+  int make_map() {
     map_.clear(*model_);
     for (const JackedEnd& jack : jacks_) add_jack(jack.cable, jack.end);
     for (int r = 0; r < runs_.size(); ++r)
@@ -457,7 +474,8 @@ class Tracker {
         add_resting_run(r);
     for (int j = 0; j < joints(); ++j)
       if (slides_[j] != JointState::stick) map_.add(laws_.sliding(Candidate::of(j, slides_[j])));
-    for (int i = 0; i < model_->loads; ++i) map_.add_input(Input::Kind::load, i);
+    for (int i = 0; i < model_->loads; ++i)
+      if (has_load_[i]) map_.add_input(Input::Kind::load, i);
     if (now_.prestrain != goal_.prestrain) map_.add_input(Input::Kind::prestrain, 0);
     typename Map::Moves moves;
     for (int i = 0; i < map_.active(); ++i) moves[i] = moved(map_.move(i));
@@ -548,7 +566,7 @@ class Tracker {
       Inputs x;
       values(now_, x);
       map_.tensions(x, force_);
-      for (int i = 0; i < model_->segments; ++i) peak_ = std::fmax(peak_, std::fabs(force_[i]));
+      for (int i = 0; i < model_->segments; ++i) peak_ = larger(peak_, std::fabs(force_[i]));
       last_ = dx;
       if (map_.law_violation(force_, x) > Real(8) * force_tolerance())
         progress.status = Status::at(Code::ill_conditioned, Place::none, -1);
@@ -571,6 +589,7 @@ class Tracker {
   /// What samples without an event start from.
   void round() {
     set_limits();
+    for (int i = 0; i < model_->loads; ++i) factor_[i] = static_cast<Scalar>(now_.factor[i]);
     for (int i = 0; i < model_->segments; ++i) tension_[i] = static_cast<Scalar>(force_[i]);
     live_.fill(false);
     for (int k = 0; k < map_.inputs(); ++k) {
@@ -591,7 +610,7 @@ class Tracker {
   void measure_path() {
     push_ = 0;
     for (int i = 0; i < model_->segments; ++i) {
-      peak_ = std::fmax(peak_, force_[i]);
+      peak_ = larger(peak_, force_[i]);
       const auto prestrain = model_->prestrain[i];
       measure(goal_.prestrain * prestrain, (goal_.prestrain - now_.prestrain) * prestrain);
       for (int k = 0; k < model_->loads; ++k) {
@@ -609,8 +628,8 @@ class Tracker {
     }
   }
   void measure(Real force, Real change) {
-    peak_ = std::fmax(peak_, std::fabs(force));
-    push_ = std::fmax(push_, std::fabs(change));
+    peak_ = larger(peak_, std::fabs(force));
+    push_ = larger(push_, std::fabs(change));
   }
   /// Rates of force along the path below this are zero [N]; all of them if the path itself is rounding.
   Real rate_tolerance() const {
@@ -623,10 +642,10 @@ class Tracker {
     Tensions rate;
     map_.tension_rates(dx, rate);
     Real most = 0;
-    for (int i = 0; i < model_->segments; ++i) most = std::fmax(most, std::fabs(rate[i]));
+    for (int i = 0; i < model_->segments; ++i) most = larger(most, std::fabs(rate[i]));
     for (int i = 0; i < map_.active(); ++i)
       if (map_.move(i).kind == Move::Kind::excess)
-        most = std::fmax(most, std::fabs(map_.stiffness(i) * map_.move_rate(i, dx)));
+        most = larger(most, std::fabs(map_.stiffness(i) * map_.move_rate(i, dx)));
     return most;
   }
   /// What is left of the path.
@@ -876,7 +895,7 @@ class Tracker {
       Real carried = 1;
       for (int k = 0; k < cable.joints(); ++k) carried *= model_->rho[cable.first_joint + k];
       const Real F0 = now_.jack[c][0].force, F1 = now_.jack[c][1].force;
-      const Real margin = 64 * tolerance * std::fmax(F0, F1);
+      const Real margin = 64 * tolerance * larger(F0, F1);
       if (F0 <= carried * F1 + margin || F1 <= carried * F0 + margin)
         return Status::at(Code::pulled_through, Place::cable, c);
     }
@@ -917,6 +936,7 @@ class Tracker {
   FixedArray<bool, Cap::segments> slack_;  // of runs
   FixedArray<bool, Cap::segments> rests_;  // of runs: without tension since its jacks are at zero
   Map map_;
+  FixedArray<bool, Cap::loads> has_load_;  // as an input
   bool map_is_old_ = true;
   Doubt doubt_;
   Tensions force_;  // where the last event, or the last call with events, ended
@@ -926,6 +946,7 @@ class Tracker {
 
   // For samples without an event.
   Rounded tension_;
+  FixedArray<Scalar, Cap::loads> factor_;  // of the loads that the map has as constants
   FixedArray<Scalar, Cap::joints> rho_;
   Rounded constant_;                       // the map's base and all inputs that do not change
   FixedArray<Scalar, Cap::joints> spare_;  // least T_small - rho T_big of every joint

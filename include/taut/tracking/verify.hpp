@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "taut/numerics/larger.hpp"
 #include "taut/tracking/tracker.hpp"
 
 namespace taut {
@@ -18,7 +19,7 @@ struct Verdict {
   int segment = -1;        ///< of the largest imbalance
   int joint = -1;          ///< of the largest violation of friction
 
-  Scalar worst() const { return std::fmax(std::fmax(imbalance, compression), std::fmax(outside, off_limit)); }
+  Scalar worst() const { return larger(larger(imbalance, compression), larger(outside, off_limit)); }
 };
 
 /// Recomputes equilibrium, T >= 0, the friction cones, and that what slides slides against its friction at
@@ -37,7 +38,7 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType>& tra
   const Real unit = tracker.peak() > 0 ? Real(1) / static_cast<Real>(tracker.peak()) : Real(1);
   Verdict<Scalar> verdict;
   const auto raise = [](Scalar& worst, Real violation) {
-    worst = std::fmax(worst, static_cast<Scalar>(violation));
+    worst = larger(worst, static_cast<Scalar>(violation));
   };
 
   FixedArray<Real, Cap::segments> e, T;
@@ -85,12 +86,12 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType>& tra
       const int j = cable.first_joint + k;
       const auto sides = cable.joint_segments(k);
       const Real T1 = T[sides[0]], T2 = T[sides[1]], rho = model.rho[j];
-      const Real outside = std::fmax(rho * T2 - T1, rho * T1 - T2) * unit;
+      const Real outside = larger(rho * T2 - T1, rho * T1 - T2) * unit;
       Real off_limit = 0;
       if (tracker.motion(j) == JointState::forward) off_limit = std::fabs(T1 - rho * T2) * unit;
       if (tracker.motion(j) == JointState::backward) off_limit = std::fabs(T2 - rho * T1) * unit;
-      const auto most = static_cast<Scalar>(std::fmax(outside, off_limit));
-      if (most > std::fmax(verdict.outside, verdict.off_limit)) verdict.joint = j;
+      const auto most = static_cast<Scalar>(larger(outside, off_limit));
+      if (most > larger(verdict.outside, verdict.off_limit)) verdict.joint = j;
       raise(verdict.outside, outside);
       raise(verdict.off_limit, off_limit);
     }
