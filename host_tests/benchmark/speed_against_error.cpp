@@ -1,50 +1,115 @@
-// Time a sample beside the error that it buys, for both methods and both precisions, in one run.
+// Time a sample beside the error that it buys, for both methods and both precisions, in one run:
 //
-// The log is a ramp to the full jack force, a hold, a release to a third, a hold, and a ramp back: 1000
-// samples. The error is the largest deviation of a tension from the tracker in long double, relative to the
-// jack force.
+//     speed_against_error [--figure FILE.svg] [Google Benchmark's options]
+//
+// Two logs of 1000 samples: a ramp to the full jack force and a hold; and ramp, hold, release to a third,
+// hold, ramp. The error is the largest deviation of a tension from the independent long double reference,
+// relative to the jack force. Prints a table at the end, and draws the figure of the README.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "benchmark/figure.hpp"
+#include "reference/reference.hpp"
 #include "support/scenes.hpp"
 #include "taut/taut.hpp"
 
 namespace {
 
-using support::Plane;
-using Cap = support::PlaneCapacity;
 constexpr double full_force = 2e5;
+constexpr int samples = 1000;
 
-std::vector<double> jack_log() {
-  const double turns[] = {0, 1, 1, 1.0 / 3, 1.0 / 3, 1};
-  std::vector<double> forces;
-  for (int piece = 0; piece < 5; ++piece)
-    for (int i = 1; i <= 200; ++i)
-      forces.push_back(full_force * (turns[piece] + (turns[piece + 1] - turns[piece]) * i / 200.0));
-  return forces;
+/// A truss string structure, or as many rigid saddles.
+template <int Joints>
+struct Elastic : taut::Capacity {
+  static constexpr int panels = Joints + 1, nodes = 3 * panels + 1, struts = 6 * panels - 1;
+  static constexpr int segments = panels, joints = Joints, loads = 2, forces = 2 * panels + 2;
+};
+template <int Joints>
+struct Rigid : taut::Capacity {
+  static constexpr int nodes = Joints + 2, segments = Joints + 1, joints = Joints;
+};
+
+template <class Cap>
+void make_scene(taut::Scene<double, 2, Cap>& scene) {
+  const auto cable = support::steel_cable(0.2);
+  if constexpr (Cap::struts > 0) {
+    support::truss_string(scene, cable, Cap::panels);
+  } else {
+    // An arc that turns by 0.1 at every saddle.
+    std::vector<support::PlanePoint> points{{0, 0}};
+    for (int i = 0; i < Cap::segments; ++i) {
+      const double angle = 0.1 * (i - Cap::segments / 2.0), length = 2 + 0.1 * i;
+      points.push_back(
+          {points.back()[0] + length * std::cos(angle), points.back()[1] + length * std::sin(angle)});
+    }
+    support::rigid_saddles(scene, cable, points);
+  }
 }
 
-template <class Scalar>
+std::vector<double> log_through(const std::vector<double>& turns) {
+  const int pieces = static_cast<int>(turns.size()) - 1, each = samples / pieces;
+  std::vector<double> forces;
+  for (std::size_t piece = 0; piece + 1 < turns.size(); ++piece)
+    for (int i = 1; i <= each; ++i)
+      forces.push_back(full_force * (turns[piece] + (turns[piece + 1] - turns[piece]) * i / each));
+  return forces;
+}
+struct Log {
+  const char* name;
+  std::vector<double> forces;
+};
+const Log& ramp_and_hold() {
+  static const Log log{"ramp and hold", log_through({0, 1, 1})};
+  return log;
+}
+const Log& cycle() {
+  static const Log log{"up, down, up", log_through({0, 1, 1, 1.0 / 3, 1.0 / 3, 1})};
+  return log;
+}
+
+template <class Scalar, class Cap>
 taut::Sample<Scalar, Cap> jacked(double force) {
   taut::Sample<Scalar, Cap> sample;
   sample.jack[0][1].force = static_cast<Scalar>(force);
   return sample;
 }
 
+template <class Cap>
+using Scene = taut::Scene<double, 2, Cap>;
+
+/// The right answer, sample after sample.
+template <class Cap>
+std::vector<std::vector<double>> reference_of(const Scene<Cap>& scene, const Log& log) {
+  reference::Reference reference(scene);
+  std::vector<std::vector<double>> all;
+  if (!reference.start()) return all;
+  for (const double force : log.forces) {
+    if (!reference.advance(jacked<double, Cap>(force))) return {};
+    all.emplace_back();
+    for (int i = 0; i < Cap::segments; ++i) all.back().push_back(static_cast<double>(reference.tension(i)));
+  }
+  return all;
+}
+
 /// A method on a scene; restart() goes back to no load.
-template <class Scalar>
+template <class Scalar_, class Cap_>
 class Tracking {
  public:
-  explicit Tracking(const Plane& scene) {
-    taut::Condensation<Scalar, Plane> condensation;
-    good_ = condensation.run(scene, condensed_).ok();
+  using Scalar = Scalar_;
+  using Cap = Cap_;
+  Tracking(const Scene<Cap>& scene, int) {
+    const auto condensation = std::make_unique<taut::Condensation<Scalar, Scene<Cap>>>();
+    good_ = condensation->run(scene, condensed_).ok();
   }
   void restart() { good_ = tracker_.start(condensed_).status.ok() && good_; }
-  void advance(double force) { good_ = tracker_.advance(jacked<Scalar>(force)).status.ok() && good_; }
+  void advance(const taut::Sample<Scalar, Cap>& sample) {
+    good_ = tracker_.advance(sample).status.ok() && good_;
+  }
   Scalar tension(int segment) const { return tracker_.tension(segment); }
   bool good() const { return good_; }
 
@@ -54,74 +119,157 @@ class Tracking {
   bool good_ = true;
 };
 
-template <class Scalar>
+template <class Scalar_, class Cap_>
 class Stepping {
  public:
-  Stepping(const Plane& scene, int substeps) : scene_(scene), substeps_(substeps) {}
+  using Scalar = Scalar_;
+  using Cap = Cap_;
+  Stepping(const Scene<Cap>& scene, int substeps) : scene_(scene), substeps_(substeps) {}
   void restart() { good_ = solver_.start(scene_).ok(); }
-  void advance(double force) { good_ = solver_.advance(jacked<Scalar>(force), substeps_).ok() && good_; }
+  void advance(const taut::Sample<Scalar, Cap>& sample) {
+    good_ = solver_.advance(sample, substeps_).ok() && good_;
+  }
   Scalar tension(int segment) const { return solver_.response().tension[segment]; }
   bool good() const { return good_; }
 
  private:
-  const Plane& scene_;
+  const Scene<Cap>& scene_;
   int substeps_;
-  taut::Stepwise<Scalar, Plane> solver_;
+  taut::Stepwise<Scalar, Scene<Cap>> solver_;
+  bool good_ = true;
+};
+
+/// The least that a sample can cost: T = base + column x load, and two comparisons a joint.
+template <class Scalar_, class Cap_>
+class BareMap {
+ public:
+  using Scalar = Scalar_;
+  using Cap = Cap_;
+  BareMap(const Scene<Cap>&, int) {
+    column_.fill(Scalar(1));
+    rho_.fill(Scalar(0.9));
+    base_.fill(Scalar(0));
+  }
+  void restart() {}
+  void advance(const taut::Sample<Scalar, Cap>& sample) {
+    const Scalar x = sample.jack[0][1].force;
+    for (int i = 0; i < Cap::segments; ++i) T_[i] = base_[i] + x * column_[i];
+    bool within = true;
+    for (int i = 0; i < Cap::joints; ++i)
+      within = within & (T_[i] >= rho_[i] * T_[i + 1]) & (T_[i + 1] >= rho_[i] * T_[i]);
+    good_ = good_ && within;
+    benchmark::ClobberMemory();
+  }
+  Scalar tension(int segment) const { return T_[segment]; }
+  bool good() const { return good_; }
+
+ private:
+  taut::FixedArray<Scalar, Cap::segments> base_, column_, T_;
+  taut::FixedArray<Scalar, Cap::joints> rho_;
   bool good_ = true;
 };
 
 template <class Method>
-void run(benchmark::State& state, const Plane& scene, Method& method) {
-  const std::vector<double> forces = jack_log();
-  const auto exact = std::make_unique<Tracking<long double>>(scene);
+double error_of(Method& method, const Scene<typename Method::Cap>& scene, const Log& log) {
+  using Cap = typename Method::Cap;
+  const auto expected = reference_of(scene, log);
+  if (expected.empty()) return -1;
   double error = 0;
   method.restart();
-  exact->restart();
-  for (const double force : forces) {
-    method.advance(force);
-    exact->advance(force);
-    for (int i = 0; i < scene.prestrain.size(); ++i)
-      error = std::fmax(
-          error, std::fabs(static_cast<double>(method.tension(i)) - static_cast<double>(exact->tension(i))));
+  for (std::size_t row = 0; row < log.forces.size(); ++row) {
+    method.advance(jacked<typename Method::Scalar, Cap>(log.forces[row]));
+    for (int i = 0; i < Cap::segments; ++i)
+      error = std::fmax(error, std::fabs(static_cast<double>(method.tension(i)) -
+                                         expected[row][static_cast<std::size_t>(i)]));
   }
-  if (!method.good() || !exact->good()) state.SkipWithError("no answer");
-  for (auto round : state) {
-    static_cast<void>(round);
-    method.restart();
-    for (const double force : forces) method.advance(force);
-    benchmark::DoNotOptimize(method.tension(0));
-  }
-  state.counters["ns_a_sample"] =
-      benchmark::Counter(static_cast<double>(forces.size()) * 1e-9,
-                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-  state.counters["error"] = error / full_force;
+  return error / full_force;
 }
 
-template <class Scalar>
-void register_all(const std::string& name, const Plane& scene) {
-  benchmark::RegisterBenchmark((name + "/tracker").c_str(), [&scene](benchmark::State& state) {
-    const auto method = std::make_unique<Tracking<Scalar>>(scene);
-    run(state, scene, *method);
-  });
-  for (const int substeps : {1, 4, 16, 64, 256})
-    benchmark::RegisterBenchmark((name + "/stepwise/" + std::to_string(substeps)).c_str(),
-                                 [&scene, substeps](benchmark::State& state) {
-                                   const auto method = std::make_unique<Stepping<Scalar>>(scene, substeps);
-                                   run(state, scene, *method);
-                                 });
+template <class Method>
+void run(benchmark::State& state, const Scene<typename Method::Cap>& scene, const Log& log, int substeps,
+         bool has_error) {
+  using Cap = typename Method::Cap;
+  const auto method = std::make_unique<Method>(scene, substeps);
+  const double error = has_error ? error_of(*method, scene, log) : 0;
+  if (error < 0) state.SkipWithError("the reference has no answer");
+  std::vector<taut::Sample<typename Method::Scalar, Cap>> rows;
+  for (const double force : log.forces) rows.push_back(jacked<typename Method::Scalar, Cap>(force));
+  for (auto round : state) {
+    static_cast<void>(round);
+    method->restart();
+    for (const auto& row : rows) method->advance(row);
+    benchmark::DoNotOptimize(method->tension(0));
+  }
+  if (!method->good()) state.SkipWithError("no answer");
+  state.counters["ns_a_sample"] =
+      benchmark::Counter(static_cast<double>(rows.size()) * 1e-9,
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  if (has_error) state.counters["error"] = error;
 }
+
+template <class Scalar, class Cap>
+void register_methods(const Scene<Cap>& scene, const std::string& name, const Log& log) {
+  const std::string head =
+      name + "/" + log.name + "/" + (sizeof(Scalar) == sizeof(float) ? "float" : "double");
+  benchmark::RegisterBenchmark((head + "/bare map").c_str(), [&](benchmark::State& state) {
+    run<BareMap<Scalar, Cap>>(state, scene, log, 0, false);
+  });
+  benchmark::RegisterBenchmark((head + "/tracker").c_str(), [&](benchmark::State& state) {
+    run<Tracking<Scalar, Cap>>(state, scene, log, 0, true);
+  });
+  for (const int substeps : {1, 4, 16, 64, 256}) {
+    // Minutes for nothing new.
+    if (substeps * Cap::joints > 4096) continue;
+    benchmark::RegisterBenchmark((head + "/stepwise " + std::to_string(substeps)).c_str(),
+                                 [&scene, &log, substeps](benchmark::State& state) {
+                                   run<Stepping<Scalar, Cap>>(state, scene, log, substeps, true);
+                                 })
+        ->Iterations(1);
+  }
+}
+
+template <class Cap>
+void register_scene(const std::string& name) {
+  static Scene<Cap> scene;
+  make_scene(scene);
+  for (const Log* log : {&ramp_and_hold(), &cycle()}) {
+    register_methods<double>(scene, name, *log);
+    register_methods<float>(scene, name, *log);
+  }
+}
+
+/// Prints as usual, and keeps what the table and the figure need.
+class Collector : public benchmark::ConsoleReporter {
+ public:
+  std::vector<bench::Point> points;
+
+  void ReportRuns(const std::vector<Run>& runs) override {
+    ConsoleReporter::ReportRuns(runs);
+    for (const Run& run : runs) {
+      if (run.error_occurred || run.counters.count("ns_a_sample") == 0) continue;
+      const bool has_error = run.counters.count("error") > 0;
+      points.push_back(bench::Point::of(run.run_name.function_name, run.counters.at("ns_a_sample"),
+                                        has_error ? double(run.counters.at("error")) : -1));
+    }
+  }
+};
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  static Plane truss, saddles;
-  support::truss_string(truss, support::steel_cable(0.2), 8);
-  support::rigid_saddles(saddles, support::steel_cable(0.2), support::chain_points(8));
-  register_all<double>("truss string, 7 joints/double", truss);
-  register_all<float>("truss string, 7 joints/float", truss);
-  register_all<double>("rigid saddles, 7 joints/double", saddles);
-  register_all<float>("rigid saddles, 7 joints/float", saddles);
+  std::string figure;
+  for (int i = 1; i + 1 < argc; ++i)
+    if (std::strcmp(argv[i], "--figure") == 0) figure = argv[i + 1];
+  register_scene<Elastic<4>>("truss string, 4 joints");
+  register_scene<Elastic<15>>("truss string, 15 joints");
+  register_scene<Elastic<64>>("truss string, 64 joints");
+  register_scene<Rigid<4>>("rigid saddles, 4 joints");
+  register_scene<Rigid<16>>("rigid saddles, 16 joints");
+  register_scene<Rigid<64>>("rigid saddles, 64 joints");
   benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
+  Collector collector;
+  benchmark::RunSpecifiedBenchmarks(&collector);
   benchmark::Shutdown();
+  bench::print_table(collector.points);
+  if (!figure.empty()) bench::draw(collector.points, "truss string, 15 joints", "up, down, up", figure);
 }

@@ -23,8 +23,8 @@ namespace {
 
 using support::Exact;
 
-// Parts of the largest force so far. The tracker takes forces within 1e-12 (double) or 4e-6 (float) for
-// equal.
+// Parts of the largest force so far. The tracker takes forces within 1e-12 for equal, and 1e-6 in a sample
+// without an event in float.
 constexpr double accepted_double = 1e-9, accepted_float = 1e-5;
 
 constexpr int restore_every = 10, cut_every = 10, reference_every = 20, stepwise_every = 50;

@@ -47,7 +47,6 @@ struct Deviation {
   double verified = 0;  ///< worst of verify()
   int events = 0;
   std::string trouble;  ///< what was refused and where; empty if nothing
-  bool refused_as_it_should = false;
 };
 struct Measured {
   Deviation in_double, in_float;

@@ -111,8 +111,11 @@ class AffineMap {
   /// The same going along `dx`, give or take `tolerance` [N].
   bool goes_on(const Inputs& dx, Real tolerance) const {
     for (int i = 0; i < active(); ++i)
-      if (static_cast<Real>(active_[i].sense) * move_rate(i, dx) * stiffness(i) < -tolerance) return false;
+      if (!goes_on(i, dx, tolerance)) return false;
     return true;
+  }
+  bool goes_on(int i, const Inputs& dx, Real tolerance) const {
+    return static_cast<Real>(active_[i].sense) * move_rate(i, dx) * stiffness(i) >= -tolerance;
   }
   /// By how much tensions at `x` miss the laws of the active moves [N]: more than rounding if Real has too
   /// few digits.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "taut/condensation/condensed.hpp"
+#include "taut/numerics/sign_bit.hpp"
 #include "taut/scene/path.hpp"
 #include "taut/scene/runs.hpp"
 #include "taut/status.hpp"
@@ -203,7 +204,7 @@ class Tracker {
 
   static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
   /// Forces closer than this part of the largest force so far are equal.
-  static constexpr Real tolerance = sizeof(Real) == sizeof(float) ? Real(4e-6) : Real(1e-12);
+  static constexpr Real tolerance = Real(1e-12);
   /// The same in a sample without an event.
   static constexpr Scalar quick_tolerance = sizeof(Scalar) == sizeof(float) ? Scalar(1e-6) : Scalar(1e-12);
 
@@ -352,15 +353,14 @@ class Tracker {
     const int after = cable.first_joint + (cable.closed ? 1 : 0);
     const Scalar* const rho = rho_.items.data() + after;
     const Scalar* const spare = spare_.items.data() + after;
-    bool within = true;
-    // Without a branch at every joint.
+    BitsOf<Scalar> bits = 0;
     for (int i = 0; i + 1 < n; ++i)
-      within = within & (t[i] - rho[i] * t[i + 1] >= spare[i]) & (t[i + 1] - rho[i] * t[i] >= spare[i]);
+      bits |= bits_of(t[i] - rho[i] * t[i + 1] - spare[i]) | bits_of(t[i + 1] - rho[i] * t[i] - spare[i]);
     if (cable.closed) {
       const Scalar closing = rho_[cable.first_joint], left = spare_[cable.first_joint];
-      within = within & (t[n - 1] - closing * t[0] >= left) & (t[0] - closing * t[n - 1] >= left);
+      bits |= bits_of(t[n - 1] - closing * t[0] - left) | bits_of(t[0] - closing * t[n - 1] - left);
     }
-    return within;
+    return bits >= 0;
   }
   void set_limits() {
     const Scalar part = quick_tolerance * static_cast<Scalar>(peak_);
@@ -882,7 +882,36 @@ class Tracker {
       for (int i = 0; i < rates.size(); ++i) slides_[candidates[rates[i]].joint] = candidates[rates[i]].way;
       if (rebuild() < 0) return Status::success();
     }
+    if (change_minds(candidates)) return Status::success();
     return no_answer(laws_.slip(candidates[0].joint));
+  }
+  /// Beginning with all that slides toward the jacks, the first joint that disagrees changes its state, until
+  /// none does: seldom needed, and now and then sure where Lemke's method is not.
+  bool change_minds(const Candidates& candidates) {
+    slides_.fill(JointState::stick);
+    guess_toward_jacks();
+    for (int count = 0; count < 8 + 8 * candidates.size(); ++count) {
+      if (rebuild() >= 0) return false;
+      Inputs dx;
+      directions(dx);
+      Tensions rate;
+      map_.tension_rates(dx, rate);
+      int unhappy = -1;
+      for (int i = 0; i < map_.active() && unhappy < 0; ++i)
+        if (!map_.goes_on(i, dx, rate_tolerance())) {
+          unhappy = map_.move(i).index;
+          slides_[unhappy] = JointState::stick;
+        }
+      for (int i = 0; i < candidates.size() && unhappy < 0; ++i) {
+        const Candidate& candidate = candidates[i];
+        if (slides_[candidate.joint] == candidate.way || laws_.limit(candidate).of(rate) >= -rate_tolerance())
+          continue;
+        unhappy = candidate.joint;
+        slides_[unhappy] = candidate.way;
+      }
+      if (unhappy < 0) return true;
+    }
+    return false;
   }
 
   /// Why there is none: two jacks that pull the cable through, or a node that its cable alone had held.
