@@ -4,48 +4,52 @@
 #include <cstddef>
 #include <cstdio>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "host/device.hpp"
 #include "host/log_reader.hpp"
-#include "monitor/monitor.hpp"
-#include "monitor/scenes/rolling_joint.hpp"
+#include "host/memory_link.hpp"
+#include "host/process_link.hpp"
+#include "monitor/frame.hpp"
+#include "monitor/scenes.hpp"
 
 namespace {
 
+using monitor::FlashScene;
 using monitor::host::BadLog;
+using monitor::host::Device;
+using monitor::host::DeviceAnswer;
 using monitor::host::LogReader;
 using monitor::host::LogRow;
-using monitor::scenes::rolling_joint;
-using JointMonitor = monitor::Monitor<monitor::scenes::RollingJoint>;
 
 enum ExitStatus : int { done = 0, no_answer = 1, unusable_input = 2 };
 constexpr std::size_t start = 0, end = 1;
 
 std::vector<std::string> cable_names() {
-  return {std::begin(monitor::scenes::rolling_joint_cables), std::end(monitor::scenes::rolling_joint_cables)};
+  return {FlashScene::cable_names().items.begin(), FlashScene::cable_names().items.end()};
 }
+const auto& layout(std::size_t cable) { return FlashScene::model().cables[static_cast<int>(cable)]; }
 
 /// The jack is at the end of every cable: forward is towards it.
-const char* in_words(taut::JointState state) {
+const char* in_words(char state) {
   switch (state) {
-    case taut::JointState::stick:
+    case 's':
       return "holds";
-    case taut::JointState::forward:
+    case 'f':
       return "slides to jack";
-    case taut::JointState::backward:
+    case 'b':
       return "slides to anchor";
-    case taut::JointState::open:
+    default:
       return "slack";
   }
-  return "";
 }
 
 /// An empty field keeps the jack force of the row before.
-void take_jack_forces(const LogRow& row, JointMonitor::Sample& sample) {
+void take_jack_forces(const LogRow& row, std::vector<float>& forces) {
   for (std::size_t cable = 0; cable < row.cables.size(); ++cable)
-    if (const auto& force = row.cables[cable][end])
-      sample.jack[static_cast<int>(cable)][end].force = static_cast<float>(*force);
+    if (const auto& force = row.cables[cable][end]) forces[cable] = static_cast<float>(*force);
 }
 
 void print_heading() {
@@ -65,18 +69,22 @@ std::string difference(double computed, double measured) {
   return text[0] == '-' && std::fabs(percent) < 0.005 ? text + 1 : text;
 }
 
+double tension(const DeviceAnswer& answer, int segment) {
+  const std::string& field = answer.values.at(static_cast<std::size_t>(segment));
+  return static_cast<double>(monitor::float_of(monitor::host::number_of(field)));
+}
+
 /// One line, for a row in which the anchored end of a cable was measured.
-void print_line(int row, int cable, double measured, const JointMonitor::Sample& sample,
-                const JointMonitor::Reading& reading) {
-  const auto& given = rolling_joint.cables[cable];
-  const int last = given.first_segment + given.segments() - 1;
-  const double anchored = static_cast<double>(reading.forces.tension[given.first_segment]);
-  const double jacked = static_cast<double>(reading.forces.tension[last]);
-  const double load_cell = static_cast<double>(sample.jack[cable][end].force);
-  std::printf("%3d | %-8s | %8.2f  %8.2f  %10s | %9.2f  %9.2f   | %s\n", row,
-              monitor::scenes::rolling_joint_cables[cable], anchored / 1000, measured / 1000,
-              difference(anchored, measured).c_str(), jacked / 1000, load_cell / 1000,
-              in_words(reading.forces.state[given.first_joint]));
+void print_line(int row, std::size_t cable, double measured, double load_cell, const DeviceAnswer& answer) {
+  const auto& given = layout(cable);
+  const auto& model = FlashScene::model();
+  const double anchored = tension(answer, given.first_segment);
+  const double jacked = tension(answer, given.first_segment + given.segments() - 1);
+  const std::string& states =
+      answer.values.at(static_cast<std::size_t>(model.segments) + static_cast<std::size_t>(model.joints));
+  std::printf("%3d | %-8s | %8.2f  %8.2f  %10s | %9.2f  %9.2f   | %s\n", row, cable_names()[cable].c_str(),
+              anchored / 1000, measured / 1000, difference(anchored, measured).c_str(), jacked / 1000,
+              load_cell / 1000, in_words(states.at(static_cast<std::size_t>(given.first_joint))));
 }
 
 /// One line; it must not claim more than was done.
@@ -96,29 +104,30 @@ void require_jacks(const LogReader& log, const std::string& file) {
                    ".end\"; add the load cell at this jack, it drives the model");
 }
 
-int replay(const std::string& file) {
+int replay(const std::string& file, monitor::host::Link& link) {
   LogReader log(file, cable_names());
   require_jacks(log, file);
-  static JointMonitor joint_monitor;
-  const taut::Status started = joint_monitor.start(rolling_joint);
-  if (!started) {
-    std::fprintf(stderr, "monitor: the scene: %s\n", taut::describe(started.code));
+  Device device(link);
+  const auto found = device.choose(0);
+  if (!found.status || found.fingerprint != monitor::fingerprint(FlashScene::model())) {
+    std::fprintf(stderr,
+                 "monitor: the device does not hold the recorded experiment; build it without a scene\n");
     return no_answer;
   }
   print_heading();
-  JointMonitor::Sample sample;
+  std::vector<float> forces(cable_names().size());
   int rows = 0, measurements = 0;
   while (const auto row = log.next()) {
     ++rows;
-    take_jack_forces(*row, sample);
-    const JointMonitor::Reading reading = joint_monitor.take(sample);
-    if (!reading.status) {
-      std::fprintf(stderr, "monitor: row %d: %s\n", rows, taut::describe(reading.status.code));
+    take_jack_forces(*row, forces);
+    const DeviceAnswer answer = device.sample(forces);
+    if (answer.quality != monitor::Quality::good) {
+      std::fprintf(stderr, "monitor: row %d: %s\n", rows, monitor::host::in_words(answer.alarms).c_str());
       return no_answer;
     }
     for (std::size_t cable = 0; cable < row->cables.size(); ++cable) {
       if (!row->cables[cable][start]) continue;
-      print_line(rows, static_cast<int>(cable), *row->cables[cable][start], sample, reading);
+      print_line(rows, cable, *row->cables[cable][start], static_cast<double>(forces[cable]), answer);
       ++measurements;
     }
   }
@@ -126,18 +135,45 @@ int replay(const std::string& file) {
   return done;
 }
 
+int replay_here(const std::string& file) {
+  using Application = monitor::Monitor<monitor::host::MemoryBoard>;
+  static monitor::host::MemoryBoard board;
+  static Application application(board);
+  application.begin();
+  monitor::host::MemoryLink<Application> link(board, application);
+  return replay(file, link);
+}
+
+int usage(int status) {
+  std::puts("usage: monitor [--device COMMAND] [LOG]");
+  std::puts(
+      "Replays a log, without one the recorded experiment, through a device whose serial line is the "
+      "standard");
+  std::puts("input and output of the command, without one through the same application in this program.");
+  return status;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count > 2 ||
-      (count == 2 && (std::string(arguments[1]) == "-h" || std::string(arguments[1]) == "--help"))) {
-    std::puts("usage: monitor [LOG]    replays a log, without one the recorded experiment");
-    return count > 2 ? unusable_input : done;
+  std::vector<std::string> rest(arguments + 1, arguments + count);
+  if (!rest.empty() && (rest[0] == "-h" || rest[0] == "--help")) return usage(done);
+  std::string device;
+  if (rest.size() >= 2 && rest[0] == "--device") {
+    device = rest[1];
+    rest.erase(rest.begin(), rest.begin() + 2);
   }
+  if (rest.size() > 1 || (rest.size() == 1 && rest[0][0] == '-')) return usage(unusable_input);
+  const std::string file = rest.empty() ? MONITOR_RECORDED_LOG : rest[0];
   try {
-    return replay(count == 2 ? arguments[1] : MONITOR_RECORDED_LOG);
+    if (device.empty()) return replay_here(file);
+    monitor::host::ProcessLink link(device);
+    return replay(file, link);
   } catch (const BadLog& problem) {
     std::fprintf(stderr, "monitor: %s\n", problem.what());
     return unusable_input;
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "monitor: %s\n", problem.what());
+    return no_answer;
   }
 }

@@ -273,7 +273,7 @@ class Tracker {
     for (int k = 0; k < map_.inputs(); ++k) {
       x[k] = given(map_.input(k), sample, at_[k]);
       const Scalar dx = x[k] - at_[k];
-      if (!(dx - dx == 0)) return false;
+      if (!std::isfinite(dx)) return false;
       const bool changes = dx != 0;
       if (changes && !(std::fabs(x[k]) <= reach_[k])) return false;
       if (changes && map_.input(k).kind == Input::Kind::jack_force && (x[k] < 0 || has_resting_))

@@ -1,0 +1,217 @@
+// Plays a log to a device and writes what it answers, as `taut simulate --scalar float` would.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "host/device.hpp"
+#include "host/process_link.hpp"
+#include "lib/answer.hpp"
+#include "lib/input_error.hpp"
+#include "lib/log_file.hpp"
+#include "lib/output_file.hpp"
+#include "lib/result_file.hpp"
+#include "lib/scene_file.hpp"
+#include "lib/status_text.hpp"
+#include "lib/text.hpp"
+#include "monitor/frame.hpp"
+
+namespace {
+
+using namespace taut::host;
+using monitor::Alarm;
+using monitor::Alarms;
+using monitor::Quality;
+using monitor::host::Device;
+using monitor::host::DeviceAnswer;
+using monitor::host::in_words;
+
+enum ExitStatus : int { done = 0, no_answer = 1, unusable_input = 2 };
+
+struct Options {
+  std::string device, scene, log, output;
+  std::uint32_t number = 0;
+  bool hex = false, restart = false, stack = false;
+};
+
+/// The numbers of an answer in the places where the writer of results looks for them.
+class AnswerReader {
+ public:
+  AnswerReader(const DeviceAnswer& answer, const SceneDescription& scene) : values_(answer.values) {
+    std::size_t segments = 0, joints = 0;
+    for (const CableDescription& cable : scene.cables) {
+      segments += cable.segments();
+      joints += cable.joints();
+    }
+    reals(found_.tension, segments);
+    reals(found_.slip, joints);
+    states(joints);
+    reals(found_.contact, joints);
+    reals(found_.friction, joints);
+    found_.payout.resize(scene.cables.size());
+    for (std::size_t c = 0; c < scene.cables.size(); ++c)
+      for (std::size_t end = 0; end < 2; ++end)
+        if (scene.cables[c].is_jacked(end)) found_.payout[c][end] = real();
+    reals(found_.strut, scene.struts.size());
+  }
+  const Answer& found() const { return found_; }
+
+ private:
+  const std::string& next() {
+    static const std::string nothing;
+    return at_ < values_.size() ? values_[at_++] : nothing;
+  }
+  // Adding zero makes a positive zero of a negative one, as in every result of the program.
+  double real() { return static_cast<double>(monitor::float_of(monitor::host::number_of(next()))) + 0.0; }
+  void reals(std::vector<double>& to, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) to.push_back(real());
+  }
+  void states(std::size_t joints) {
+    if (joints == 0) return;
+    for (const char letter : next())
+      found_.state.push_back(letter == 'f'   ? taut::JointState::forward
+                             : letter == 'b' ? taut::JointState::backward
+                             : letter == 'o' ? taut::JointState::open
+                                             : taut::JointState::stick);
+    found_.state.resize(joints);
+  }
+
+  const std::vector<std::string>& values_;
+  std::size_t at_ = 0;
+  Answer found_;
+};
+
+class Player {
+ public:
+  Player(const Options& options, const SceneDescription& scene, Device& device)
+      : options_(options), scene_(scene), device_(device) {}
+
+  int play(LogReader& log, OutputFile& output) {
+    take_scene();
+    const NumberFormat format{ScalarType::float32, options_.hex};
+    output.write(result_header(scene_));
+    LogRow row = log.first_row(), before = row;
+    while (log.next(row)) {
+      const DeviceAnswer answer = answer_to(row, before);
+      const std::string place = options_.log + ": line " + std::to_string(row.line);
+      // Doubtful forces are those that `taut simulate` finds too; the remark below says what the device
+      // thinks.
+      if (answer.quality != Quality::good && answer.quality != Quality::doubtful) {
+        output.finish();
+        std::cerr << place << ": " << reason(answer) << "; the result ends before it\n";
+        return no_answer;
+      }
+      // The device has been running for longer than this log.
+      Alarms alarms = answer.alarms;
+      if (row.row == 1) alarms = Alarms(alarms.bits() & ~greeting.bits());
+      if (alarms.bits() != 0)
+        std::cerr << "remark: " << place << ": the device says " << in_words(alarms) << '\n';
+      output.write(result_row(scene_, row.time, AnswerReader(answer, scene_).found(), format));
+      before = row;
+    }
+    output.finish();
+    if (options_.stack) std::cerr << "stack " << device_.information().stack_used << '\n';
+    return done;
+  }
+
+ private:
+  void take_scene() {
+    greeting.raise(Alarm::restarted);
+    greeting.raise(Alarm::bad_frame);
+    const auto found = device_.choose(options_.number);
+    if (!found.status)
+      throw InputError(options_.scene, "", "the device refuses the scene",
+                       failure_text(found.status, scene_));
+    std::size_t segments = 0, joints = 0;
+    for (const CableDescription& cable : scene_.cables) {
+      segments += cable.segments();
+      joints += cable.joints();
+    }
+    if (found.cables != scene_.cables.size() || found.segments != segments || found.joints != joints ||
+        found.loads != scene_.loads.size())
+      throw InputError(options_.scene, "", "the device holds another scene",
+                       "build the firmware for this one with firmware_example/run");
+    // The log is not a load cell: any finite force is a good one.
+    constexpr float largest = std::numeric_limits<float>::max();
+    device_.set_limits(-largest, largest, 0);
+  }
+
+  DeviceAnswer answer_to(const LogRow& row, const LogRow& before) {
+    std::vector<float> numbers;
+    for (const double factor : row.factor) numbers.push_back(static_cast<float>(factor));
+    for (std::size_t c = 0; c < scene_.cables.size(); ++c)
+      for (std::size_t end = 0; end < 2; ++end) {
+        if (!scene_.cables[c].is_jacked(end)) continue;
+        const EndRow& given = row.cables[c][end];
+        if (given.locked != before.cables[c][end].locked)
+          device_.lock(static_cast<int>(c), end, given.locked);
+        numbers.push_back(static_cast<float>(given.force));
+      }
+    DeviceAnswer answer = device_.sample(numbers);
+    if (options_.restart) device_.restart();
+    return answer;
+  }
+
+  std::string reason(const DeviceAnswer& answer) const {
+    if (!answer.status) return failure_text(answer.status, scene_);
+    return "the device says " + in_words(answer.alarms);
+  }
+
+  const Options& options_;
+  const SceneDescription& scene_;
+  Device& device_;
+  Alarms greeting;  // what is no news in the first answer
+};
+
+int play(const Options& options) {
+  const SceneDescription scene = read_scene_file(options.scene);
+  LogRules rules;
+  rules.largest = static_cast<double>(std::numeric_limits<float>::max());
+  check_log(options.log, scene, rules);
+  keep_inputs(options.output, {options.scene, options.log});
+  std::ifstream stream = open_log(options.log);
+  LogReader log(stream, options.log, scene, rules);
+  monitor::host::ProcessLink link(options.device);
+  Device device(link);
+  OutputFile output(options.output);
+  return Player(options, scene, device).play(log, output);
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Plays a log to a device and writes its answers."};
+  Options options;
+  app.add_option("SCENE", options.scene, "Scene file (JSON) that the device holds")->required();
+  app.add_option("LOG", options.log, "Log of loads and jack forces (CSV)")->required();
+  app.add_option("-o", options.output, "Result file (CSV); standard output if absent");
+  app.add_option("--device", options.device, "Command whose standard input and output are the serial line")
+      ->required();
+  app.add_option("--scene", options.number,
+                 "Number of the scene on the device: 0 exported, 1 condensed there");
+  app.add_flag("--hex", options.hex, "Write numbers as the bits of their IEEE values");
+  app.add_flag("--restart", options.restart, "Restart the device after every row");
+  app.add_flag("--stack", options.stack, "Say at the end how much stack the device has used [bytes]");
+  app.footer("Exit status: 0 done; 1 no answer somewhere, or no device; 2 unusable input.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? done : unusable_input;
+  }
+  return play(options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const InputError& error) {
+    std::cerr << error.what() << '\n';
+    return unusable_input;
+  } catch (const std::exception& error) {
+    std::cerr << "monitor: " << error.what() << '\n';
+  }
+  return no_answer;
+}

@@ -1,0 +1,329 @@
+// The application: frames in, frames out, the state kept, the watchdog fed, every trouble said.
+//
+// The folder's README has the frames. Portable: what it needs of a board is in host/memory_board.hpp, the
+// shortest one.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <type_traits>
+
+#include "monitor/alarms.hpp"
+#include "monitor/frame.hpp"
+#include "monitor/one_of.hpp"
+#include "monitor/record.hpp"
+#include "monitor/session.hpp"
+#include "monitor/settings.hpp"
+#include "monitor/start.hpp"
+
+namespace monitor {
+
+constexpr std::uint32_t protocol_version = 1;
+
+/// Holds all its storage: make it static. `Sources` are the scenes, by the numbers of the command C.
+template <class Board, class Settings, class... Sources>
+class Application {
+ public:
+  explicit Application(Board& board) : board_(board), records_(board, slot_size) {}
+
+  /// Takes up the work where the record left it, and says so.
+  void begin() {
+    board_.feed_watchdog();
+    if (board_.start() != Start::commanded) raise(Alarm::restarted);
+    const auto found = records_.find(header_);
+    if (found != Records<Board>::Found::record || !take_up()) {
+      // The very first start has nothing to lose.
+      if (found != Records<Board>::Found::nothing) raise(Alarm::state_lost);
+      choose(0);
+    }
+    last_sample_at_ = board_.milliseconds();
+    answer_information();
+  }
+
+  /// One pass of the main loop: at most one frame, a bounded number of bytes.
+  void step() {
+    board_.feed_watchdog();
+    char byte = 0;
+    for (int i = 0; i < most_bytes_a_pass && board_.read(byte); ++i) {
+      const auto event = reader_.take(byte);
+      if (event == Reader::Event::none) continue;
+      if (event == Reader::Event::frame) {
+        handle(reader_.fields());
+      } else {
+        ++bad_frames_;
+        raise(Alarm::bad_frame);
+        refuse("frame");
+      }
+      break;
+    }
+    watch_line();
+  }
+
+ private:
+  template <class Source>
+  using SessionOf = Session<Source>;
+  static constexpr int most_bytes_a_pass = 64;
+  static constexpr int most_information = 1 + 24 * 9;
+  static constexpr int most_command = 32;
+  static constexpr int most_in = std::max({most_command, SessionOf<Sources>::most_sample...});
+  static constexpr int most_out = std::max({most_information, SessionOf<Sources>::most_answer...});
+  using Reader = FrameReader<most_in>;
+  using Writer = FrameWriter<most_out>;
+
+  /// What is kept beside the state of the session.
+  struct Common {
+    CellLimits limits;
+    std::uint32_t last = 0;      ///< sequence number of the last sample
+    std::uint32_t has_last = 0;  ///< whether there was one since the scene was chosen
+    std::uint32_t latched = 0;   ///< alarms that were not acknowledged
+    std::uint32_t restarts = 0;
+  };
+  static constexpr int slot_size =
+      Records<Board>::size_with(sizeof(Common) + std::max({sizeof(typename SessionOf<Sources>::State)...}));
+  static_assert(2 * slot_size <= Board::memory_size, "the non-volatile memory is too small for two records");
+
+  void raise(Alarm alarm) {
+    pending_.raise(alarm);
+    common_.latched |= pending_.bits();
+  }
+
+  // The record.
+
+  /// From the record that was found.
+  bool take_up() {
+    if (header_.kind >= sizeof...(Sources)) return false;
+    session_.make(static_cast<int>(header_.kind));
+    bool done = false;
+    session_.visit([&](auto& session) {
+      using State = typename std::decay_t<decltype(session)>::State;
+      done = session.begin().ok() && header_.maker == session.maker() &&
+             header_.length == sizeof(Common) + sizeof(State);
+      if (!done) return;
+      const std::uint32_t raised = common_.latched;
+      records_.read(0, &common_, sizeof common_);
+      records_.read(sizeof common_, &session.kept(), sizeof(State));
+      done = session.restore();
+      common_.latched |= raised;
+      ++common_.restarts;
+    });
+    return done;
+  }
+  void keep() {
+    session_.visit([&](auto& session) {
+      if (!session.usable()) return;
+      const auto& state = session.save();
+      RecordHeader header;
+      header.length = sizeof common_ + sizeof state;
+      header.kind = static_cast<std::uint32_t>(session_.which());
+      header.maker = session.maker();
+      records_.begin(header);
+      records_.add(&common_, sizeof common_);
+      records_.add(&state, sizeof state);
+      records_.finish();
+    });
+  }
+
+  // Frames.
+
+  void handle(Fields fields) {
+    char kind = 0;
+    if (!fields.letter(kind)) return refuse("fields");
+    switch (kind) {
+      case 'S':
+        return take_sample(fields);
+      case 'I':
+        return fields.done() ? answer_information() : refuse("fields");
+      case 'P':
+        return fields.done() ? answer_state() : refuse("fields");
+      case 'C':
+        return take_choice(fields);
+      case 'Z':
+      case 'L':
+      case 'J':
+        return take_cell_command(kind, fields);
+      case 'G':
+        return take_limits(fields);
+      case 'Q':
+        if (!fields.done()) return refuse("fields");
+        common_.latched = 0;
+        return done(kind);
+      case 'R':
+        if (!fields.done()) return refuse("fields");
+        acknowledge(kind);
+        return board_.restart();
+      case 'H':
+        if (!fields.done()) return refuse("fields");
+        acknowledge(kind);
+        return board_.hang();
+      default:
+        return refuse("command");
+    }
+  }
+
+  void take_sample(Fields fields) {
+    std::uint32_t sequence = 0;
+    if (!fields.number(sequence)) return refuse("fields");
+    const std::uint32_t ahead = sequence - common_.last;
+    const bool repeated = common_.has_last != 0 && ahead == 0;
+    if (common_.has_last != 0 && ahead > 0x7FFFFFFF) return refuse("sequence");
+    session_.visit([&](auto& session) {
+      if (!session.usable()) {
+        raise(Alarm::scene_refused);
+        return answer_state();
+      }
+      if (!session.read(fields)) return refuse("fields");
+      last_sample_at_ = board_.milliseconds();
+      silent_ = false;
+      // Its answer was lost on the line: the model must not go there twice.
+      if (repeated) return answer_state();
+      if (common_.has_last != 0 && ahead != 1) raise(Alarm::sample_lost);
+      const Alarms found =
+          session.template take<Settings>(common_.limits, [this] { board_.feed_watchdog(); });
+      pending_.add(found);
+      common_.latched |= found.bits();
+      common_.last = sequence;
+      common_.has_last = 1;
+      // First kept, then said: what was said is never forgotten.
+      keep();
+      answer_state();
+    });
+  }
+
+  void take_choice(Fields fields) {
+    std::uint32_t scene = 0;
+    if (!fields.number(scene) || !fields.done()) return refuse("fields");
+    if (scene >= sizeof...(Sources)) return refuse("scene");
+    choose(static_cast<int>(scene));
+    answer_information();
+  }
+  void choose(int scene) {
+    session_.make(scene);
+    common_.has_last = 0;
+    session_.visit([&](auto& session) {
+      if (!session.begin()) raise(Alarm::scene_refused);
+    });
+    board_.feed_watchdog();
+    keep();
+  }
+
+  /// Zero the load cell, lock off, jack again.
+  void take_cell_command(char kind, Fields fields) {
+    std::uint32_t cable = 0, end = 0;
+    if (!fields.number(cable) || !fields.number(end) || !fields.done()) return refuse("fields");
+    session_.visit([&](auto& session) {
+      auto* const cell = session.cell(cable, end);
+      if (cell == nullptr) return refuse("cell");
+      if (kind == 'Z') {
+        // A zero far from zero would hide a force.
+        if (!(cell->last >= common_.limits.least && cell->last <= -common_.limits.least))
+          return refuse("zero");
+        cell->zero = cell->last;
+      } else {
+        cell->locked = kind == 'L';
+      }
+      done(kind);
+    });
+  }
+
+  void take_limits(Fields fields) {
+    CellLimits limits;
+    if (!fields.real(limits.least) || !fields.real(limits.most) || !fields.number(limits.frozen_after) ||
+        !fields.done())
+      return refuse("fields");
+    if (!(limits.least <= 0 && limits.most > 0)) return refuse("limits");
+    common_.limits = limits;
+    done('G');
+  }
+
+  // Answers.
+
+  void done(char kind) {
+    keep();
+    acknowledge(kind);
+  }
+  void acknowledge(char kind) {
+    writer_.begin('K');
+    writer_.letter(kind);
+    send();
+  }
+  void refuse(const char* word) {
+    writer_.begin('E');
+    writer_.word(word);
+    send();
+  }
+  /// Sequence number, quality and alarms, then what the session says.
+  void answer_state() {
+    session_.visit([&](auto& session) {
+      writer_.begin('A');
+      writer_.number(common_.last);
+      writer_.letter(static_cast<char>(session.outcome().quality));
+      writer_.number(pending_.bits());
+      session.write(writer_);
+    });
+    pending_ = {};
+    send();
+  }
+  void answer_information() {
+    writer_.begin('I');
+    writer_.number(protocol_version);
+    writer_.number(session_.which());
+    writer_.number(static_cast<std::uint32_t>(sizeof...(Sources)));
+    session_.visit([&](auto& session) {
+      const auto& status = session.outcome().status;
+      const bool usable = session.usable();
+      writer_.number(static_cast<int>(status.code));
+      writer_.number(static_cast<int>(status.place));
+      writer_.number(status.index);
+      writer_.number(status.cable);
+      writer_.number(usable ? session.model().cables.size() : 0);
+      writer_.number(usable ? session.model().segments : 0);
+      writer_.number(usable ? session.model().joints : 0);
+      writer_.number(usable ? session.model().loads : 0);
+      writer_.number(usable ? fingerprint(session.model()) : 0);
+    });
+    writer_.number(common_.has_last);
+    writer_.number(common_.last);
+    writer_.number(common_.latched);
+    writer_.number(bad_frames_);
+    writer_.number(board_.lost_bytes());
+    writer_.number(common_.restarts);
+    writer_.number(static_cast<std::uint32_t>(board_.start()));
+    writer_.number(board_.stack_used());
+    writer_.number(board_.stack_size());
+    writer_.number(board_.milliseconds());
+    send();
+  }
+  void send() {
+    writer_.finish();
+    board_.write(writer_.text(), writer_.size());
+  }
+
+  void watch_line() {
+    if (board_.lost_bytes() != lost_bytes_) {
+      lost_bytes_ = board_.lost_bytes();
+      raise(Alarm::bytes_lost);
+    }
+    // A difference of times, so that the clock may pass zero.
+    if (silent_ || board_.milliseconds() - last_sample_at_ < Settings::silence_after) return;
+    silent_ = true;
+    raise(Alarm::silence);
+    writer_.begin('!');
+    writer_.number(pending_.bits());
+    send();
+  }
+
+  Board& board_;
+  OneOf<Session<Sources>...> session_;
+  Records<Board> records_;
+  RecordHeader header_;
+  Common common_;
+  Reader reader_;
+  Writer writer_;
+  Alarms pending_;  // since the last answer
+  std::uint32_t bad_frames_ = 0;
+  std::uint32_t lost_bytes_ = 0;
+  std::uint32_t last_sample_at_ = 0;
+  bool silent_ = false;
+};
+
+}  // namespace monitor

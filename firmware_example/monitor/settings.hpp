@@ -1,0 +1,28 @@
+// What belongs to the site and not to the scene.
+#pragma once
+
+#include <cstdint>
+
+namespace monitor {
+
+/// The load cells: what they can say.
+struct CellLimits {
+  float least = -2e4F;               ///< [N]; between this and zero a reading counts as zero
+  float most = 1e7F;                 ///< [N]
+  std::uint32_t frozen_after = 600;  ///< readings in a row with the same bits, 0: never
+};
+
+struct Settings {
+  /// Events of the tracker in one call, 0: as many as it takes by itself.
+  static constexpr int event_budget = 0;
+  /// Calls of the tracker a sample; the watchdog is fed in between.
+  static constexpr int most_calls = 64;
+  /// verify() above this part of the largest force makes an answer doubtful.
+  static constexpr float most_violation = 1e-4F;
+  /// verify() is called for every sample with an event and for every so many others.
+  static constexpr std::uint32_t verify_every = 1;
+  /// Milliseconds without a sample until the device says so.
+  static constexpr std::uint32_t silence_after = 10000;
+};
+
+}  // namespace monitor

@@ -1,0 +1,164 @@
+// The power fails at every byte of the record, and every bit of it flips.
+#include <algorithm>
+
+#include "rig.hpp"
+
+using namespace rig;
+
+namespace {
+
+std::vector<float> recorded_row(std::uint32_t number) {
+  return {1000.0F * static_cast<float>(number), 40000, number % 3 == 0 ? 500.0F : 100.0F};
+}
+std::vector<float> row_of(std::uint32_t scene, std::uint32_t number) {
+  return scene == rolling_joint ? recorded_row(number) : truss_log().at(number - 1);
+}
+
+/// The answers of a device to which nothing happens.
+std::vector<Fields> undisturbed(std::uint32_t scene, std::uint32_t rows) {
+  Plain device;
+  settle(device, scene);
+  std::vector<Fields> answers(1);
+  for (std::uint32_t number = 1; number <= rows; ++number)
+    answers.push_back(state(device.ask(sample(number, row_of(scene, number)))));
+  return answers;
+}
+
+std::uint32_t last_sample(const Fields& information) { return monitor::host::number_of(information.at(14)); }
+std::uint32_t scene_of(const Fields& information) { return monitor::host::number_of(information.at(2)); }
+
+void cut_at_every_byte(std::uint32_t scene, int torn) {
+  constexpr std::uint32_t rows = 6, cut_row = 4;
+  const auto expected = undisturbed(scene, rows);
+  long record = 0;
+  for (long cut = 0; cut == 0 || cut <= record; ++cut) {
+    Plain device;
+    settle(device, scene);
+    for (std::uint32_t number = 1; number < cut_row; ++number)
+      device.ask(sample(number, row_of(scene, number)));
+    const long before = device.board.written;
+    device.board.torn = torn;
+    device.board.bytes_until_cut = cut;
+    device.ask(sample(cut_row, row_of(scene, cut_row)));
+    if (cut == 0) {
+      // How long a record is.
+      Plain whole;
+      whole.board.memory = device.board.memory;
+      settle(whole, scene);
+      const long start = whole.board.written;
+      whole.ask(sample(1, row_of(scene, 1)));
+      record = whole.board.written - start;
+    }
+    REQUIRE(device.board.written - before == std::min(cut, record));
+    device.boot();
+    INFO("cut at byte " << cut << " of " << record);
+    const std::uint32_t last = last_sample(device.greeting);
+    REQUIRE(scene_of(device.greeting) == scene);
+    REQUIRE((last == cut_row || (cut < record && last == cut_row - 1)));
+    REQUIRE(state(device.ask("P")) == expected[last]);
+    for (std::uint32_t number = last + 1; number <= rows; ++number) {
+      const Fields answer = device.ask(sample(number, row_of(scene, number)));
+      REQUIRE(quality(answer) == 'g');
+      REQUIRE(state(answer) == expected[number]);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a power cut at any byte of the record loses at most the last sample") {
+  for (const std::uint32_t scene : {rolling_joint, truss_string}) cut_at_every_byte(scene, -1);
+}
+TEST_CASE("also if the byte of the cut becomes anything") {
+  cut_at_every_byte(rolling_joint, 0x00);
+  cut_at_every_byte(rolling_joint, 0xFF);
+  cut_at_every_byte(truss_string, 0xA5);
+}
+
+TEST_CASE("every single flipped bit of the memory is noticed") {
+  constexpr std::uint32_t rows = 5;
+  const auto expected = undisturbed(truss_string, rows);
+  Plain device;
+  settle(device, truss_string);
+  for (std::uint32_t number = 1; number <= rows; ++number)
+    device.ask(sample(number, row_of(truss_string, number)));
+  const auto memory = device.board.memory;
+  const auto end = std::find_if(memory.rbegin(), memory.rend(), [](auto byte) { return byte != 0; }).base();
+  const auto used = static_cast<std::size_t>(end - memory.begin());
+  int fell_back = 0;
+  for (std::size_t byte = 0; byte < used; ++byte)
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      device.board.memory[byte] = static_cast<std::uint8_t>(memory[byte] ^ 1U << bit);
+      device.boot();
+      const std::uint32_t last = last_sample(device.greeting);
+      INFO("byte " << byte << " bit " << bit);
+      REQUIRE((last == rows || last == rows - 1));
+      fell_back += last == rows ? 0 : 1;
+      REQUIRE(state(device.ask("P")) == expected[last]);
+      device.board.memory[byte] = memory[byte];
+    }
+  CHECK(fell_back > 8 * 100);
+}
+
+TEST_CASE("with both records gone the device says so and begins anew") {
+  Plain device;
+  settle(device, rolling_joint);
+  device.ask(sample(1, {40000, 0, 0}));
+  for (auto& byte : device.board.memory) byte = static_cast<std::uint8_t>(byte ^ 0x10U);
+  device.boot();
+  const Fields answer = device.ask(sample(9, {40000, 0, 0}));
+  CHECK(quality(answer) == 'g');
+  CHECK(alarms(answer).has(Alarm::state_lost));
+  CHECK(tension(answer, 0) == doctest::Approx(33350).epsilon(1e-4));
+}
+
+TEST_CASE("a memory that was never written is no loss") {
+  Plain device;
+  CHECK_FALSE(alarms(device.ask("P")).has(Alarm::state_lost));
+  std::fill(device.board.memory.begin(), device.board.memory.end(), std::uint8_t{0xFF});
+  device.boot();
+  CHECK_FALSE(alarms(device.ask("P")).has(Alarm::state_lost));
+}
+
+TEST_CASE("zero, lock, limits and acknowledgements survive the power") {
+  Plain device;
+  settle(device, rolling_joint);
+  device.ask(sample(1, {150, 0, 0}));
+  device.ask("Z " + number_field(0) + " " + number_field(1));
+  device.ask("G " + real_field(-200) + " " + real_field(50000) + " " + number_field(9));
+  device.ask(sample(2, {40150, 10000, 0}));
+  device.ask("L " + number_field(1) + " " + number_field(1));
+  const Fields locked = device.ask(sample(3, {40150, 10000, 0}));
+  device.boot();
+  CHECK(alarms(device.ask("P")).has(Alarm::restarted));
+  const Fields answer = device.ask(sample(4, {40150, 0, 0}));
+  CHECK(state(answer) == state(locked));
+  CHECK(alarms(device.ask(sample(5, {60000, 0, 0}))).has(Alarm::sensor_range));
+}
+
+TEST_CASE("the number of the record passes zero") {
+  using Records = monitor::Records<monitor::host::MemoryBoard>;
+  monitor::host::MemoryBoard board;
+  const int slot = Records::size_with(4);
+  const auto put = [&](int number, std::uint32_t sequence) {
+    monitor::RecordHeader header;
+    header.length = 4;
+    header.sequence = sequence;
+    monitor::Crc32 crc;
+    crc.add(&header, sizeof header);
+    crc.add(&sequence, 4);
+    const std::uint32_t checksum = crc.value();
+    board.write(number * slot, &header, sizeof header);
+    board.write(number * slot + static_cast<int>(sizeof header), &sequence, 4);
+    board.write(number * slot + static_cast<int>(sizeof header) + 4, &checksum, 4);
+  };
+  monitor::RecordHeader found;
+  put(0, 0xFFFFFFFF);
+  put(1, 0);
+  Records records(board, slot);
+  REQUIRE(records.find(found) == Records::Found::record);
+  CHECK(found.sequence == 0);
+  put(0, 1);
+  REQUIRE(records.find(found) == Records::Found::record);
+  CHECK(found.sequence == 1);
+}
