@@ -49,7 +49,7 @@ std::string memory(const SceneDescription& scene) {
   if (size.strut_rows > 0) flash += "; " + std::to_string(size.strut_rows) + " more for strut forces";
   return line("flash", flash) +
          line("RAM", "about " + counted(size.tracker, "byte") + " in float, the tracker") +
-         line("stack", "depends on the compiler: gcc -fstack-usage measures it");
+         line("stack", "about " + counted(size.stack, "byte") + " in float, while an event is decided");
 }
 
 std::string ends(const CableDescription& cable) {

@@ -71,11 +71,23 @@ struct Sizes {
     static constexpr std::size_t bytes = sizeof(Tracker<Condensed<Scalar, Cap>>);
   };
 
+  // The large variables that live at once while Lemke's method factors, eight rows of tensions on the way
+  // there, and a kilobyte for all calls.
+  template <class Cap>
+  struct OfStack {
+    using Model = Condensed<Scalar, Cap>;
+    using Rates = Sliding<Model>;
+    static constexpr std::size_t bytes =
+        sizeof(Rates) + sizeof(BandLu<typename Model::Real, Rates::max_active + 1>) +
+        sizeof(typename Rates::Actives) + sizeof(typename Rates::Candidates) +
+        sizeof(typename Tracker<Model>::Moving) + 8 * sizeof(typename Rates::Tensions) + 1024;
+  };
+
   template <bool IsRigid>
   static CondensedSize of(const CondensedCounts& counts) {
     return {interpolated<OfScene, IsRigid>(counts),
             counts.struts == 0 ? 0 : interpolated<OfStrutRows, IsRigid>(counts),
-            interpolated<OfTracker, IsRigid>(counts)};
+            interpolated<OfTracker, IsRigid>(counts), interpolated<OfStack, IsRigid>(counts)};
   }
   static CondensedSize of(const CondensedCounts& counts) {
     return counts.substructures == 0 ? of<true>(counts) : of<false>(counts);

@@ -22,6 +22,9 @@ struct CondensedSize {
   std::size_t scene = 0;       ///< Condensed, in flash
   std::size_t strut_rows = 0;  ///< CondensedStruts, in flash if it is used
   std::size_t tracker = 0;     ///< Tracker, in RAM
+  /// What an event takes of the stack. Within a tenth of what gcc needs for a Cortex-M4F
+  /// (firmware_example/SIZES.md); other compilers and options differ.
+  std::size_t stack = 0;
 };
 /// Exact but for the padding of small counts: some ten bytes.
 CondensedSize condensed_size(const CondensedCounts& counts, ScalarType scalar);

@@ -83,6 +83,7 @@ TEST_CASE("check describes a usable scene on standard output") {
             "cable \"C\"               jacked to jacked, 2 segments, 1 joint, 0 locked by friction\n") !=
         std::string::npos);
   CHECK(outcome.out.find("flash                   about 96 bytes in float") != std::string::npos);
+  CHECK(outcome.out.find("stack                   about ") != std::string::npos);
   CHECK(outcome.out.find("mechanisms              none before any load\n") != std::string::npos);
 }
 

@@ -92,7 +92,8 @@ using PlanePoint = std::array<double, 2>;
 
 /// A cable over held nodes: rigid saddles.
 template <class SceneType>
-void rigid_saddles(SceneType& scene, const taut::Cable<double>& cable, const std::vector<PlanePoint>& points) {
+void rigid_saddles(SceneType& scene, const taut::Cable<double>& cable,
+                   const std::vector<PlanePoint>& points) {
   scene = {};
   std::vector<int> path;
   for (const PlanePoint& point : points) path.push_back(scene.add_node(point, taut::held_xy));
@@ -118,7 +119,8 @@ inline std::vector<PlanePoint> chain_points(int segments) {
 /// Plane truss string structure: a truss girder on two supports, a cable below it on V-struts. Load 0 is
 /// 10 kN down on every node of the top chord, load 1 the same upwards on its left half.
 template <class SceneType>
-void truss_string(SceneType& scene, const taut::Cable<double>& cable, int panels, const Variation& vary = {}) {
+void truss_string(SceneType& scene, const taut::Cable<double>& cable, int panels,
+                  const Variation& vary = {}) {
   scene = {};
   const double span = 30, depth = 1.5, sag = 3, area = 1e-3;
   std::vector<int> bottom, top, path;
