@@ -68,7 +68,7 @@ void print_table(const std::vector<Point>& points) {
 
 void draw(const std::vector<Point>& points, const std::string& scene, const std::string& log,
           const std::string& file) {
-  constexpr double width = 720, height = 400, left = 70, right = 20, top = 40, bottom = 50;
+  constexpr double width = 720, height = 400, left = 70, right = 40, top = 40, bottom = 50;
   constexpr double first_ns = 1, last_ns = 8, first_error = -17, last_error = -1;  // powers of ten
   const auto x = [&](double ns) {
     return left + (std::log10(ns) - first_ns) / (last_ns - first_ns) * (width - left - right);
@@ -101,7 +101,7 @@ void draw(const std::vector<Point>& points, const std::string& scene, const std:
     out << "<circle cx=\"" << x(point.ns) << "\" cy=\"" << y(point.error) << "\" r=\"5\" stroke=\"" << color
         << "\" stroke-width=\"2\" fill=\"" << (is_double ? color : "#fff") << "\"/>\n";
     if (is_double || is_tracker)
-      out << "<text x=\"" << x(point.ns) + 9 << "\" y=\"" << y(point.error) + (is_double ? -6 : 4) << "\">"
+      out << "<text x=\"" << x(point.ns) + 9 << "\" y=\"" << y(point.error) + (is_double ? 18 : 4) << "\">"
           << point.method << (is_double ? "" : ", float") << "</text>\n";
   }
   out << "<text x=\"" << width - right << "\" y=\"" << height - 10
