@@ -65,7 +65,7 @@ class StdioBoard {
   void read(int at, void* to, std::size_t count) { std::memcpy(to, memory_.data() + at, count); }
   void write(int at, const void* from, std::size_t count) {
     std::memcpy(memory_.data() + at, from, count);
-    if (file_ >= 0 && pwrite(file_, from, count, at) < 0) std::exit(2);
+    if (file_ >= 0 && pwrite(file_, memory_.data() + at, count, at) < 0) std::exit(2);
   }
   std::uint32_t stack_used() const { return 0; }
   std::uint32_t stack_size() const { return 0; }
