@@ -21,7 +21,7 @@ class AffineMap {
   using Scalar = typename CondensedType::Scalar;
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
-  static constexpr int max_active = Cap::segments + 2 * Cap::cables;
+  static constexpr int max_active = max_active_moves<Cap>;
   static constexpr int max_inputs = Cap::loads + 2 * Cap::cables + 1;
   using Tensions = FixedArray<Real, Cap::segments>;
   using Moves = FixedArray<Real, max_active>;

@@ -52,6 +52,10 @@ struct Active {
   std::int8_t sense = 0;  ///< sign that the move's rate must have, 0 for any
 };
 
+/// As many as there can be: all slips and excess lengths of slack runs, and the jacks.
+template <class Cap>
+constexpr int max_active_moves = Cap::segments + 2 * Cap::cables;
+
 /// Something outside that changes along a path.
 struct Input {
   enum class Kind : std::uint8_t { load, jack_force, payout, prestrain } kind = Kind::load;

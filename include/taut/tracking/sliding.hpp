@@ -22,7 +22,7 @@ class Sliding {
   using Scalar = typename CondensedType::Scalar;
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
-  static constexpr int max_active = Cap::segments + 2 * Cap::cables;
+  static constexpr int max_active = max_active_moves<Cap>;
   static constexpr int max_candidates = 2 * Cap::joints;
   using Tensions = FixedArray<Real, Cap::segments>;
   using Actives = FixedList<Active<Real>, max_active>;
