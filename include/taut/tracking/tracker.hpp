@@ -62,18 +62,22 @@ class Tracker {
     FixedArray<Scalar, Map::max_inputs> reach;
     FixedArray<Scalar, Cap::segments> tension;
     Real peak = 0;
-    bool has_map = false, arrived = false;
+    bool has_map = false, arrived = false, has_range = false;
   };
 
   /// Begins without loads and brings the prestrain on.
   Progress<Scalar> start(const CondensedType& condensed, int event_budget = default_budget) {
     begin(condensed);
-    return follow(event_budget);
+    if (has_prestrain()) return follow(event_budget);
+    now_.prestrain = 1;
+    arrived_ = true;
+    round();
+    return {};
   }
 
   State save() const {
-    return {now_,  goal_, built_, moved_,   slides_, slack_,       rests_,  has_load_,
-            live_, last_, reach_, tension_, peak_,   !map_is_old_, arrived_};
+    return {now_,  goal_, built_, moved_,   slides_, slack_,       rests_,   has_load_,
+            live_, last_, reach_, tension_, peak_,   !map_is_old_, arrived_, has_range_};
   }
   /// Goes on where save() was called on a tracker of the same scene. Fails with `bad_sample` if the state is
   /// none of this scene; then only start() or another restore() may follow.
@@ -100,6 +104,7 @@ class Tracker {
     reach_ = state.reach;
     live_ = state.live;
     sum_up_constant();
+    if (state.has_range) find_range();
     tension_ = state.tension;
     arrived_ = state.arrived;
     for (int i = 0; i < model_->segments; ++i)
@@ -200,6 +205,7 @@ class Tracker {
   using Tensions = typename Map::Tensions;
   using Inputs = typename Map::Inputs;
   using Rounded = typename Map::Rounded;
+  using Given = FixedArray<Scalar, Map::max_inputs>;
   using States = FixedArray<JointState, Cap::joints>;
 
   static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
@@ -211,6 +217,9 @@ class Tracker {
   struct JackedEnd {
     int cable = 0;
     std::size_t end = 0;
+    // For samples without an event.
+    int input = -1;       ///< its force in the map, if it is one
+    bool locked = false;  ///< as in the goal
   };
 
   struct RunLimit {
@@ -232,7 +241,7 @@ class Tracker {
     model_ = &condensed;
     runs_.find(condensed.cables, [&condensed](int j) { return condensed.is_locked(j); });
     jacks_.clear();
-    for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) { jacks_.add({c, end}); });
+    for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) { jacks_.add({c, end, -1, false}); });
     laws_.find(condensed);
     for (int j = 0; j < joints(); ++j) rho_[j] = static_cast<Scalar>(condensed.rho[j]);
     moved_ = {};
@@ -248,8 +257,14 @@ class Tracker {
     has_load_ = {};
     goal_.prestrain = 1;
     find_spare();
+    map_.clear(condensed);
     map_is_old_ = true;
     peak_ = 0;
+  }
+  bool has_prestrain() const {
+    for (int i = 0; i < model_->segments; ++i)
+      if (model_->prestrain[i] != 0) return true;
+    return false;
   }
 
   Real force_tolerance() const { return tolerance * peak_; }
@@ -264,56 +279,62 @@ class Tracker {
   /// enough. Otherwise nothing is changed.
   bool quick(const Sample<Scalar, Cap>& sample) {
     if (map_is_old_ || !arrived_ || has_spare_) return false;
-    for (const JackedEnd& jack : jacks_)
-      if (sample.jack[jack.cable][jack.end].locked != goal_.jack[jack.cable][jack.end].locked) return false;
-    for (int i = 0; i < model_->loads; ++i)
-      if (!has_load_[i] && sample.factor[i] != factor_[i]) return false;
-    FixedArray<Scalar, Map::max_inputs> x;
+    Given x;
+    if (!read(sample, x)) return false;
     bool keeps = true, regroups = false, moves = false;
     for (int k = 0; k < map_.inputs(); ++k) {
-      x[k] = given(map_.input(k), sample, at_[k]);
-      const Scalar dx = x[k] - at_[k];
-      if (!std::isfinite(dx)) return false;
-      const bool changes = dx != 0;
-      if (changes && !(std::fabs(x[k]) <= reach_[k])) return false;
-      if (changes && map_.input(k).kind == Input::Kind::jack_force && (x[k] < 0 || has_resting_))
-        return false;
-      keeps = keeps && (!changes || map_.keeps(k, dx > 0));
-      moves = moves || changes;
-      regroups = regroups || (changes && !live_[k]);
+      if (x[k] == at_[k]) continue;
+      // Not a number is neither.
+      if (!(std::fabs(x[k]) <= reach_[k] && x[k] >= least_[k])) return false;
+      moves = true;
+      keeps = keeps && map_.keeps(k, x[k] > at_[k]);
+      regroups = regroups || !live_[k];
     }
     if (!moves) {
       last_.fill(Real(0));
       return true;
     }
-    if (!keeps || map_.has_slack()) {
-      if (!goes_on(x)) return false;
+    if ((!keeps || map_.has_slack()) && !goes_on(x)) return false;
+    if (regroups)
+      regroup(x);
+    else if (!has_range_)
+      find_range();
+    if (has_range_ && only_ >= 0) {
+      const Scalar dx = x[only_] - anchor_[only_];
+      if (!(dx >= range_[0] && dx <= range_[1])) return false;
+      const Rounded& column = map_.rounded_column(only_);
+      for (int i = 0; i < model_->segments; ++i) tension_[i] = constant_[i] + dx * column[i];
+    } else {
+      Rounded T = constant_;
+      add_inputs(true, x, T);
+      if (!is_within_limits(T)) return false;
+      tension_ = T;
     }
-    if (regroups) regroup(x);
-    Rounded T = constant_;
-    for (int k = 0; k < map_.inputs(); ++k) {
-      if (!live_[k]) continue;
-      const Scalar dx = x[k] - anchor_[k];
-      const Rounded& column = map_.rounded_column(k);
-      for (int i = 0; i < model_->segments; ++i) T[i] += dx * column[i];
-    }
-    if (!is_within_limits(T)) return false;
-    tension_ = T;
     for (int k = 0; k < map_.inputs(); ++k) {
       last_[k] = static_cast<Real>(x[k] - at_[k]);
-      if (last_[k] == 0) continue;
+      if (x[k] == at_[k]) continue;
       set_value(map_.input(k), static_cast<Real>(x[k]), now_);
       at_[k] = x[k];
     }
     return true;
   }
-  static Scalar given(const Input& input, const Sample<Scalar, Cap>& sample, Scalar otherwise) {
-    if (input.kind == Input::Kind::load) return sample.factor[input.index];
-    if (input.kind == Input::Kind::jack_force)
-      return sample.jack[input.index / 2][static_cast<std::size_t>(input.index % 2)].force;
-    return otherwise;
+  /// What a sample says of the map's inputs; false if it changes anything else.
+  bool read(const Sample<Scalar, Cap>& sample, Given& x) const {
+    for (int k = 0; k < map_.inputs(); ++k) x[k] = at_[k];
+    for (const JackedEnd& jack : jacks_) {
+      const Jack<Scalar>& given = sample.jack[jack.cable][jack.end];
+      if (given.locked != jack.locked) return false;
+      if (jack.input >= 0) x[jack.input] = given.force;
+    }
+    for (int i = 0; i < model_->loads; ++i) {
+      if (load_input_[i] >= 0)
+        x[load_input_[i]] = sample.factor[i];
+      else if (sample.factor[i] != factor_[i])
+        return false;
+    }
+    return true;
   }
-  bool goes_on(const FixedArray<Scalar, Map::max_inputs>& given) const {
+  bool goes_on(const Given& given) const {
     Inputs x, dx;
     for (int k = 0; k < map_.inputs(); ++k) {
       x[k] = static_cast<Real>(given[k]);
@@ -322,17 +343,57 @@ class Tracker {
     return map_.goes_on(dx, Real(0)) && map_.stays_slack(x);
   }
   /// Inputs that do not change are added up once.
-  void regroup(const FixedArray<Scalar, Map::max_inputs>& x) {
+  void regroup(const Given& x) {
     for (int k = 0; k < map_.inputs(); ++k) live_[k] = x[k] != at_[k];
+    has_range_ = false;
     sum_up_constant();
+  }
+  /// Where one input alone changes, as in most samples: how far it may go from its anchor within all limits.
+  /// Found when a second sample is like the first; from then on a sample asks for nothing else.
+  void find_range() {
+    has_range_ = true;
+    only_ = -1;
+    int live = 0;
+    for (int k = 0; k < map_.inputs(); ++k)
+      if (live_[k]) {
+        ++live;
+        only_ = k;
+      }
+    if (live != 1) {
+      only_ = -1;
+      return;
+    }
+    const Scalar far = std::numeric_limits<Scalar>::max();
+    range_ = {-far, far};
+    const Rounded& column = map_.rounded_column(only_);
+    for (int j = 0; j < joints(); ++j) {
+      const auto& sides = laws_.sides(j);
+      for (int way = 0; way < 2; ++way) {
+        const int small = sides[static_cast<std::size_t>(way)],
+                  big = sides[static_cast<std::size_t>(1 - way)];
+        narrow(constant_[small] - rho_[j] * constant_[big] - spare_[j],
+               column[small] - rho_[j] * column[big]);
+      }
+    }
+    for (const RunLimit& run : run_limits_) narrow(constant_[run.segment] - run.spare, column[run.segment]);
+  }
+  /// To where room + dx slope >= 0.
+  void narrow(Scalar room, Scalar slope) {
+    if (slope > 0) range_[0] = larger(range_[0], -room / slope);
+    if (slope < 0) range_[1] = -larger(-range_[1], room / slope);
+    if (!(slope > 0) && !(slope < 0) && !(room >= 0)) range_ = {1, -1};
   }
   void sum_up_constant() {
     constant_ = map_.rounded_base();
+    add_inputs(false, at_, constant_);
+  }
+  /// Of those that change, or of the others.
+  void add_inputs(bool live, const Given& x, Rounded& T) const {
     for (int k = 0; k < map_.inputs(); ++k) {
-      if (live_[k]) continue;
-      const Scalar dx = at_[k] - anchor_[k];
+      if (live_[k] != live) continue;
+      const Scalar dx = x[k] - anchor_[k];
       const Rounded& column = map_.rounded_column(k);
-      for (int i = 0; i < model_->segments; ++i) constant_[i] += dx * column[i];
+      for (int i = 0; i < model_->segments; ++i) T[i] += dx * column[i];
     }
   }
   /// The friction cones, and T >= 0: with something to spare where a joint sticks or a run is taut, give or
@@ -589,13 +650,27 @@ class Tracker {
   /// What samples without an event start from.
   void round() {
     set_limits();
+    load_input_.fill(-1);
+    for (JackedEnd& jack : jacks_) {
+      jack.input = -1;
+      jack.locked = goal_.jack[jack.cable][jack.end].locked;
+    }
     for (int i = 0; i < model_->loads; ++i) factor_[i] = static_cast<Scalar>(now_.factor[i]);
     for (int i = 0; i < model_->segments; ++i) tension_[i] = static_cast<Scalar>(force_[i]);
     live_.fill(false);
+    has_range_ = false;
     for (int k = 0; k < map_.inputs(); ++k) {
-      at_[k] = static_cast<Scalar>(value(map_.input(k), now_));
+      const Input& input = map_.input(k);
+      at_[k] = static_cast<Scalar>(value(input, now_));
       reach_[k] = Scalar(16) * std::fabs(at_[k]);
       anchor_[k] = static_cast<Scalar>(map_.anchor()[k]);
+      least_[k] = std::numeric_limits<Scalar>::lowest();
+      if (input.kind == Input::Kind::load) load_input_[input.index] = k;
+      if (input.kind == Input::Kind::jack_force) {
+        least_[k] = has_resting_ ? std::numeric_limits<Scalar>::infinity() : Scalar(0);
+        for (JackedEnd& jack : jacks_)
+          if (2 * jack.cable + static_cast<int>(jack.end) == input.index) jack.input = k;
+      }
     }
   }
   void find_forces() {
@@ -771,17 +846,20 @@ class Tracker {
     if (map_is_old_) return moved_.excess[r];
     Inputs x;
     values(now_, x);
-    for (int i = 0; i < map_.active(); ++i)
-      if (map_.move(i).kind == Move::Kind::excess && map_.move(i).index == r) return map_.active_move(i, x);
-    return 0;
+    const int i = active_excess(r);
+    return i < 0 ? Real(0) : map_.active_move(i, x);
   }
   bool excess_grows(int r) const {
     Inputs dx;
     directions(dx);
+    const int i = active_excess(r);
+    return i >= 0 && map_.move_rate(i, dx) * map_.stiffness(i) > rate_tolerance();
+  }
+  /// The active move that is the excess length of a run, or -1.
+  int active_excess(int r) const {
     for (int i = 0; i < map_.active(); ++i)
-      if (map_.move(i).kind == Move::Kind::excess && map_.move(i).index == r)
-        return map_.move_rate(i, dx) * map_.stiffness(i) > rate_tolerance();
-    return false;
+      if (map_.move(i).kind == Move::Kind::excess && map_.move(i).index == r) return i;
+    return -1;
   }
   bool stays_taut(int r) const {
     Inputs dx;
@@ -980,9 +1058,15 @@ class Tracker {
   Rounded constant_;                       // the map's base and all inputs that do not change
   FixedArray<Scalar, Cap::joints> spare_;  // least T_small - rho T_big of every joint
   FixedList<RunLimit, Cap::segments> run_limits_;
-  FixedArray<Scalar, Map::max_inputs> at_, anchor_;
-  FixedArray<Scalar, Map::max_inputs> reach_;  // so large forces are still of the order of peak_
-  FixedArray<bool, Map::max_inputs> live_;     // inputs that do
+  Given at_, anchor_;
+  Given reach_;  // so large forces are still of the order of peak_
+  Given least_;  // a jack does not push, and takes a resting run along only in an event
+  FixedArray<int, Cap::loads> load_input_;  // in the map, or -1
+  FixedArray<bool, Map::max_inputs> live_;  // inputs that do
+  // Of the only live input, from its anchor: within all limits.
+  std::array<Scalar, 2> range_{};
+  int only_ = -1;
+  bool has_range_ = false;
   bool arrived_ = false;
   bool has_spare_ = false;
   bool has_resting_ = false;
