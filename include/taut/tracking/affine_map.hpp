@@ -50,7 +50,10 @@ class AffineMap {
 
   /// Makes the map. `T` are the tensions of all moves as they are at the anchor, `moves` the active ones,
   /// `anchor` the inputs. Returns -1, or an active move that changes no law: nothing resists it.
-  int make(const Tensions& T, const Moves& moves, const Inputs& anchor) {
+  /// differentiate(settle) is called last: settle(due, T, moves) lets the active moves follow until their
+  /// laws are what is due.
+  template <class Differentiate>
+  int make(const Tensions& T, const Moves& moves, const Inputs& anchor, Differentiate differentiate) {
     const int n = active();
     BandLu<Real, max_active> laws_times_moves;
     laws_times_moves.reset(n, n > 0 ? n - 1 : 0);
@@ -72,9 +75,14 @@ class AffineMap {
     settle(laws_times_moves, due, base_, base_moves_);
     for (int k = 0; k < inputs(); ++k) make_column(laws_times_moves, k);
     round();
+    differentiate([&](const Moves& given, Tensions& follow, Moves& by) {
+      settle(laws_times_moves, given, follow, by);
+    });
     return -1;
   }
 
+  const Tensions& base() const { return base_; }
+  const Tensions& column(int k) const { return column_[k]; }
   const Inputs& anchor() const { return anchor_; }
   template <class Values>
   void tensions(const Values& x, Tensions& T) const {

@@ -52,6 +52,22 @@ struct Active {
   std::int8_t sense = 0;  ///< sign that the move's rate must have, 0 for any
 };
 
+/// Everything that has moved along the cables; or derivatives of it.
+template <class Real, class Cap>
+struct Moving {
+  FixedArray<Real, Cap::joints> slip;                   ///< delta of every joint [m]
+  FixedArray<std::array<Real, 2>, Cap::cables> payout;  ///< at start and end of every cable [m]
+  FixedArray<Real, Cap::segments> excess;  ///< length that every run has too much [m], zero if taut
+
+  /// What `move` has come to.
+  Real& of(const Move& move) {
+    if (move.kind == Move::Kind::excess) return excess[move.index];
+    if (move.kind == Move::Kind::payout)
+      return payout[move.index / 2][static_cast<std::size_t>(move.index % 2)];
+    return slip[move.index];
+  }
+};
+
 /// As many as there can be: all slips and excess lengths of slack runs, and the jacks.
 template <class Cap>
 constexpr int max_active_moves = Cap::segments + 2 * Cap::cables;
@@ -81,8 +97,8 @@ struct Candidate {
   static Candidate of(int joint, JointState way) { return {static_cast<std::int16_t>(joint), way}; }
 };
 
-/// Moves and laws of the joints of a condensed scene.
-template <class CondensedType>
+/// Moves and laws of the joints of a condensed scene. If `Adjustable`, their rho can be changed.
+template <class CondensedType, bool Adjustable = false>
 class JointLaws {
  public:
   using Real = typename CondensedType::Real;
@@ -90,6 +106,7 @@ class JointLaws {
 
   void find(const CondensedType& model) {
     model_ = &model;
+    if constexpr (Adjustable) rho_ = model.rho;
     for (const auto& cable : model.cables)
       for (int j = 0; j < cable.joints(); ++j) {
         const auto sides = cable.joint_segments(j);
@@ -106,8 +123,15 @@ class JointLaws {
   Law<Real> limit(const Candidate& candidate) const {
     const auto& sides = sides_[candidate.joint];
     const bool forward = candidate.way == JointState::forward;
-    return {sides[forward ? 0 : 1], sides[forward ? 1 : 0], model_->rho[candidate.joint]};
+    return {sides[forward ? 0 : 1], sides[forward ? 1 : 0], rho(candidate.joint)};
   }
+  Real rho(int joint) const {
+    if constexpr (Adjustable)
+      return rho_[joint];
+    else
+      return model_->rho[joint];
+  }
+  void set_rho(int joint, Real rho) { rho_[joint] = rho; }
   Active<Real> sliding(const Candidate& candidate) const {
     return {slip(candidate.joint), limit(candidate),
             static_cast<std::int8_t>(candidate.way == JointState::forward ? 1 : -1)};
@@ -116,6 +140,7 @@ class JointLaws {
  private:
   const CondensedType* model_ = nullptr;
   FixedArray<std::array<std::int16_t, 2>, Cap::joints> sides_;
+  FixedArray<Real, Adjustable ? Cap::joints : 0> rho_;
 };
 
 }  // namespace taut

@@ -16,7 +16,7 @@ namespace taut {
 /// 4.4.5). Every pivot factors the laws of the moves at work afresh, bordered by the covering variable:
 /// memory for one matrix of the active moves in place of a tableau of all pairs, and no rounding handed on
 /// from pivot to pivot.
-template <class CondensedType>
+template <class CondensedType, class Laws = JointLaws<CondensedType>>
 class Sliding {
  public:
   using Scalar = typename CondensedType::Scalar;
@@ -38,7 +38,7 @@ class Sliding {
   /// which less than `none` is rounding. Another `attempt` (0, 1, ...) takes another covering vector: where
   /// the problem is in none of the classes for which Lemke's method is sure, one may lead to a ray and
   /// another to a solution.
-  Outcome solve(const CondensedType& model, const JointLaws<CondensedType>& joints, const Actives& others,
+  Outcome solve(const CondensedType& model, const Laws& joints, const Actives& others,
                 const Candidates& candidates, const Tensions& rate, Real none, int attempt) {
     model_ = &model;
     joints_ = &joints;
@@ -198,7 +198,7 @@ class Sliding {
   }
 
   const CondensedType* model_ = nullptr;
-  const JointLaws<CondensedType>* joints_ = nullptr;
+  const Laws* joints_ = nullptr;
   const Candidates* candidates_ = nullptr;
   FixedList<int, Cap::joints> of_;    // candidates whose slip is in the basis
   FixedArray<Real, Cap::joints> at_;  // their slips

@@ -10,6 +10,7 @@
 #include "taut/scene/runs.hpp"
 #include "taut/status.hpp"
 #include "taut/tracking/affine_map.hpp"
+#include "taut/tracking/sensitivity.hpp"
 #include "taut/tracking/sliding.hpp"
 
 namespace taut {
@@ -32,7 +33,10 @@ struct [[nodiscard]] Progress {
 /// up, nothing drifts.
 ///
 /// The condensed scene must come from a valid scene and outlive the tracker.
-template <class CondensedType>
+///
+/// With `Parameters`, the derivatives with respect to so many unknowns of the friction are carried along: see
+/// Sensitivity and adjust().
+template <class CondensedType, int Parameters = 0>
 class Tracker {
  public:
   using Scalar = typename CondensedType::Scalar;
@@ -40,18 +44,14 @@ class Tracker {
   using Cap = typename CondensedType::Capacity;
   using Loads = Drive<Real, Cap>;
   using Map = AffineMap<CondensedType>;
-  /// Everything that has moved along the cables.
-  struct Moving {
-    FixedArray<Real, Cap::joints> slip;                   ///< delta of every joint [m]
-    FixedArray<std::array<Real, 2>, Cap::cables> payout;  ///< at start and end of every cable [m]
-    FixedArray<Real, Cap::segments> excess;  ///< length that every run has too much [m], zero if taut
-  };
+  using Derivatives = Sensitivity<CondensedType, Parameters>;
+  using Moving = taut::Moving<Real, Cap>;
   /// Events in one call. Of 300,000 random logs none reached it.
   static constexpr int default_budget = 64 + 16 * Cap::segments;
 
   /// All that restore() needs to go on with the same bits. A plain value: it may be stored and read back byte
   /// by byte, on the same machine and with the same build.
-  struct State {
+  struct State : Derivatives::Frozen {
     Loads now, goal, built;
     Moving moved;
     FixedArray<JointState, Cap::joints> slides;
@@ -68,6 +68,35 @@ class Tracker {
   /// Begins without loads and brings the prestrain on.
   Progress<Scalar> start(const CondensedType& condensed, int event_budget = default_budget) {
     begin(condensed);
+    return bring_on_prestrain(event_budget);
+  }
+  /// The same in two steps, with set_friction() in between: without loads and prestrain.
+  void begin(const CondensedType& condensed) {
+    model_ = &condensed;
+    runs_.find(condensed.cables, [&condensed](int j) { return condensed.is_locked(j); });
+    jacks_.clear();
+    for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) { jacks_.add({c, end, -1, false}); });
+    laws_.find(condensed);
+    for (int j = 0; j < joints(); ++j) rho_[j] = static_cast<Scalar>(laws_.rho(j));
+    moved_ = {};
+    slides_ = {};
+    last_ = {};
+    slack_ = {};
+    rests_ = {};
+    tension_ = {};
+    force_ = {};
+    now_ = {};
+    goal_ = {};
+    built_ = {};
+    has_load_ = {};
+    goal_.prestrain = 1;
+    find_spare();
+    map_.clear(condensed);
+    if constexpr (is_adjustable) derivatives_.begin();
+    map_is_old_ = true;
+    peak_ = 0;
+  }
+  Progress<Scalar> bring_on_prestrain(int event_budget = default_budget) {
     if (has_prestrain()) return follow(event_budget);
     now_.prestrain = 1;
     arrived_ = true;
@@ -76,8 +105,25 @@ class Tracker {
   }
 
   State save() const {
-    return {now_,  goal_, built_, moved_,   slides_, slack_,       rests_,   has_load_,
-            live_, last_, reach_, tension_, peak_,   !map_is_old_, arrived_, has_range_};
+    State state;
+    if constexpr (is_adjustable) static_cast<typename Derivatives::Frozen&>(state) = derivatives_.frozen();
+    state.now = now_;
+    state.goal = goal_;
+    state.built = built_;
+    state.moved = moved_;
+    state.slides = slides_;
+    state.slack = slack_;
+    state.rests = rests_;
+    state.has_load = has_load_;
+    state.live = live_;
+    state.last = last_;
+    state.reach = reach_;
+    state.tension = tension_;
+    state.peak = peak_;
+    state.has_map = !map_is_old_;
+    state.arrived = arrived_;
+    state.has_range = has_range_;
+    return state;
   }
   /// Goes on where save() was called on a tracker of the same scene. Fails with `bad_sample` if the state is
   /// none of this scene; then only start() or another restore() may follow.
@@ -91,6 +137,7 @@ class Tracker {
     rests_ = state.rests;
     has_load_ = state.has_load;
     peak_ = state.peak;
+    if constexpr (is_adjustable) derivatives_.set_frozen(state);
     find_spare();
     const Status broken = Status::at(Code::bad_sample, Place::none, -1);
     if (!(peak_ >= 0) || (state.has_map && make_map() >= 0)) return broken;
@@ -134,6 +181,66 @@ class Tracker {
     }
     return follow(event_budget);
   }
+
+  /// The friction of a joint depends on unknown `parameter` from here on, with derivative `slope` of its rho.
+  /// At the start, before the first path; see adjust() for later. Not for locked joints.
+  void set_friction(int joint, Real rho, int parameter, Real slope) {
+    laws_.set_rho(joint, rho);
+    rho_[joint] = static_cast<Scalar>(rho);
+    derivatives_.depend(joint, parameter, slope);
+  }
+  /// After set_friction() for other values of the unknowns: brings the present state to what it would be had
+  /// they been so all along, `change` of each, to first order. Joints that come to lie outside of their cone
+  /// are put on its edge. Fails with `mechanism`; then only start() may follow.
+  Status adjust(const FixedArray<Scalar, Parameters>& change) {
+    if (map_is_old_) return Status::success();
+    freeze();
+    derivatives_.for_each([&](const auto& derivative, int p) { shift(derivative, change[p]); });
+    map_is_old_ = true;
+    for (int count = 0; count <= joints(); ++count) {
+      if (make_map() >= 0) return at_joint(Code::mechanism, -1);
+      find_forces();
+      if (!put_on_edge()) break;
+    }
+    for (int i = 0; i < model_->segments; ++i) peak_ = larger(peak_, std::fabs(force_[i]));
+    round();
+    return Status::success();
+  }
+  /// From here on unknown `p` is an error [N] in the force at which this jack turns now, or is locked: what
+  /// friction remembers of it is carried along.
+  void turn(int p, int cable, std::size_t end) {
+    const int k = input_of(cable, end);
+    if (k < 0) return;
+    find_forces();
+    freeze();
+    derivatives_.turn(map_, p, k);
+    map_is_old_ = true;
+  }
+  /// Derivative of a tension with respect to unknown `p` [N], at the loads reached.
+  Scalar sensitivity(int p, int segment) const {
+    return map_is_old_ ? Scalar(0) : derivatives_.tension(map_, p, segment, at_);
+  }
+  /// Derivative of a tension with respect to the force of an unlocked jack, on the present piece [-].
+  Scalar slope(int cable, std::size_t end, int segment) const {
+    const int k = input_of(cable, end);
+    return k < 0 ? Scalar(0) : map_.rounded_column(k)[segment];
+  }
+  /// The same of a jack's payout [m/N].
+  Scalar payout_slope(int cable, std::size_t end) const {
+    const int k = input_of(cable, end);
+    if (k < 0) return 0;
+    Inputs dx;
+    dx.fill(Real(0));
+    dx[k] = 1;
+    for (int i = 0; i < map_.active(); ++i)
+      if (map_.move(i).kind == Move::Kind::payout && map_.move(i).index == 2 * cable + static_cast<int>(end))
+        return static_cast<Scalar>(map_.move_rate(i, dx));
+    return 0;
+  }
+  /// Whether the joint slides, or slid before the load came to rest.
+  bool is_at_limit(int joint) const { return slides_[joint] != JointState::stick; }
+  /// rho of a joint as it is used now.
+  Real rho(int joint) const { return laws_.rho(joint); }
 
   /// Tension of a segment [N], >= 0.
   Scalar tension(int segment) const { return tension_[segment] > 0 ? tension_[segment] : Scalar(0); }
@@ -207,7 +314,9 @@ class Tracker {
   using Rounded = typename Map::Rounded;
   using Given = FixedArray<Scalar, Map::max_inputs>;
   using States = FixedArray<JointState, Cap::joints>;
+  using Laws = JointLaws<CondensedType, (Parameters > 0)>;
 
+  static constexpr bool is_adjustable = Parameters > 0;
   static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
   /// Forces closer than this part of the largest force so far are equal.
   static constexpr Real tolerance = Real(1e-12);
@@ -237,30 +346,6 @@ class Tracker {
                                      {16, true, true, 3},  {256, false, true, 3}, {256, true, true, 3},
                                      {1, false, true, 64}};
 
-  void begin(const CondensedType& condensed) {
-    model_ = &condensed;
-    runs_.find(condensed.cables, [&condensed](int j) { return condensed.is_locked(j); });
-    jacks_.clear();
-    for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) { jacks_.add({c, end, -1, false}); });
-    laws_.find(condensed);
-    for (int j = 0; j < joints(); ++j) rho_[j] = static_cast<Scalar>(condensed.rho[j]);
-    moved_ = {};
-    slides_ = {};
-    last_ = {};
-    slack_ = {};
-    rests_ = {};
-    tension_ = {};
-    force_ = {};
-    now_ = {};
-    goal_ = {};
-    built_ = {};
-    has_load_ = {};
-    goal_.prestrain = 1;
-    find_spare();
-    map_.clear(condensed);
-    map_is_old_ = true;
-    peak_ = 0;
-  }
   bool has_prestrain() const {
     for (int i = 0; i < model_->segments; ++i)
       if (model_->prestrain[i] != 0) return true;
@@ -272,6 +357,13 @@ class Tracker {
   bool is_slack(int segment) const { return slack_[runs_.of(segment)]; }
   /// Zero at compile time where the capacity is, so that no code for joints is left.
   int joints() const { return Cap::joints == 0 ? 0 : model_->joints; }
+
+  /// Of an unlocked jack's force in the present map, or -1.
+  int input_of(int cable, std::size_t end) const {
+    for (const JackedEnd& jack : jacks_)
+      if (jack.cable == cable && jack.end == end && !map_is_old_) return jack.input;
+    return -1;
+  }
 
   // A sample without an event.
 
@@ -462,7 +554,39 @@ class Tracker {
 
   /// Takes the moves where they are, to make another map from.
   void freeze() {
-    if (!map_is_old_) moved_ = moves();
+    if (map_is_old_) return;
+    if constexpr (is_adjustable) {
+      Inputs x;
+      values(now_, x);
+      derivatives_.freeze(map_, x, last_);
+    }
+    moved_ = moves();
+  }
+  template <class Derivative>
+  void shift(const Derivative& derivative, Scalar change) {
+    const auto by = static_cast<Real>(change);
+    for (int j = 0; j < joints(); ++j) moved_.slip[j] += by * static_cast<Real>(derivative.slip[j]);
+    for (int r = 0; r < runs_.size(); ++r)
+      moved_.excess[r] = larger(Real(0), moved_.excess[r] + by * static_cast<Real>(derivative.excess[r]));
+    for (const JackedEnd& jack : jacks_) {
+      const Real more = by * static_cast<Real>(derivative.payout[jack.cable][jack.end]);
+      moved_.payout[jack.cable][jack.end] += more;
+      if (!goal_.jack[jack.cable][jack.end].locked) continue;
+      for (Loads* loads : {&now_, &goal_, &built_}) loads->jack[jack.cable][jack.end].payout += more;
+    }
+  }
+  /// Whether any joint had to be.
+  bool put_on_edge() {
+    bool any = false;
+    for (int j = 0; j < joints(); ++j) {
+      if (slides_[j] != JointState::stick || !can_slide(j)) continue;
+      for (const JointState way : {JointState::forward, JointState::backward})
+        if (laws_.limit(Candidate::of(j, way)).of(force_) < -force_tolerance()) {
+          slides_[j] = way;
+          any = true;
+        }
+    }
+    return any;
   }
   /// What a slack run has too much goes out through the jack: over every joint, if that is at its far end.
   void draw_straight(int r) {
@@ -470,9 +594,13 @@ class Tracker {
     const auto& cable = model_->cables[run.cable];
     const bool at_start = run.segment(0) == cable.end_segment(0) && cable.ends[0] == End::jacked &&
                           !goal_.jack[run.cable][0].locked;
-    for (int i = 0; !at_start && i < run.joints(); ++i) moved_.slip[run.joint(i)] += moved_.excess[r];
     slack_[r] = false;
-    moved_.excess[r] = 0;
+    const auto straighten = [&](auto& moved) {
+      for (int i = 0; !at_start && i < run.joints(); ++i) moved.slip[run.joint(i)] += moved.excess[r];
+      moved.excess[r] = 0;
+    };
+    straighten(moved_);
+    if constexpr (is_adjustable) derivatives_.for_each([&](auto& moved, int) { straighten(moved); });
   }
 
   static Real value(const Input& input, const Loads& loads) {
@@ -505,7 +633,7 @@ class Tracker {
   /// On a cable of one segment with two jacks at work the start's payout rests, and the end's does for both.
   bool is_spare(int c, std::size_t end) const {
     return end == 0 && model_->cables[c].segments() == 1 && model_->cables[c].ends[1] == End::jacked &&
-           !goal_.jack[c][1].locked;
+           !goal_.jack[c][0].locked && !goal_.jack[c][1].locked;
   }
   void find_spare() {
     has_spare_ = false;
@@ -539,13 +667,20 @@ class Tracker {
       if (has_load_[i]) map_.add_input(Input::Kind::load, i);
     if (now_.prestrain != goal_.prestrain) map_.add_input(Input::Kind::prestrain, 0);
     typename Map::Moves moves;
-    for (int i = 0; i < map_.active(); ++i) moves[i] = moved(map_.move(i));
+    for (int i = 0; i < map_.active(); ++i) moves[i] = moved_.of(map_.move(i));
     Inputs x;
     values(now_, x);
-    const int loose = map_.make(totals(), moves, x);
+    const int loose = map_.make(totals(), moves, x, [this](const auto& settle) { differentiate(settle); });
     map_is_old_ = loose >= 0;
     built_ = now_;
     return loose;
+  }
+  template <class Settle>
+  void differentiate(const Settle& settle) {
+    if constexpr (is_adjustable)
+      derivatives_.make(map_, settle, [this](const auto& moved, Tensions& T) { carry(moved, T); });
+    else
+      static_cast<void>(settle);
   }
   void add_jack(int c, std::size_t end) {
     const int index = 2 * c + static_cast<int>(end);
@@ -579,30 +714,33 @@ class Tracker {
     for (int i = at_start && at_end ? 1 : 0; i < run.joints(); ++i)
       map_.add({laws_.slip(run.joint(i)), Law<Real>::on(run.segment(at_end ? i : i + 1)), 0});
   }
-  Real moved(const Move& move) const {
-    if (move.kind == Move::Kind::slip) return moved_.slip[move.index];
-    if (move.kind == Move::Kind::excess) return moved_.excess[move.index];
-    return moved_.payout[move.index / 2][static_cast<std::size_t>(move.index % 2)];
-  }
   /// Tensions from the present loads and everything that has moved.
   Tensions totals() const {
-    Tensions e, T;
-    e.fill(Real(0));
+    Tensions T;
     T.fill(Real(0));
     for (int i = 0; i < model_->segments; ++i) {
       T[i] = now_.prestrain * model_->prestrain[i];
       for (int k = 0; k < model_->loads; ++k) T[i] += now_.factor[k] * model_->load[k][i];
     }
-    impose(moved_, e);
-    model_->coupling.add(model_->segments, e, T);
+    carry(moved_, T);
     return T;
   }
-  void impose(const Moving& moved, Tensions& e) const {
-    for (int j = 0; j < joints(); ++j) laws_.slip(j).impose(moved.slip[j], e);
+  /// Adds the tensions that moves make.
+  template <class Moved>
+  void carry(const Moved& moved, Tensions& T) const {
+    Tensions e;
+    e.fill(Real(0));
+    impose(moved, e);
+    model_->coupling.add(model_->segments, e, T);
+  }
+  template <class Moved>
+  void impose(const Moved& moved, Tensions& e) const {
+    for (int j = 0; j < joints(); ++j) laws_.slip(j).impose(static_cast<Real>(moved.slip[j]), e);
     for (const JackedEnd& jack : jacks_)
-      e[model_->cables[jack.cable].end_segment(jack.end)] += moved.payout[jack.cable][jack.end];
+      e[model_->cables[jack.cable].end_segment(jack.end)] +=
+          static_cast<Real>(moved.payout[jack.cable][jack.end]);
     for (int r = 0; r < runs_.size(); ++r)
-      if (slack_[r]) e[runs_[r].segment(0)] += moved.excess[r];
+      if (slack_[r]) e[runs_[r].segment(0)] += static_cast<Real>(moved.excess[r]);
   }
 
   // From event to event.
@@ -611,17 +749,18 @@ class Tracker {
     Progress<Scalar> progress;
     find_forces();
     Real rest = 1;  // of the path
-    Candidate next;
+    Ending ending;
     int stalled = 0;
     for (;;) {
       measure_path();
-      progress.status = decide_for_sure(next);
+      progress.status = decide_for_sure(ending.next);
+      if constexpr (is_adjustable) derivatives_.pass();
       if (!progress.status) break;
       Inputs dx;
       directions(dx);
-      const Real step = piece(dx, next);  // of what is left of the path
-      const bool done =
-          Real(1) - step <= Real(4) * epsilon || (Real(1) - step) * change(dx) <= force_tolerance();
+      const Real step = piece(dx, ending);  // of what is left of the path
+      const bool done = Real(1) - step <= Real(4) * epsilon ||
+                        (Real(1) - step) * change(dx) <= held(ending.next) * force_tolerance();
       now_ = Loads::between(now_, goal_, done ? Real(1) : step);
       rest = done ? Real(0) : rest * (Real(1) - step);
       Inputs x;
@@ -634,9 +773,10 @@ class Tracker {
       if (!progress.status || done) break;
       stalled = step > 0 ? 0 : stalled + 1;
       if (stalled > 8 + 4 * joints()) {
-        progress.status = at_joint(Code::state_iterations, next.joint);
+        progress.status = at_joint(Code::state_iterations, ending.next.joint);
         break;
       }
+      if constexpr (is_adjustable) meet(ending, x);
       if (++progress.events >= event_budget) break;
     }
     progress.fraction = static_cast<Scalar>(Real(1) - rest);
@@ -679,6 +819,9 @@ class Tracker {
     values(now_, x);
     map_.tensions(x, force_);
   }
+
+  /// What a joint that is about to slide holds of the larger force with the smaller one: that little counts.
+  Real held(const Candidate& next) const { return next.joint < 0 ? Real(1) : laws_.rho(next.joint); }
 
   /// What the loads would do with every joint stuck, on what is left of the path, is as large as any force:
   /// it says what is rounding.
@@ -728,38 +871,54 @@ class Tracker {
     for (int k = 0; k < map_.inputs(); ++k) dx[k] = value(map_.input(k), goal_) - value(map_.input(k), now_);
   }
 
-  /// How far the present piece goes, as a part of what is left of the path; `next` is the joint at its end,
-  /// if it is one.
-  Real piece(const Inputs& dx, Candidate& next) const {
+  /// What ends a piece of the path: a joint at its limit, a run that goes slack, or one that is taut again.
+  struct Ending {
+    Candidate next;
+    std::int16_t run = -1, excess = -1;  // the run; its active move
+    Real falling = 0;                    // rate of what reached zero
+  };
+  /// How far the present piece goes, as a part of what is left of the path.
+  Real piece(const Inputs& dx, Ending& ending) const {
     Tensions rate;
     map_.tension_rates(dx, rate);
     Real step = 1;
-    next = {};
-    const auto shorten = [&](Real room, Real falling, const Candidate& found) {
+    ending = {};
+    const auto shorten = [&](Real room, Real falling, const Candidate& next, int run, int excess) {
       // At the limit, and held there by decide(): what is left is rounding.
       if (room <= force_tolerance() && falling >= -Real(16) * rate_tolerance()) return;
       if (falling >= 0 || room > -falling * step) return;
       step = room > 0 ? room / -falling : Real(0);
-      next = found;
+      ending = {next, static_cast<std::int16_t>(run), static_cast<std::int16_t>(excess), falling};
     };
     for (int j = 0; j < joints(); ++j) {
       if (slides_[j] != JointState::stick || !can_slide(j)) continue;
       for (const JointState way : {JointState::forward, JointState::backward}) {
         const Candidate candidate = Candidate::of(j, way);
         const Law<Real> limit = laws_.limit(candidate);
-        shorten(limit.of(force_), limit.of(rate), candidate);
+        shorten(limit.of(force_), limit.of(rate), candidate, -1, -1);
       }
     }
     for (int r = 0; r < runs_.size(); ++r) {
       const int segment = runs_[r].segment(0);
-      if (!slack_[r]) shorten(force_[segment], rate[segment], {});
+      if (!slack_[r]) shorten(force_[segment], rate[segment], {}, r, -1);
     }
     Inputs x;
     values(now_, x);
     for (int i = 0; i < map_.active(); ++i)
       if (map_.move(i).kind == Move::Kind::excess)
-        shorten(map_.stiffness(i) * map_.active_move(i, x), map_.stiffness(i) * map_.move_rate(i, dx), {});
+        shorten(map_.stiffness(i) * map_.active_move(i, x), map_.stiffness(i) * map_.move_rate(i, dx), {}, -1,
+                i);
     return step;
+  }
+  /// How much later the piece would end if friction were other.
+  void meet(const Ending& ending, const Inputs& x) {
+    if (!(-ending.falling > rate_tolerance())) return;
+    if (ending.excess >= 0)
+      derivatives_.meet_move(map_, x, ending.excess, ending.falling);
+    else if (ending.run >= 0)
+      derivatives_.meet(map_, x, force_, Law<Real>::on(runs_[ending.run].segment(0)), -1, ending.falling);
+    else if (ending.next.joint >= 0)
+      derivatives_.meet(map_, x, force_, laws_.limit(ending.next), ending.next.joint, ending.falling);
   }
   /// Locked joints never do; in a run without tension they move as they must.
   bool can_slide(int joint) const {
@@ -788,10 +947,11 @@ class Tracker {
   void find_resting() {
     for (int r = 0; r < runs_.size(); ++r) {
       bool rests = doubt_.may_rest && is_jacked(runs_[r]);
-      for (int i = 0; i < runs_[r].count; ++i) rests = rests && force_[runs_[r].segment(i)] <= equal();
+      const Real left = left_behind(runs_[r]);
+      for (int i = 0; i < runs_[r].count; ++i) rests = rests && force_[runs_[r].segment(i)] <= left;
       for (const JackedEnd& jack : jacks_)
         if (pulls(jack, runs_[r]))
-          rests = rests && now_.jack[jack.cable][jack.end].force <= equal() &&
+          rests = rests && now_.jack[jack.cable][jack.end].force <= left &&
                   goal_.jack[jack.cable][jack.end].force <= equal();
       if (rests == rests_[r]) continue;
       freeze();
@@ -799,6 +959,13 @@ class Tracker {
       map_is_old_ = true;
       for (int i = 0; rests && i < runs_[r].joints(); ++i) slides_[runs_[r].joint(i)] = JointState::stick;
     }
+  }
+  /// What all joints of a run together hold against a force that is rounding.
+  Real left_behind(const Run<Scalar>& run) const {
+    Real carried = 1;
+    for (int i = 0; i < run.joints(); ++i) carried *= laws_.rho(run.joint(i));
+    const Real most = doubt_.width * doubt_.width * Real(1e-10) * peak_;
+    return larger(equal(), equal() < carried * most ? equal() / carried : most);
   }
   /// Decides which joints slide and which runs are slack from here on, and makes the map for it. `next` is
   /// the joint that ended the piece before.
@@ -838,8 +1005,9 @@ class Tracker {
     const Run<Scalar>& run = runs_[r];
     if (is_jacked(run)) return false;
     if (slack_[r]) return excess(r) * model_->coupling(run.segment(0), run.segment(0)) <= equal();
+    const Real left = left_behind(run);
     for (int i = 0; i < run.count; ++i)
-      if (force_[run.segment(i)] > equal()) return false;
+      if (force_[run.segment(i)] > left) return false;
     return true;
   }
   Real excess(int r) const {
@@ -871,7 +1039,7 @@ class Tracker {
     return true;
   }
 
-  using Rates = Sliding<CondensedType>;
+  using Rates = Sliding<CondensedType, Laws>;
   using Candidates = typename Rates::Candidates;
 
   /// With runs as they are: rates v >= 0 of the joints at their limits, w = T_small - rho T_big kept >= 0, v
@@ -1000,7 +1168,7 @@ class Tracker {
                         !goal_.jack[c][0].locked && !goal_.jack[c][1].locked;
       if (!both) continue;
       Real carried = 1;
-      for (int k = 0; k < cable.joints(); ++k) carried *= model_->rho[cable.first_joint + k];
+      for (int k = 0; k < cable.joints(); ++k) carried *= laws_.rho(cable.first_joint + k);
       const Real F0 = now_.jack[c][0].force, F1 = now_.jack[c][1].force;
       const Real margin = 64 * tolerance * larger(F0, F1);
       if (F0 <= carried * F1 + margin || F1 <= carried * F0 + margin)
@@ -1031,9 +1199,12 @@ class Tracker {
     }
   }
 
+  struct Nothing {};
+
   const CondensedType* model_ = nullptr;
+  std::conditional_t<(Parameters > 0), Derivatives, Nothing> derivatives_;
   Runs<Scalar, Cap> runs_;
-  JointLaws<CondensedType> laws_;
+  Laws laws_;
   FixedList<JackedEnd, 2 * Cap::cables> jacks_;
 
   Loads now_, goal_;

@@ -27,8 +27,8 @@ struct Verdict {
 ///
 /// Uses the condensed scene and the moves alone, none of what the tracker keeps for speed: segments^2
 /// multiplications.
-template <class CondensedType>
-Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType>& tracker) {
+template <class CondensedType, int Parameters>
+Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Parameters>& tracker) {
   using Scalar = typename CondensedType::Scalar;
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
@@ -85,7 +85,7 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType>& tra
     for (int k = 0; k < cable.joints(); ++k) {
       const int j = cable.first_joint + k;
       const auto sides = cable.joint_segments(k);
-      const Real T1 = T[sides[0]], T2 = T[sides[1]], rho = model.rho[j];
+      const Real T1 = T[sides[0]], T2 = T[sides[1]], rho = tracker.rho(j);
       const Real outside = larger(rho * T2 - T1, rho * T1 - T2) * unit;
       Real off_limit = 0;
       if (tracker.motion(j) == JointState::forward) off_limit = std::fabs(T1 - rho * T2) * unit;

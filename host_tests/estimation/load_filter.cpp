@@ -1,0 +1,436 @@
+// The load filter against loads that are known: what it says of them, how surely, and what noise does to it.
+#include "taut/estimation/load_filter.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+#include "support/scenes.hpp"
+
+using taut::ConditionedLoad;
+using taut::LoadFilter;
+
+namespace {
+
+constexpr double sigma = 1000;  ///< of a reading [N]
+
+/// Standard normal numbers, Box and Muller 1958.
+class Noise {
+ public:
+  explicit Noise(int seed) : random_(static_cast<std::uint64_t>(seed) + 1) {}
+  double operator()() {
+    const double radius = std::sqrt(-2 * std::log(1 - random_.between(0, 1)));
+    return radius * std::cos(2 * 3.14159265358979323846 * random_.between(0, 1));
+  }
+  /// Log-uniform in [low, high).
+  double of_magnitude(double low, double high) {
+    return std::exp(random_.between(std::log(low), std::log(high)));
+  }
+  double between(double low, double high) { return random_.between(low, high); }
+  int below(int bound) { return random_.below(bound); }
+
+ private:
+  support::Random random_;
+};
+
+/// What the filter says, in standard deviations of a reading.
+struct Said {
+  double load, sd, sure, turn;
+  bool turned, refused;
+};
+
+template <class Scalar>
+class Bench {
+ public:
+  explicit Bench(double sd = 1) { filter_.start(static_cast<Scalar>(sd * sigma)); }
+  Said take(double reading) {
+    const ConditionedLoad<Scalar> now =
+        filter_.take(static_cast<Scalar>(reading * sigma), static_cast<Scalar>(0.5));
+    return {double(now.load) / sigma,
+            double(now.sd) / sigma,
+            double(now.sure) / sigma,
+            double(now.turn) / sigma,
+            now.turned,
+            now.refused};
+  }
+
+ private:
+  LoadFilter<Scalar> filter_;
+};
+
+bool covers(const Said& said, double truth) { return std::fabs(said.load - truth) <= 1.96 * said.sd; }
+
+/// A load in time, in standard deviations of a reading.
+struct Path {
+  std::vector<double> load;
+  double now = 0;
+  void go(double slope, int samples) {
+    for (int i = 0; i < samples; ++i) {
+      now = std::max(0.0, now + slope);
+      load.push_back(now);
+    }
+  }
+};
+
+/// Ramps from 0.02 to 5 sigma a sample, holds, steps and releases, of 10 to 1000 samples each.
+Path random_path(Noise& noise) {
+  Path path;
+  path.now = noise.below(2) == 0 ? 0 : noise.between(0, 100);
+  const int pieces = 3 + noise.below(8);
+  for (int p = 0; p < pieces; ++p) {
+    const int samples = static_cast<int>(noise.of_magnitude(10, 1000));
+    const int kind = noise.below(8);
+    const double sign = noise.below(5) < 3 ? 1 : -1;
+    if (kind < 3) path.go(0, samples);
+    if (kind >= 3 && kind < 6) path.go(sign * noise.of_magnitude(0.02, 5), samples);
+    if (kind == 6) {
+      path.now = std::max(0.0, path.now + sign * noise.between(20, 200));
+      path.go(0, samples);
+    }
+    if (kind == 7) path.go(-noise.between(1, 5), samples);
+  }
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("the filter is small and can be stored byte by byte") {
+  static_assert(sizeof(LoadFilter<float>) < 200);
+  static_assert(std::is_trivially_copyable_v<LoadFilter<float>>);
+  Noise noise(1);
+  LoadFilter<float> filter, restored;
+  filter.start(1);
+  for (int i = 0; i < 300; ++i) filter.take(static_cast<float>(50 + noise()), 1);
+  std::memcpy(&restored, &filter, sizeof(filter));
+  for (int i = 0; i < 300; ++i) {
+    const auto reading = static_cast<float>(50 + 0.3 * i + noise());
+    const auto a = filter.take(reading, 1), b = restored.take(reading, 1);
+    REQUIRE(a.load == b.load);
+    REQUIRE(a.sure == b.sure);
+  }
+}
+
+TEST_CASE_TEMPLATE("exact readings are the load, and every change of direction is a turn", Scalar, float,
+                   double) {
+  LoadFilter<Scalar> filter;
+  filter.start(0);
+  const std::array<int, 9> readings = {3, 5, 5, 2, 2, 1, 4, -1, 6};
+  const std::array<int, 9> turns = {-1, -1, -1, 5, -1, -1, 1, 4, 0};
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    CAPTURE(i);
+    const auto now = filter.take(static_cast<Scalar>(readings[i]), 1);
+    CHECK(now.load == std::max(0, readings[i]));
+    CHECK(now.sure == now.load);
+    CHECK(now.sd == 0);
+    CHECK(now.turned == (turns[i] >= 0));
+    if (now.turned) CHECK(now.turn == turns[i]);
+  }
+}
+
+TEST_CASE_TEMPLATE("the load does not lag behind a ramp", Scalar, float, double) {
+  for (const double slope : {0.02, 0.1, 0.5, 2.0, 5.0, 100.0}) {
+    CAPTURE(slope);
+    double error = 0, behind = 0;
+    int samples = 0;
+    for (int seed = 0; seed < 200; ++seed) {
+      Noise noise(seed);
+      Bench<Scalar> bench;
+      for (int i = 0; i < 500; ++i) {
+        const double truth = 20 + slope * i;
+        const Said said = bench.take(truth + noise());
+        if (i < 20) continue;
+        error += said.load - truth;
+        behind += truth - said.sure;
+        ++samples;
+      }
+    }
+    // 200 independent ramps, each with an error of about 0.2: 0.1 is seven times what chance would do.
+    CHECK(std::fabs(error / samples) < 0.1);
+    CHECK(behind / samples > 0);
+    CHECK(behind / samples < 6);
+  }
+}
+
+TEST_CASE("a load that begins to rise after a hold is followed without lag") {
+  for (const double slope : {0.02, 0.1, 0.5, 2.0, 5.0, 20.0}) {
+    CAPTURE(slope);
+    double error = 0;
+    for (int seed = 0; seed < 200; ++seed) {
+      Noise noise(seed);
+      Bench<double> bench;
+      for (int i = 0; i < 700; ++i) {
+        const double truth = 20 + slope * std::max(0, i - 200);
+        const Said said = bench.take(truth + noise());
+        if (i >= 220) error += said.load - truth;
+      }
+    }
+    CHECK(std::fabs(error / (200 * 480)) < 0.1);
+  }
+}
+
+TEST_CASE("where a ramp ends the sure load does not overshoot") {
+  // With 1 % noise 0.2 % of the load is 0.2 sigma.
+  int overshot = 0, turns = 0;
+  constexpr int seeds = 4000;
+  for (int seed = 0; seed < seeds; ++seed) {
+    Noise noise(seed);
+    Bench<float> bench;
+    const double slope = noise.of_magnitude(0.02, 5);
+    double most = 0;
+    for (int i = 0; i < 400; ++i) {
+      const Said said = bench.take(std::max(0.0, 100 - slope * std::max(0, 150 - i)) + noise());
+      most = std::max(most, said.sure);
+      turns += said.turned ? 1 : 0;
+    }
+    overshot += most > 100.2 ? 1 : 0;
+  }
+  CHECK(overshot <= seeds / 1000);
+  CHECK(turns <= seeds / 1000);
+}
+
+TEST_CASE_TEMPLATE("in a hold of a million samples nothing drifts", Scalar, float, double) {
+  Noise noise(3);
+  Bench<Scalar> bench;
+  double sure = 0, square = 0;
+  int turns = 0, astray = 0;
+  Said said = {};
+  for (int i = 0; i < 1000000; ++i) {
+    said = bench.take(100 + noise());
+    REQUIRE(said.sure >= sure);
+    sure = said.sure;
+    turns += said.turned ? 1 : 0;
+    if (i < 20000) continue;
+    square += (said.load - 100) * (said.load - 100);
+    astray += std::fabs(said.load - 100) > 0.2 ? 1 : 0;
+  }
+  CHECK(turns == 0);
+  CHECK(std::fabs(said.load - 100) < 0.2);
+  CHECK(std::fabs(sure - 100) < 0.2);
+  // The memory is 2048 readings: a line through them is known to 2 / sqrt(2048) = 0.044.
+  CHECK(std::sqrt(square / 980000) < 0.05);
+  // A reading beyond 4 sigma, one in 16,000, may be a bend until the next one: a few samples each.
+  CHECK(astray < 1000);
+}
+
+TEST_CASE("a hold in float is known as well when the load is a million times the noise") {
+  Noise noise(4);
+  LoadFilter<float> filter;
+  filter.start(1);
+  double square = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const auto now = filter.take(static_cast<float>(1e6 + noise()), 1);
+    if (i >= 20000) square += (double(now.load) - 1e6) * (double(now.load) - 1e6);
+  }
+  // Readings have steps of 1/16, and so has the answer.
+  CHECK(std::sqrt(square / 80000) < 0.05 + 1.0 / 16);
+}
+
+TEST_CASE("slow creep of a hold is followed") {
+  for (const double sign : {1.0, -1.0}) {
+    CAPTURE(sign);
+    Noise noise(5);
+    Bench<float> bench;
+    double error = 0;
+    int turns = 0;
+    for (int i = 0; i < 100000; ++i) {
+      const double truth = 100 + sign * i / 5000;
+      const Said said = bench.take(truth + noise());
+      turns += said.turned ? 1 : 0;
+      if (i < 5000) continue;
+      error += std::fabs(said.load - truth);
+      REQUIRE(std::fabs(said.sure - truth) < 2);
+    }
+    CHECK(error / 95000 < 0.05);
+    CHECK(turns == (sign < 0 ? 1 : 0));
+  }
+}
+
+TEST_CASE("a step is refused once and then not smeared") {
+  for (const double height : {20.0, 50.0, 200.0, -20.0, -50.0, -90.0}) {
+    CAPTURE(height);
+    std::array<int, 4> refused = {}, far_off = {};
+    int turns = 0;
+    constexpr int seeds = 500;
+    for (int seed = 0; seed < seeds; ++seed) {
+      Noise noise(seed);
+      Bench<double> bench;
+      for (int i = 0; i < 54; ++i) {
+        const double truth = i < 50 ? 100 : 100 + height;
+        const Said said = bench.take(truth + noise());
+        turns += said.turned ? 1 : 0;
+        if (i < 50) continue;
+        const auto since = static_cast<std::size_t>(i - 50);
+        refused[since] += said.refused ? 1 : 0;
+        far_off[since] += std::fabs(said.load - truth) > 3 ? 1 : 0;
+      }
+    }
+    CHECK(refused[1] <= seeds / 100);
+    CHECK(refused[2] == 0);
+    // A single reading is beyond 3 sigma once in 370.
+    CHECK(far_off[2] <= seeds / 100);
+    CHECK(far_off[3] <= seeds / 100);
+    CHECK(turns == (height < 0 ? seeds : 0));
+  }
+}
+
+TEST_CASE("in a coarse log every row is a new stage") {
+  Noise noise(6);
+  Bench<double> bench;
+  for (const double truth : {50.0, 120.0, 180.0, 300.0, 280.0, 400.0, 500.0, 520.0, 700.0, 450.0, 300.0}) {
+    CAPTURE(truth);
+    const double reading = truth + noise();
+    const Said said = bench.take(reading);
+    CHECK_FALSE(said.refused);
+    CHECK(std::fabs(said.load - reading) < 1);
+  }
+}
+
+TEST_CASE("single outliers are refused and move nothing") {
+  for (const double slope : {0.0, 0.05, 1.0}) {
+    CAPTURE(slope);
+    int missed = 0, moved = 0, refused_in_vain = 0, turns = 0;
+    for (int seed = 0; seed < 200; ++seed) {
+      Noise noise(seed);
+      Bench<float> bench;
+      double sure = 0;
+      bool was_outlier = false;
+      for (int i = 0; i < 1000; ++i) {
+        const double truth = 100 + slope * i;
+        const bool outlier = i > 20 && !was_outlier && noise.between(0, 1) < 0.005;
+        const std::array<double, 4> readings = {0, 2 * truth, truth + 50, truth - 50};
+        const double reading = outlier ? readings[static_cast<std::size_t>(noise.below(4))] : truth;
+        const Said said = bench.take(reading + noise());
+        if (outlier) {
+          missed += said.refused ? 0 : 1;
+          moved += said.sure != sure || said.turned ? 1 : 0;
+        } else {
+          refused_in_vain += said.refused ? 1 : 0;
+        }
+        turns += said.turned ? 1 : 0;
+        sure = said.sure;
+        was_outlier = outlier;
+      }
+    }
+    CHECK(missed == 0);
+    CHECK(moved == 0);
+    CHECK(turns == 0);
+    // Of 200,000 Gaussian readings 0.1 are beyond 5 sigma; young lines are less certain.
+    CHECK(refused_in_vain <= 10);
+  }
+}
+
+TEST_CASE("turns are counted right and placed well") {
+  for (const double slope : {0.1, 0.3, 1.0, 5.0, 20.0})
+    for (const int hold : {0, 100}) {
+      CAPTURE(slope);
+      CAPTURE(hold);
+      const int samples = static_cast<int>(std::max(20.0, 20 / slope));
+      int wrong = 0, turns = 0, near = 0;
+      double square = 0;
+      for (int seed = 0; seed < 100; ++seed) {
+        Noise noise(seed);
+        Bench<double> bench;
+        Path path;
+        path.now = 40;
+        std::vector<double> corners;
+        for (int leg = 0; leg < 5; ++leg) {
+          path.go(leg % 2 == 0 ? slope : -slope, samples);
+          corners.push_back(path.now);
+          if (leg < 4) path.go(0, hold);
+        }
+        std::size_t turn = 0;
+        for (const double truth : path.load) {
+          const Said said = bench.take(truth + noise());
+          if (!said.turned) continue;
+          if (turn < 4) {
+            const double error = said.turn - corners[turn];
+            square += error * error;
+            near += std::fabs(error) < 3 ? 1 : 0;
+            ++turns;
+          }
+          ++turn;
+        }
+        wrong += turn != 4 ? 1 : 0;
+      }
+      CHECK(wrong == 0);
+      CHECK(near >= 0.99 * turns);
+      // A hundred readings are known to 0.1; slopes below 0.2 hide where the hold ended.
+      if (hold > 0) CHECK(std::sqrt(square / turns) < 0.3);
+    }
+}
+
+TEST_CASE("a hold does not turn") {
+  int turns = 0;
+  for (int seed = 0; seed < 20; ++seed) {
+    Noise noise(seed);
+    Bench<float> bench;
+    for (int i = 0; i < 100000; ++i) turns += bench.take(100 + noise()).turned ? 1 : 0;
+  }
+  CHECK(turns == 0);
+}
+
+TEST_CASE("an unloaded cell stays at zero") {
+  Noise noise(7);
+  Bench<float> bench;
+  for (int i = 0; i < 10000; ++i) {
+    const Said said = bench.take(noise());
+    REQUIRE(said.load >= 0);
+    REQUIRE(said.sure >= 0);
+    REQUIRE(said.sure < 0.2);
+    REQUIRE_FALSE(said.turned);
+  }
+}
+
+TEST_CASE_TEMPLATE("intervals of 95 % hold the truth in 93 to 97.5 % of the samples of random logs", Scalar,
+                   float, double) {
+  // 300 logs of some 1400 samples. Errors last as long as the pieces do: the share is known to about 0.5 %.
+  long samples = 0, covered = 0;
+  for (int seed = 0; seed < 300; ++seed) {
+    Noise noise(seed);
+    const Path path = random_path(noise);
+    const double step = noise.below(2) == 0 ? 0 : noise.between(0.01, 2);
+    Bench<Scalar> bench(std::sqrt(1 + step * step / 12));
+    for (const double truth : path.load) {
+      const double reading = truth + noise();
+      const Said said = bench.take(step > 0 ? step * std::round(reading / step) : reading);
+      covered += covers(said, truth) ? 1 : 0;
+      ++samples;
+    }
+  }
+  const double share = double(covered) / double(samples);
+  CAPTURE(share);
+  CHECK(share > 0.93);
+  CHECK(share < 0.975);
+}
+
+TEST_CASE_TEMPLATE("what is not finite is refused and does no harm", Scalar, float, double) {
+  using Limits = std::numeric_limits<Scalar>;
+  for (const Scalar sd : {Scalar(0), Scalar(1)}) {
+    CAPTURE(sd);
+    Noise noise(8);
+    LoadFilter<Scalar> filter;
+    filter.start(sd);
+    for (int i = 0; i < 1000; ++i) {
+      const double truth = 50 + 0.2 * i;
+      const bool bad = i % 10 == 0;
+      const Scalar reading = !bad          ? static_cast<Scalar>(truth + double(sd) * noise())
+                             : i % 20 == 0 ? Limits::quiet_NaN()
+                             : i % 30 == 0 ? Limits::infinity()
+                                           : -Limits::infinity();
+      const auto now = filter.take(reading, 1);
+      REQUIRE(std::isfinite(now.load));
+      REQUIRE(std::isfinite(now.sd));
+      REQUIRE(std::isfinite(now.sure));
+      REQUIRE(now.refused == bad);
+      REQUIRE_FALSE(now.turned);
+      // An exact reading that is missing leaves the one before, 0.2 lower.
+      if (i > 20) REQUIRE(std::fabs(double(now.load) - truth) < 0.21 + 5 * double(now.sd));
+    }
+  }
+}

@@ -1,0 +1,168 @@
+// Derivatives with respect to friction, carried through stick and slip, against trackers with other friction.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "support/scenes.hpp"
+#include "taut/taut.hpp"
+
+using namespace support;
+
+namespace {
+
+constexpr int most_parameters = 12;
+using Model = taut::Condensed<double, PlaneCapacity>;
+using Known = taut::Knowledge<double, PlaneCapacity>;
+using Follower = taut::Tracker<Model, most_parameters>;
+using Row = taut::Sample<double, PlaneCapacity>;
+
+/// A scene with friction that is moved by `by` in one parameter: the common one of all joints, or a joint's.
+struct Varied {
+  taut::Scene<double, 2, PlaneCapacity> scene;
+  Model model;
+  Known known;
+
+  Varied(const Plane& original, bool shared, int parameter, double by) : scene(original) {
+    for (int j = 0; j < scene.mu.size(); ++j)
+      if (shared || j == parameter) scene.mu[j] += by;
+    taut::Condensation<double, Plane> condensation;
+    REQUIRE(condensation.run(scene, model).ok());
+    taut::find_knowledge(scene, known);
+  }
+  void begin(Follower& tracker, bool shared) const {
+    REQUIRE(tracker.start(model).status.ok());
+    for (int j = 0; j < scene.mu.size(); ++j) {
+      const auto limit = known.limit(0, j, known.mu[j]);
+      if (model.is_locked(j)) continue;
+      tracker.set_friction(j, limit.rho, shared ? 0 : j, limit.slope);
+    }
+  }
+};
+
+/// Ramps, releases, changes of load and lock-offs with re-jacking.
+std::vector<Row> random_log(Random& random, bool locks) {
+  std::vector<Row> rows;
+  Row row;
+  const int pieces = 3 + random.below(4);
+  for (int piece = 0; piece < pieces; ++piece) {
+    const Row from = row;
+    const int what = random.below(locks ? 4 : 3);
+    if (what < 2) row.jack[0][1].force = random.between(0.2, 1) * 4e5;
+    if (what == 2) row.factor[random.below(2)] = random.between(-1, 1);
+    if (what == 3) row.jack[0][1].locked = !row.jack[0][1].locked;
+    const int steps = 7;
+    for (int i = 1; i <= steps; ++i) {
+      Row between = row;
+      const auto mix = [&](double a, double b) { return a + (b - a) * i / steps; };
+      between.jack[0][1].force = mix(from.jack[0][1].force, row.jack[0][1].force);
+      for (int k = 0; k < 2; ++k) between.factor[k] = mix(from.factor[k], row.factor[k]);
+      rows.push_back(between);
+    }
+  }
+  return rows;
+}
+
+struct Case {
+  Plane scene;
+  std::vector<Row> log;
+  bool shared = true;
+  int parameter = 0;
+};
+void make_case(std::uint64_t seed, Case& made) {
+  Random random(seed);
+  const Variation vary(random);
+  taut::Cable<double> cable = steel_cable(random.between(0.1, 0.5));
+  cable.seating = random.coin() ? 0.004 : 0;
+  cable.law = random.coin() ? taut::FrictionLaw::point : taut::FrictionLaw::capstan;
+  if (random.coin())
+    truss_string(made.scene, cable, 3 + random.below(4), vary);
+  else
+    rigid_saddles(made.scene, cable, chain_points(3 + random.below(5)));
+  while (made.scene.loads < 2) made.scene.add_load();
+  made.shared = random.coin();
+  made.parameter = made.shared ? 0 : random.below(made.scene.mu.size());
+  made.log = random_log(random, true);
+}
+
+/// Largest difference between carried derivatives and central differences, relative to the largest
+/// derivative there can be, the force itself.
+double worst_difference(std::uint64_t seed, int& compared) {
+  static Case given;
+  make_case(seed, given);
+  const bool shared = given.shared;
+  const int parameter = given.parameter;
+  const double h = 1e-7;
+  const Varied plain(given.scene, shared, parameter, 0), more(given.scene, shared, parameter, h),
+      less(given.scene, shared, parameter, -h);
+  const auto trackers = std::make_unique<std::array<Follower, 3>>();
+  Follower &at = (*trackers)[0], &up = (*trackers)[1], &down = (*trackers)[2];
+  plain.begin(at, shared);
+  more.begin(up, shared);
+  less.begin(down, shared);
+  double worst = 0;
+  for (const Row& row : given.log) {
+    if (!at.advance(row).status.ok() || !up.advance(row).status.ok() || !down.advance(row).status.ok()) break;
+    for (int i = 0; i < plain.model.segments; ++i) {
+      const double found = at.sensitivity(parameter, i),
+                   expected = (up.tension(i) - down.tension(i)) / (2 * h);
+      worst = std::fmax(worst, std::fabs(found - expected) / at.peak());
+      ++compared;
+    }
+  }
+  return worst;
+}
+
+TEST_CASE(
+    "derivatives of the forces are those of trackers with other friction, through stick, slip and lock-off") {
+  int compared = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    CAPTURE(seed);
+    CHECK(worst_difference(seed, compared) < 1e-5);
+  }
+  CHECK(compared > 50000);
+}
+
+/// Largest difference, relative to the largest force, between a tracker that is adjusted to other friction in
+/// the middle of its log and one that had it from the start, at the end of the log.
+double worst_after_adjusting(std::uint64_t seed, double by) {
+  static Case given;
+  make_case(seed, given);
+  const Varied before(given.scene, given.shared, given.parameter, 0),
+      after(given.scene, given.shared, given.parameter, by);
+  const auto trackers = std::make_unique<std::array<Follower, 2>>();
+  Follower &adjusted = (*trackers)[0], &expected = (*trackers)[1];
+  before.begin(adjusted, given.shared);
+  after.begin(expected, given.shared);
+  double worst = 0;
+  for (std::size_t row = 0; row < given.log.size(); ++row) {
+    if (!adjusted.advance(given.log[row]).status.ok() || !expected.advance(given.log[row]).status.ok()) break;
+    if (row < given.log.size() / 2) continue;
+    if (row == given.log.size() / 2) {
+      for (int j = 0; j < given.scene.mu.size(); ++j) {
+        const auto limit = after.known.limit(0, j, after.known.mu[j]);
+        if (!after.model.is_locked(j)) adjusted.set_friction(j, limit.rho, given.shared ? 0 : j, limit.slope);
+      }
+      taut::FixedArray<double, most_parameters> change;
+      change[given.parameter] = by;
+      REQUIRE(adjusted.adjust(change).ok());
+      CHECK(taut::verify(adjusted).worst() < 1e-9);
+    }
+    for (int i = 0; i < before.model.segments; ++i)
+      worst = std::fmax(worst, std::fabs(adjusted.tension(i) - expected.tension(i)) / expected.peak());
+  }
+  return worst;
+}
+
+TEST_CASE(
+    "adjusting the friction on the way leads to where it would have led from the start, to second order") {
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    CAPTURE(seed);
+    // A hundredth of the change: a ten-thousandth of the error.
+    CHECK(worst_after_adjusting(seed, 1e-4) < 1e-6);
+    CHECK(worst_after_adjusting(seed, 1e-6) < 1e-10);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,223 @@
+// What the estimator makes of jackings whose truth is known, and of the one in the paper.
+#include <doctest/doctest.h>
+
+#include "estimation/site.hpp"
+
+using namespace estimation;
+
+namespace {
+
+constexpr double full = 2e5;
+
+/// A chain over rigid saddles, or a truss string.
+void make_ground(Ground& ground, bool elastic, double known_mu, double mu_sd, double actual_mu,
+                 bool shared = true) {
+  taut::Cable<double> cable = support::steel_cable(known_mu);
+  cable.mu_sd = mu_sd;
+  cable.shared_mu = shared;
+  if (elastic)
+    support::truss_string(ground.known, cable, 6);
+  else
+    support::rigid_saddles(ground.known, cable, support::chain_points(7));
+  ground.set_true_mu(std::vector<double>(16, actual_mu));
+}
+template <class Scalar>
+void ramp(Site<Scalar>& site, double from, double to, int samples) {
+  for (int i = 1; i <= samples; ++i) site.advance(full * (from + (to - from) * i / samples));
+}
+template <class Alarms>
+bool raised(const Alarms& alarms, taut::Alarm::Kind kind) {
+  for (const taut::Alarm& alarm : alarms)
+    if (alarm.kind == kind) return true;
+  return false;
+}
+
+struct Errors {
+  double estimated = 0, nominal = 0;  // root mean square, relative to the forces
+};
+template <class Scalar>
+Errors after_one_ramp(bool elastic, double off) {
+  static Ground ground;
+  make_ground(ground, elastic, 0.2 * (1 + off), 0.5 * 0.2 * (1 + off), 0.2);
+  Errors errors;
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const auto site = std::make_unique<Site<Scalar>>(ground, Instruments{}, full, seed);
+    ramp(*site, 0, 1, 200);
+    REQUIRE(site->good());
+    for (int i = 1; i + 1 < site->segments(); ++i) {
+      const double truth = site->true_force(i), nominal = site->nominal_force(i) - truth;
+      errors.estimated += site->error(i) * site->error(i) / (truth * truth);
+      errors.nominal += nominal * nominal / (truth * truth);
+      ++count;
+    }
+  }
+  errors.estimated = std::sqrt(errors.estimated / count);
+  errors.nominal = std::sqrt(errors.nominal / count);
+  return errors;
+}
+
+TEST_CASE("a prior half off comes within half a percent after one ramp, and ten times closer than it was") {
+  for (const bool elastic : {false, true})
+    for (const double off : {-0.5, 0.5}) {
+      CAPTURE(elastic);
+      CAPTURE(off);
+      for (const Errors& errors :
+           {after_one_ramp<double>(elastic, off), after_one_ramp<float>(elastic, off)}) {
+        CHECK(errors.estimated < 0.005);
+        CHECK(errors.nominal > 10 * errors.estimated);
+      }
+    }
+}
+
+TEST_CASE("a hold of a million noisy samples drags no force along") {
+  static Ground ground;
+  make_ground(ground, true, 0.2, 0, 0.2);
+  Instruments instruments;
+  instruments.jack = 0.01;
+  instruments.has_cell = false;
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    CAPTURE(seed);
+    const auto site = std::make_unique<Site<float>>(ground, instruments, full, seed);
+    ramp(*site, 0, 1, 300);
+    for (int i = 0; i < 2000; ++i) site->advance(full);  // until the mean is better than the noise
+    double worst = 0;
+    for (int i = 0; i < 1000000; ++i) {
+      site->advance(full);
+      for (int k = 0; k < site->segments(); ++k)
+        worst = std::fmax(worst, std::fabs(site->error(k)) / site->true_force(k));
+    }
+    REQUIRE(site->good());
+    CHECK(worst < 0.002);
+  }
+}
+
+TEST_CASE("without noise, and with mu known, the estimate is what the tracker finds") {
+  static Ground ground;
+  make_ground(ground, true, 0.2, 0, 0.2);
+  const auto site = std::make_unique<Site<double>>(ground, Instruments{0, 0, 0, 0, false}, full, 1);
+  for (const double to : {1.0, 0.3, 0.8}) {
+    ramp(*site, site->jack_reading() / full, to, 50);
+    REQUIRE(site->good());
+    for (int i = 0; i < site->segments(); ++i) {
+      CHECK(std::fabs(site->error(i)) < 1e-9 * full);
+      CHECK(site->estimator().deviation(i) == 0);
+    }
+  }
+}
+
+TEST_CASE("without a measurement mu stays what it was, and the forces are as uncertain as it makes them") {
+  static Ground ground;
+  make_ground(ground, false, 0.2, 0.05, 0.2);
+  const auto site = std::make_unique<Site<double>>(ground, Instruments{0, 0, 0, 0, false}, full, 1);
+  ramp(*site, 0, 1, 100);
+  const auto& estimator = site->estimator();
+  for (int j = 0; j < ground.known.mu.size(); ++j) {
+    CHECK(estimator.mu(j) == 0.2);
+    CHECK(std::fabs(estimator.mu_deviation(j) - 0.05) < 1e-15);
+  }
+  // Closed form: T = F times the product of (1 - mu c) / (1 + mu c), c = cot(alpha), over the joints up to
+  // the jack.
+  double force = full, change = 0;
+  for (int i = site->segments() - 2; i >= 0; --i) {
+    const double c = std::tan(support::chain_turn[i] / 2);
+    force *= (1 - 0.2 * c) / (1 + 0.2 * c);
+    change += 2 * c / (1 - 0.04 * c * c);
+    CHECK(std::fabs(static_cast<double>(estimator.force(i)) - force) < 1e-9 * full);
+    CHECK(std::fabs(static_cast<double>(estimator.deviation(i)) - 0.05 * force * change) < 1e-7 * full);
+  }
+}
+
+TEST_CASE("while joints stick, a load cell at the far end teaches nothing, and an alarm says so") {
+  static Ground ground;
+  make_ground(ground, false, 0.2, 0.1, 0.3);
+  const auto site = std::make_unique<Site<double>>(ground, Instruments{}, full, 3);
+  ramp(*site, 0, 1, 100);
+  for (int i = 0; i < 100; ++i) site->advance(full);
+  ramp(*site, 1, 0.95, 20);
+  const double mu = static_cast<double>(site->estimator().mu(0)),
+               deviation = static_cast<double>(site->estimator().mu_deviation(0));
+  ramp(*site, 0.95, 0.9, 20);
+  CHECK(static_cast<double>(site->estimator().mu(0)) == mu);
+  CHECK(static_cast<double>(site->estimator().mu_deviation(0)) == deviation);
+  CHECK(raised(site->estimator().alarms(), taut::Alarm::Kind::no_information));
+}
+
+TEST_CASE("outliers of the jack's load cell are refused with an alarm and leave no trace") {
+  static Ground ground;
+  make_ground(ground, true, 0.2, 0, 0.2);
+  Instruments instruments;
+  instruments.has_cell = false;
+  const auto site = std::make_unique<Site<double>>(ground, instruments, full, 5);
+  ramp(*site, 0, 1, 200);
+  for (int i = 0; i < 100; ++i) site->advance(full);
+  for (int i = 0; i < 20; ++i) {
+    Site<double>::Estimator estimator = site->estimator();
+    taut::Readings<double, PlaneCapacity> wrong;
+    wrong.ends[0][1].has_force = true;
+    wrong.ends[0][1].force = i % 2 == 0 ? 0 : 1.5 * full;
+    REQUIRE(estimator.advance(wrong).status.ok());
+    CHECK(raised(estimator.alarms(), taut::Alarm::Kind::outlier));
+    for (int k = 0; k < site->segments(); ++k)
+      CHECK(std::fabs(estimator.force(k) - site->true_force(k)) < 0.01 * full);
+    site->advance(full);
+  }
+}
+
+TEST_CASE("a far-end cell that contradicts everything known is told, not believed") {
+  static Ground ground;
+  make_ground(ground, false, 0.2, 0.02, 0.2);
+  const auto site = std::make_unique<Site<double>>(ground, Instruments{}, full, 7);
+  ramp(*site, 0, 1, 100);
+  Site<double>::Estimator estimator = site->estimator();
+  const double mu = estimator.mu(0);
+  taut::Readings<double, PlaneCapacity> wrong;
+  wrong.ends[0][1] = {true, false, full, 0};
+  wrong.ends[0][0] = {true, false, 0.1 * full, 0};
+  REQUIRE(estimator.advance(wrong).status.ok());
+  CHECK(raised(estimator.alarms(), taut::Alarm::Kind::sensor));
+  CHECK(estimator.mu(0) == mu);
+}
+
+TEST_CASE("mu far outside of its band is told") {
+  static Ground ground;
+  make_ground(ground, false, 0.2, 0.02, 0.28);
+  const auto site = std::make_unique<Site<double>>(ground, Instruments{}, full, 9);
+  ramp(*site, 0, 1, 200);
+  CHECK(raised(site->estimator().alarms(), taut::Alarm::Kind::mu_band));
+  CHECK(std::fabs(static_cast<double>(site->estimator().mu(0)) - 0.28) < 0.01);
+}
+
+TEST_CASE("a payout outside of the tolerance on the elongation is told, one inside is not") {
+  static Ground ground;
+  make_ground(ground, true, 0.2, 0, 0.2);
+  const auto site = std::make_unique<Site<double>>(ground, Instruments{0, 0, 0, 0, false}, full, 1);
+  ramp(*site, 0, 1, 20);
+  taut::Response<double, PlaneCapacity> response;
+  site->estimator().respond(response);
+  for (const double part : {1.0, 1.04, 1.06, 0.96, 0.94}) {
+    CAPTURE(part);
+    Site<double>::Estimator estimator = site->estimator();
+    taut::Readings<double, PlaneCapacity> readings;
+    readings.ends[0][1] = {true, true, full, part * response.payout[0][1]};
+    REQUIRE(estimator.advance(readings).status.ok());
+    CHECK(raised(estimator.alarms(), taut::Alarm::Kind::elongation) == (std::fabs(part - 1) > 0.05));
+  }
+}
+
+TEST_CASE("more unknowns than there is room for are refused with how many are missing") {
+  static Ground ground;
+  make_ground(ground, false, 0.2, 0.02, 0.2, false);
+  ground.known.cables[0].sensor_sd = {0, 0};
+  taut::Condensed<double, PlaneCapacity> model;
+  static taut::Condensation<double, Plane> condensation;
+  REQUIRE(condensation.run(ground.known, model).ok());
+  taut::Knowledge<double, PlaneCapacity> knowledge;
+  taut::find_knowledge(ground.known, knowledge);
+  taut::Estimator<taut::Condensed<double, PlaneCapacity>, 4> estimator;
+  const auto progress = estimator.start(model, knowledge);
+  CHECK(progress.status.code == taut::Code::capacity_exceeded);
+  CHECK(progress.status.amount == ground.known.mu.size() - 4);
+}
+
+}  // namespace

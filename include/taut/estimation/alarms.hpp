@@ -1,0 +1,40 @@
+// What is odd, and where.
+#pragma once
+
+#include <cstdint>
+
+#include "taut/scene/fixed_list.hpp"
+
+namespace taut {
+
+struct Alarm {
+  enum class Kind : std::uint8_t {
+    outlier,      ///< a jack's load cell gave a reading that does not belong to the others; it was left out
+    sensor,       ///< a load cell at an anchored end contradicts the model by more than five sigma
+    mu_band,      ///< mu is surely outside of what was known of it: `place` is a joint, or -1 for all
+    stuck_joint,  ///< a joint holds back more than its mu allows: it does not slide though it should
+    elongation,   ///< the measured payout is outside of the tolerance on the predicted one
+    force_high,   ///< a segment is above its limit
+    force_low,    ///< a segment is below its limit
+    no_information,  ///< a load cell at an anchored end was read, but joints stick: nothing is learned about
+                     ///< mu
+  } kind = Kind::outlier;
+  std::int16_t cable = -1;
+  std::int16_t place = -1;  ///< joint or segment of the cable; end 0 or 1
+
+  static constexpr Alarm of(Kind kind, int cable, int place) {
+    return {kind, static_cast<std::int16_t>(cable), static_cast<std::int16_t>(place)};
+  }
+};
+
+/// From when on something is odd.
+template <class Scalar>
+struct AlarmLimits {
+  Scalar least_force = -1;  ///< of any segment [N]; below zero: none
+  Scalar most_force = -1;   ///< of any segment [N]; below zero: none
+  Scalar elongation =
+      Scalar(0.05);  ///< part of the largest payout; EN 13670 allows 0.05 for all tendons together
+  Scalar least_elongation = Scalar(1e-3);  ///< [m]: differences below this are reading errors
+};
+
+}  // namespace taut

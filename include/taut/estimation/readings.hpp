@@ -1,0 +1,27 @@
+// What a site reads off its instruments at one instant.
+#pragma once
+
+#include <array>
+
+#include "taut/scene/sample.hpp"
+
+namespace taut {
+
+/// One end of a cable. What is not read stays false.
+template <class Scalar>
+struct EndReading {
+  bool has_force = false;   ///< a new reading of the load cell
+  bool has_stroke = false;  ///< a new reading of the payout
+  Scalar force = 0;   ///< [N]; at an unlocked jack it drives the model, at an anchored end it is measured
+  Scalar stroke = 0;  ///< payout of a jacked end since the start [m]
+};
+
+/// A row of readings. The load factors and locks of `sample` hold; its jack forces have no meaning.
+template <class Scalar, class Cap>
+struct Readings {
+  Sample<Scalar, Cap> sample;
+  FixedArray<std::array<EndReading<Scalar>, 2>, Cap::cables> ends;
+  Scalar dt = 1;  ///< time since the row before, in any unit, > 0
+};
+
+}  // namespace taut

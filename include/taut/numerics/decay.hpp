@@ -1,0 +1,19 @@
+// exp(-x) with the same bits on every machine: a C library may round it as it likes.
+#pragma once
+
+namespace taut {
+
+/// exp(-x) for x >= 0, to a few units in the last place; zero beyond 60. Halved until the series is short,
+/// then squared as often.
+template <class Real>
+constexpr Real decay(Real x) {
+  if (!(x < Real(60))) return 0;
+  int halvings = 0;
+  for (; x > Real(0.125) && halvings < 16; ++halvings) x /= 2;
+  Real sum = 1;
+  for (int n = 12; n > 0; --n) sum = Real(1) - x / static_cast<Real>(n) * sum;
+  for (; halvings > 0; --halvings) sum *= sum;
+  return sum;
+}
+
+}  // namespace taut

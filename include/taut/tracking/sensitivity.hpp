@@ -1,0 +1,173 @@
+// How tensions and moves change with friction that is not known, carried through stick and slip.
+#pragma once
+
+#include <cmath>
+
+#include "taut/tracking/affine_map.hpp"
+
+namespace taut {
+
+/// Derivatives of everything that moves along the cables, and of the tensions, with respect to `Parameters`
+/// numbers on which the friction of the joints depends; at fixed loads.
+///
+/// A sliding joint keeps T_small = rho T_big, so its derivative keeps T'_small = rho T'_big + rho' T_big. A
+/// joint that sticks keeps the derivative of its slip. Where sliding ends at an event, that is at a load that
+/// itself depends on friction, the derivative jumps by the rate of slip times the derivative of that load.
+/// Like tensions, derivatives are affine in the inputs while no state changes.
+template <class CondensedType, int Parameters>
+class Sensitivity {
+ public:
+  using Scalar = typename CondensedType::Scalar;
+  using Real = typename CondensedType::Real;
+  using Cap = typename CondensedType::Capacity;
+  using Map = AffineMap<CondensedType>;
+  using Tensions = typename Map::Tensions;
+  using Moves = typename Map::Moves;
+  using Inputs = typename Map::Inputs;
+
+  /// What is kept from map to map: derivatives of the moves where they froze.
+  struct Frozen {
+    FixedArray<Moving<Scalar, Cap>, Parameters> derivative;
+  };
+
+  void begin() {
+    used_ = 0;
+    frozen_ = {};
+    parameter_.fill(-1);
+    later_.fill(Real(0));
+  }
+  /// The parameter that the joint's friction depends on, or -1, and the derivative of its rho.
+  void depend(int joint, int parameter, Real slope) {
+    use(parameter);
+    parameter_[joint] = static_cast<std::int16_t>(parameter);
+    slope_[joint] = slope;
+  }
+  const Frozen& frozen() const { return frozen_; }
+  void set_frozen(const Frozen& frozen) { frozen_ = frozen; }
+  /// Calls change(derivatives of all that has moved) for every parameter.
+  template <class Change>
+  void for_each(Change change) {
+    for (int p = 0; p < used_; ++p) change(frozen_.derivative[p], p);
+  }
+
+  /// Of the map that was just made; settle(due, T, moves) lets its active moves follow until their laws give
+  /// what is due, carry(moved, T) adds the tensions of everything that has moved.
+  template <class Settle, class Carry>
+  void make(const Map& map, Settle settle, Carry carry) {
+    for (int p = 0; p < used_; ++p) {
+      Tensions T;
+      T.fill(Real(0));
+      carry(frozen_.derivative[p], T);
+      Moves moves;
+      for (int i = 0; i < map.active(); ++i) moves[i] = static_cast<Real>(of_move(map.move(i), p));
+      settle(due(map, p, map.base()), T, moves);
+      store(map, T, moves, base_[p], base_moves_[p]);
+      for (int k = 0; k < map.inputs(); ++k) {
+        T.fill(Real(0));
+        moves.fill(Real(0));
+        settle(due(map, p, map.column(k)), T, moves);
+        store(map, T, moves, column_[p][k], column_moves_[p][k]);
+      }
+    }
+  }
+
+  /// dT/dp of a segment [N], at inputs `x`.
+  template <class Values>
+  Scalar tension(const Map& map, int p, int segment, const Values& x) const {
+    if (p >= used_) return 0;
+    Scalar at = base_[p][segment];
+    for (int k = 0; k < map.inputs(); ++k)
+      at += static_cast<Scalar>(static_cast<Real>(x[k]) - map.anchor()[k]) * column_[p][k][segment];
+    return at;
+  }
+
+  /// At inputs `x` a law that falls at the rate `falling` along `direction` reached its limit. `joint` is
+  /// whose limit it is, or -1.
+  void meet(const Map& map, const Inputs& x, const Tensions& T, const Law<Real>& law, int joint,
+            Real falling) {
+    for (int p = 0; p < used_; ++p) {
+      Real change = static_cast<Real>(tension(map, p, law.first, x));
+      if (law.second >= 0) change -= law.weight * static_cast<Real>(tension(map, p, law.second, x));
+      if (joint >= 0 && parameter_[joint] == p) change -= slope_[joint] * T[law.second];
+      later_[p] = -change / falling;
+    }
+  }
+  /// The same where the active move `i` came to its end.
+  void meet_move(const Map& map, const Inputs& x, int i, Real falling) {
+    for (int p = 0; p < used_; ++p) later_[p] = -move(map, p, i, x) * map.stiffness(i) / falling;
+  }
+  /// From here on parameter `p` is by how much further input `k` went before it turned, or before its jack
+  /// was locked.
+  void turn(const Map& map, int p, int k) {
+    use(p);
+    frozen_.derivative[p] = {};
+    for (int i = 0; i < map.active(); ++i) of_move(map.move(i), p) = column_move(map, k, i);
+  }
+  /// What comes next is not at an event.
+  void pass() { later_.fill(Real(0)); }
+
+  /// Takes the derivatives where they are; `direction` is that of the inputs on the way here.
+  void freeze(const Map& map, const Inputs& x, const Inputs& direction) {
+    for (int p = 0; p < used_; ++p)
+      for (int i = 0; i < map.active(); ++i)
+        of_move(map.move(i), p) =
+            static_cast<Scalar>(move(map, p, i, x) + later_[p] * map.move_rate(i, direction));
+  }
+
+ private:
+  void use(int parameter) {
+    if (parameter >= used_) used_ = parameter + 1;
+  }
+  static Scalar column_move(const Map& map, int k, int i) {
+    Inputs along;
+    along.fill(Real(0));
+    along[k] = 1;
+    return static_cast<Scalar>(map.move_rate(i, along));
+  }
+  Scalar& of_move(const Move& move, int p) { return frozen_.derivative[p].of(move); }
+
+  /// dm/dp of an active move.
+  Real move(const Map& map, int p, int i, const Inputs& x) const {
+    Real at = static_cast<Real>(base_moves_[p][i]);
+    for (int k = 0; k < map.inputs(); ++k)
+      at += (x[k] - map.anchor()[k]) * static_cast<Real>(column_moves_[p][k][i]);
+    return at;
+  }
+  /// What the laws' derivatives are to be: rho' T_big of every sliding joint.
+  Moves due(const Map& map, int p, const Tensions& T) const {
+    Moves values;
+    values.fill(Real(0));
+    if constexpr (Cap::joints > 0) {
+      for (int i = 0; i < map.active(); ++i) {
+        const Active<Real>& active = map.actives()[i];
+        if (active.move.kind != Move::Kind::slip || active.law.second < 0) continue;
+        if (parameter_[active.move.index] == p) values[i] = slope_[active.move.index] * T[active.law.second];
+      }
+    }
+    return values;
+  }
+  void store(const Map& map, const Tensions& T, const Moves& moves, FixedArray<Scalar, Cap::segments>& into,
+             FixedArray<Scalar, Map::max_active>& moves_into) const {
+    for (int i = 0; i < Cap::segments; ++i) into[i] = static_cast<Scalar>(T[i]);
+    for (int i = 0; i < map.active(); ++i) moves_into[i] = static_cast<Scalar>(moves[i]);
+  }
+
+  int used_ = 0;  // parameters
+  Frozen frozen_;
+  FixedArray<std::int16_t, Cap::joints> parameter_;
+  FixedArray<Real, Cap::joints> slope_;
+  FixedArray<Real, Parameters> later_;  // by how much of what was left of the path the event comes later
+  FixedArray<FixedArray<Scalar, Cap::segments>, Parameters> base_;
+  FixedArray<FixedArray<Scalar, Map::max_active>, Parameters> base_moves_;
+  FixedArray<FixedArray<FixedArray<Scalar, Cap::segments>, Map::max_inputs>, Parameters> column_;
+  FixedArray<FixedArray<FixedArray<Scalar, Map::max_active>, Map::max_inputs>, Parameters> column_moves_;
+};
+
+/// Of a tracker whose friction is known: nothing is carried, and nothing done for it.
+template <class CondensedType>
+class Sensitivity<CondensedType, 0> {
+ public:
+  struct Frozen {};
+};
+
+}  // namespace taut
