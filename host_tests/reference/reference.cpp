@@ -42,6 +42,8 @@ class Reference::Follower {
       imposes_(stretches_[r].segments[0], excess_place(r)) = 1;
     moved_ = Vector::Zero(moves);
     slack_.assign(stretches_.size(), false);
+    rests_.assign(stretches_.size(), false);
+    states_.assign(static_cast<std::size_t>(joints()), 0);
     now_.ends.resize(2 * static_cast<std::size_t>(scene.cables.size()));
     now_.factors = Vector::Zero(scene.loads);
     if (bars_.sound()) by_move_ = product(bars_.elongation(), imposes_);
@@ -67,9 +69,10 @@ class Reference::Follower {
     return follow(from, to);
   }
 
-  Exact fraction() const { return fraction_; }
+  Exact fraction() const { return 1 - rest_; }
   int events() const { return events_; }
   int events_with_several_answers() const { return several_; }
+  Exact clearance() const { return clearance_; }
   Exact tension(int segment) const { return tension_[segment]; }
   Exact strut(int i) const { return forces_[segments() + i]; }
   Exact slip(int joint) const { return moved_[joint]; }
@@ -184,23 +187,31 @@ class Reference::Follower {
     }
   }
 
-  bool is_free(int end) const {
-    const EndDrive& drive = now_.ends[static_cast<std::size_t>(end)];
-    return drive.jacked && !drive.locked && !is_spare(end);
-  }
+  bool is_free(int end) const { return pulls(end) && !is_spare(end); }
   /// Two jacks on a cable without a joint: the start's payout rests.
   bool is_spare(int end) const {
     const std::size_t other = static_cast<std::size_t>(end) + 1;
     return end % 2 == 0 && scene_.cables[end / 2].segments() == 1 && now_.ends[other].jacked &&
            !now_.ends[other].locked;
   }
-  bool is_jacked(const Stretch& stretch) const {
-    for (const int end : stretch.ends)
-      if (end >= 0 && now_.ends[static_cast<std::size_t>(end)].jacked &&
-          !now_.ends[static_cast<std::size_t>(end)].locked)
-        return true;
-    return false;
+  bool pulls(int end) const {
+    if (end < 0) return false;
+    const EndDrive& drive = now_.ends[static_cast<std::size_t>(end)];
+    return drive.jacked && !drive.locked;
   }
+  bool is_jacked(const Stretch& stretch) const { return pulls(stretch.ends[0]) || pulls(stretch.ends[1]); }
+
+  /// Part by which two jacks on a cable without a joint will differ.
+  Exact disagreement(const Drive& to) const {
+    Exact most = 0;
+    for (std::size_t end = 0; end < to.ends.size(); ++end) {
+      if (!pulls(int(end)) || !is_spare(int(end))) continue;
+      const Exact F0 = to.ends[end].force, F1 = to.ends[end + 1].force;
+      if (F0 != F1) most = std::max(most, std::fabs(F0 - F1) / std::max(F0, F1));
+    }
+    return most;
+  }
+  bool is_loose(std::size_t r) const { return slack_[r] || rests_[r]; }
 
   static Drive difference(const Drive& from, const Drive& to) {
     Drive rate = to;
@@ -212,14 +223,14 @@ class Reference::Follower {
     }
     return rate;
   }
-  void go_to(const Drive& from, const Drive& to, Exact part) {
-    const Drive rate = difference(from, to);
+  /// Counted from the end: a force that is released to zero keeps all its digits on the way.
+  void go_to(const Drive& to, const Drive& rate) {
     now_ = to;
-    now_.factors = from.factors + part * rate.factors;
-    now_.prestrain = from.prestrain + part * rate.prestrain;
+    now_.factors -= rest_ * rate.factors;
+    now_.prestrain -= rest_ * rate.prestrain;
     for (std::size_t i = 0; i < rate.ends.size(); ++i) {
-      now_.ends[i].force = from.ends[i].force + part * rate.ends[i].force;
-      now_.ends[i].payout = from.ends[i].payout + part * rate.ends[i].payout;
+      now_.ends[i].force -= rest_ * rate.ends[i].force;
+      now_.ends[i].payout -= rest_ * rate.ends[i].payout;
     }
     compute_forces();
   }
@@ -228,70 +239,156 @@ class Reference::Follower {
     if (scene_.loads > 0) forces_ += bars_.load() * now_.factors;
     tension_ = forces_.head(segments());
     peak_ = std::max(peak_, tension_.cwiseAbs().maxCoeff());
+    tie(states_, tension_);
+    for (std::size_t r = 0; r < stretches_.size(); ++r)
+      for (const int i : stretches_[r].segments)
+        if (is_loose(r)) tension_[i] = 0;
+    for (int end = 0; end < int(now_.ends.size()); ++end)
+      if (is_free(end)) tension_[end_segment(end)] = now_.ends[static_cast<std::size_t>(end)].force;
+  }
+  /// Over a joint that slides the smaller tension follows from the larger one: in the sum of large numbers
+  /// that it is computed from it may have no digit left.
+  void tie(const std::vector<int>& states, Vector& T) const {
+    for (Index pass = 0; pass < joints(); ++pass)
+      for (Index j = 0; j < joints(); ++j) {
+        const Joint& at = joint(j);
+        const int state = states[static_cast<std::size_t>(j)];
+        if (state > 0) T[at.before] = at.rho * T[at.after];
+        if (state < 0) T[at.after] = at.rho * T[at.before];
+      }
+  }
+  int end_segment(int end) const {
+    return scene_.cables[end / 2].end_segment(static_cast<std::size_t>(end % 2));
+  }
+  /// Corrects what moves until all laws at work hold: nothing adds up over the events.
+  void settle() {
+    Followers laws;
+    collect_followers(laws);
+    const std::size_t prescribed = laws.moves.size();
+    for (std::size_t r = 0; r < stretches_.size(); ++r)
+      for (const int j : stretches_[r].joints)
+        if (!is_loose(r) && states_[static_cast<std::size_t>(j)] != 0) laws.add(j, -1, -1);
+    const Index n = Index(laws.moves.size());
+    Matrix system(n, n);
+    Vector missing(n);
+    for (Index i = 0; i < n; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const auto law = [&](const auto& T) {
+        return at < prescribed ? T[laws.tensions[at]]
+                               : room(T, laws.moves[at], states_[static_cast<std::size_t>(laws.moves[at])]);
+      };
+      for (Index k = 0; k < n; ++k) system(i, k) = law(by_move_.col(laws.moves[static_cast<std::size_t>(k)]));
+      missing[i] = -law(forces_);
+      if (laws.ends[at] >= 0) missing[i] += now_.ends[static_cast<std::size_t>(laws.ends[at])].force;
+    }
+    if (n == 0) return;
+    const Eigen::FullPivLU<Matrix> factored(system);
+    if (!factored.isInvertible()) return;
+    const Vector by = factored.solve(missing);
+    for (Index i = 0; i < n; ++i) moved_[laws.moves[static_cast<std::size_t>(i)]] += by[i];
+    compute_forces();
   }
 
   bool follow(const Drive from, const Drive to) {
     const Drive rate = difference(from, to);
-    fraction_ = 0;
-    go_to(from, to, 0);
-    widen_peak(to);
+    rest_ = 1;
+    go_to(to, rate);
+    clearance_ = disagreement(to);
+    if (clearance_ > coarsest) return false;
+    const Exact push = size_of(rate);
+    widen_peak(to, push);
     found_at_start_.clear();
-    tolerance_ = finest;
+    usual_ = finest;
     int short_steps = 0;
     for (int count = 0; count < 1000; ++count) {
-      const Exact rest = 1 - fraction_;
+      find_resting(rate);
+      // What is left of the path may be rounding: then there is nothing to decide.
+      if (rest_ * push <= rounding * peak_) return arrive(to, rate);
       Rates rates;
-      if (!decide_somehow(rate, rates)) {
-        // A breath before the end (of a release to zero, say) rounding decides what is at its limit.
-        if (rest > Exact(1e-12L)) return false;
-        fraction_ = 1;
-        go_to(from, to, 1);
-        now_ = to;
-        return true;
-      }
+      // A breath before the end (of a release to zero, say) rounding decides what is at its limit.
+      if (!decide_somehow(rate, rates)) return rest_ * push <= coarsest * peak_ && arrive(to, rate);
       if (collect_) return true;
-      const Exact step = std::min(rest, piece(rates));
-      short_steps = step < Exact(1e-12L) ? short_steps + 1 : 0;
-      if (short_steps > 0 && short_steps % 8 == 0) coarsen();
+      const Exact step = std::min(rest_, piece(rates));
+      // Joints that come back to their limit again and again are there but for rounding.
+      short_steps = step < Exact(1e-12L) * rest_ ? short_steps + 1 : 0;
+      if (short_steps > 0 && short_steps % 8 == 0) usual_ = std::min(10 * usual_, coarsest);
       moved_ += step * rates.moves;
-      fraction_ = rest - step <= Exact(1e-15L) ? Exact(1) : fraction_ + step;
-      go_to(from, to, fraction_);
-      if (fraction_ >= 1) {
-        now_ = to;
-        return true;
-      }
+      rest_ -= step;
+      go_to(to, rate);
+      if (rest_ <= 0) return arrive(to, rate);
+      settle();
       ++events_;
     }
     return false;
   }
-  /// Joints that come back to their limit again and again are there but for rounding.
-  void coarsen() { tolerance_ = std::min(10 * tolerance_, coarsest); }
-  /// If there is no answer, rounding may have put a joint on the wrong side of what counts as its limit.
-  bool decide_somehow(const Drive& rate, Rates& rates) {
-    const Exact usual = tolerance_;
-    if (decide(rate, rates)) return true;
-    for (const Exact other : {finest / 100, finest * 10, finest * 100, coarsest}) {
-      tolerance_ = other;
-      const bool good = decide(rate, rates);
-      if (good) return true;
+  /// Goes to the end with all that moves as it is, but for what the laws correct.
+  bool arrive(const Drive& to, const Drive& rate) {
+    rest_ = 0;
+    go_to(to, rate);
+    find_resting({});
+    settle();
+    return is_balanced();
+  }
+  /// Whether the tensions are those of the structure, and within their limits.
+  bool is_balanced() const {
+    Exact least = tension_.minCoeff() - (tension_ - forces_.head(segments())).cwiseAbs().maxCoeff();
+    for (const Stretch& stretch : stretches_)
+      for (const int j : stretch.joints)
+        least = std::min({least, room(tension_, j, 1), room(tension_, j, -1)});
+    return least >= -coarsest * peak_;
+  }
+  /// Where the jacks of a stretch are at zero and stay there friction has nothing to hold.
+  void find_resting(const Drive& rate) {
+    for (std::size_t r = 0; r < stretches_.size(); ++r) {
+      rests_[r] = is_jacked(stretches_[r]);
+      for (const int end : stretches_[r].ends) {
+        if (!pulls(end)) continue;
+        const auto at = static_cast<std::size_t>(end);
+        const bool grows = !rate.ends.empty() && rate.ends[at].force > 0;
+        rests_[r] = rests_[r] && !(now_.ends[at].force > 0) && !grows;
+      }
     }
-    tolerance_ = usual;
+  }
+  /// Rounding may have put a joint on the wrong side of what counts as its limit: there is no answer then, or
+  /// one that ends where it begins.
+  bool decide_somehow(const Drive& rate, Rates& rates) {
+    const int several = several_;
+    clearance_ = 1;
+    for (const Exact tolerance :
+         {usual_, finest / 100, finest * 10, finest * 100, coarsest, 10 * coarsest, 100 * coarsest}) {
+      tolerance_ = tolerance;
+      if (decide(rate, rates) && piece(rates) > 0) return true;
+      several_ = several;
+    }
     return false;
   }
-  void widen_peak(const Drive& to) {
-    Exact most = (to.prestrain * bars_.prestrain().head(segments())).cwiseAbs().maxCoeff();
+  void widen_peak(Drive to, Exact push) {
+    for (EndDrive& end : to.ends) end.payout = 0;
+    peak_ = std::max({peak_, push, size_of(to)});
+  }
+  /// The largest force that it would cause by any of its parts if all joints stuck.
+  Exact size_of(const Drive& drive) const {
+    Exact most = (drive.prestrain * bars_.prestrain().head(segments())).cwiseAbs().maxCoeff();
     for (int k = 0; k < scene_.loads; ++k)
-      most = std::max(most, (to.factors[k] * bars_.load().col(k).head(segments())).cwiseAbs().maxCoeff());
-    for (const EndDrive& end : to.ends) most = std::max(most, end.force);
-    peak_ = std::max(peak_, most);
+      most = std::max(most, (drive.factors[k] * bars_.load().col(k).head(segments())).cwiseAbs().maxCoeff());
+    for (int end = 0; end < int(drive.ends.size()); ++end) {
+      const EndDrive& at = drive.ends[static_cast<std::size_t>(end)];
+      if (!at.jacked) continue;
+      const Exact k = bars_.elongation()(end_segment(end), end_segment(end));
+      most = std::max({most, std::fabs(at.force), std::fabs(k * at.payout)});
+    }
+    return most;
   }
 
   /// Where rounding ends: long double, less the digits lost where a long segment follows a very short one.
   Exact tolerance() const { return tolerance_ * peak_; }
+  /// The same of rates, as a part of the largest one.
+  Exact rate_tolerance() const { return std::max(100 * finest, 100 * tolerance_); }
 
   // One piece of the path.
 
-  Exact room(const Vector& T, Index j, int way) const {
+  template <class Tensions>
+  Exact room(const Tensions& T, Index j, int way) const {
     const Joint& at = joint(j);
     return way > 0 ? T[at.before] - at.rho * T[at.after] : T[at.after] - at.rho * T[at.before];
   }
@@ -300,7 +397,7 @@ class Reference::Follower {
     const Exact scale = std::max(rates.scale, rates.tension.cwiseAbs().maxCoeff());
     Exact step = 2;
     const auto shorten = [&](Exact left, Exact rate) {
-      if (left <= tolerance() && rate >= -Exact(1e-13L) * scale) return;
+      if (left <= tolerance() && rate >= -rate_tolerance() * scale) return;
       if (rate < 0) step = std::min(step, std::max(left, Exact(0)) / -rate);
     };
     for (std::size_t r = 0; r < stretches_.size(); ++r) {
@@ -310,6 +407,7 @@ class Reference::Follower {
         shorten(k * moved_[excess_place(r)], k * rates.moves[excess_place(r)]);
         continue;
       }
+      if (rests_[r]) continue;
       shorten(tension_[first], rates.tension[first]);
       for (const int j : stretches_[r].joints)
         for (const int way : {1, -1})
@@ -348,24 +446,32 @@ class Reference::Follower {
   struct Followers {
     std::vector<Index> moves;
     std::vector<Index> tensions;  ///< prescribed: the jack's force, or zero
-    std::vector<int> ends;        ///< of jacks; -1 for slack
+    std::vector<int> ends;        ///< of jacks; -1 for zero
     Eigen::FullPivLU<Matrix> system;
+
+    void add(Index move, int tension, int end) {
+      moves.push_back(move);
+      tensions.push_back(tension);
+      ends.push_back(end);
+    }
   };
-  bool find_followers(Followers& followers) const {
+  void collect_followers(Followers& followers) const {
     for (int end = 0; end < int(now_.ends.size()); ++end)
-      if (is_free(end)) {
-        followers.moves.push_back(payout_place(end));
-        followers.tensions.push_back(scene_.cables[end / 2].end_segment(static_cast<std::size_t>(end % 2)));
-        followers.ends.push_back(end);
-      }
-    for (std::size_t r = 0; r < stretches_.size(); ++r)
-      if (slack_[r])
-        for (std::size_t i = 0; i < stretches_[r].segments.size(); ++i) {
-          const bool last = i + 1 == stretches_[r].segments.size();
-          followers.moves.push_back(last ? excess_place(r) : Index(stretches_[r].joints[i]));
-          followers.tensions.push_back(stretches_[r].segments[i]);
-          followers.ends.push_back(-1);
-        }
+      if (is_free(end)) followers.add(payout_place(end), end_segment(end), end);
+    for (std::size_t r = 0; r < stretches_.size(); ++r) {
+      const Stretch& stretch = stretches_[r];
+      const std::size_t n = stretch.segments.size();
+      for (std::size_t i = 0; slack_[r] && i < n; ++i)
+        followers.add(i + 1 < n ? Index(stretch.joints[i]) : excess_place(r), stretch.segments[i], -1);
+      if (!rests_[r]) continue;
+      // Between two jacks the cable may move as a whole: the first joint keeps its place.
+      const bool at_start = pulls(stretch.ends[0]), at_end = pulls(stretch.ends[1]);
+      for (std::size_t i = at_start && at_end ? 1 : 0; i + 1 < n; ++i)
+        followers.add(stretch.joints[i], stretch.segments[at_end ? i : i + 1], -1);
+    }
+  }
+  bool find_followers(Followers& followers) const {
+    collect_followers(followers);
     const Index n = Index(followers.moves.size());
     Matrix system(n, n);
     for (Index i = 0; i < n; ++i)
@@ -391,6 +497,12 @@ class Reference::Follower {
       const Index move = followers.moves[static_cast<std::size_t>(i)];
       rates.moves[move] += by[i];
       rates.tension += by_move_.col(move).head(segments()) * by[i];
+    }
+    for (Index i = 0; i < n; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const int end = followers.ends[at];
+      rates.tension[followers.tensions[at]] =
+          rate != nullptr && end >= 0 ? rate->ends[static_cast<std::size_t>(end)].force : Exact(0);
     }
   }
 
@@ -442,7 +554,7 @@ class Reference::Follower {
     std::vector<Choice> found;
     for (std::size_t r = 0; r < stretches_.size(); ++r)
       for (const int j : stretches_[r].joints) {
-        if (slack_[r]) continue;
+        if (is_loose(r)) continue;
         const Exact forward = room(tension_, j, 1), backward = room(tension_, j, -1);
         Choice choice{j, forward <= tolerance(), backward <= tolerance()};
         const Exact larger = std::max(tension_[joint(j).before], tension_[joint(j).after]);
@@ -494,38 +606,53 @@ class Reference::Follower {
       rates.moves += v[k] / columns[k] * unit.moves;
       rates.tension += v[k] / columns[k] * unit.tension;
     }
+    tie(of_joints(problem, states), rates.tension);
     return true;
+  }
+  std::vector<int> of_joints(const Problem& problem, const States& states) const {
+    std::vector<int> all(static_cast<std::size_t>(joints()), 0);
+    for (std::size_t k = 0; k < states.size(); ++k)
+      all[static_cast<std::size_t>(problem.choices[k].joint)] = states[k];
+    return all;
   }
 
   Exact softer_side(Index j) const {
     const Joint& at = joint(j);
     return std::min(bars_.elongation()(at.before, at.before), bars_.elongation()(at.after, at.after));
   }
-  /// The first joint or, past them, the first stretch that contradicts the states; -1 if nothing does.
-  int contradiction(const Problem& problem, const States& states, const Rates& rates) const {
+  struct Contradiction {
+    Exact size = 0;         ///< of the worst one, as a part of the largest rate
+    std::size_t first = 0;  ///< choice that contradicts; past them it is a stretch
+  };
+  /// Between assumed states and the rates under them.
+  Contradiction contradiction(const Problem& problem, const States& states, const Rates& rates) const {
     const Exact scale = std::max(problem.scale, rates.tension.cwiseAbs().maxCoeff());
-    const Exact least = -Exact(1e-13L) * scale;
+    Contradiction found{0, states.size()};
+    const auto consider = [&](Exact rate, std::size_t k) {
+      if (rate < -rate_tolerance() * scale) found.first = std::min(found.first, k);
+      if (rate < 0) found.size = std::max(found.size, -rate / scale);
+    };
     for (std::size_t k = 0; k < states.size(); ++k) {
       const Choice& choice = problem.choices[k];
-      const Exact v = softer_side(choice.joint) * rates.moves[choice.joint];
-      if (Exact(states[k]) * v < least) return int(k);
-      if (choice.forward && states[k] != 1 && room(rates.tension, choice.joint, 1) < least) return int(k);
-      if (choice.backward && states[k] != -1 && room(rates.tension, choice.joint, -1) < least) return int(k);
+      consider(Exact(states[k]) * softer_side(choice.joint) * rates.moves[choice.joint], k);
+      if (choice.forward && states[k] != 1) consider(room(rates.tension, choice.joint, 1), k);
+      if (choice.backward && states[k] != -1) consider(room(rates.tension, choice.joint, -1), k);
     }
     for (const std::size_t r : problem.asked) {
       const Index first = stretches_[r].segments[0];
-      if (slack_[r] && rates.moves[excess_place(r)] * bars_.elongation()(first, first) < least)
-        return int(states.size());
+      if (slack_[r]) consider(rates.moves[excess_place(r)] * bars_.elongation()(first, first), states.size());
       for (const int i : stretches_[r].segments)
-        if (!slack_[r] && rates.tension[i] < least) return int(states.size());
+        if (!slack_[r]) consider(rates.tension[i], states.size());
     }
-    return -1;
+    return found;
   }
 
+  /// Not where joints at their limit count as clear of it: that only puts off the decision.
+  void note(Exact off) {
+    if (tolerance_ >= usual_) clearance_ = std::min(clearance_, off);
+  }
   bool accept(const Problem& problem, const States& states) {
-    states_.assign(static_cast<std::size_t>(joints()), 0);
-    for (std::size_t k = 0; k < states.size(); ++k)
-      states_[static_cast<std::size_t>(problem.choices[k].joint)] = states[k];
+    states_ = of_joints(problem, states);
     return true;
   }
   static bool allows(const Choice& choice, int state) {
@@ -542,7 +669,9 @@ class Reference::Follower {
     States states(n, 0);
     for (;;) {
       Rates trial;
-      if (rates_under(problem, states, trial) && contradiction(problem, states, trial) < 0) {
+      const Exact off = rates_under(problem, states, trial) ? contradiction(problem, states, trial).size : 1;
+      note(off);
+      if (off <= rate_tolerance()) {
         if (found.empty()) {
           rates = trial;
           accept(problem, states);
@@ -598,9 +727,10 @@ class Reference::Follower {
       if (!allows(problem.choices[k], states[k])) states[k] = 0;
     for (std::size_t count = 0; count < 8 * states.size(); ++count) {
       if (!rates_under(problem, states, rates)) return false;
-      const int wrong = contradiction(problem, states, rates);
-      if (wrong < 0) return accept(problem, states);
-      const auto k = static_cast<std::size_t>(wrong);
+      const Contradiction wrong = contradiction(problem, states, rates);
+      note(wrong.size);
+      if (wrong.size <= rate_tolerance()) return accept(problem, states);
+      const std::size_t k = wrong.first;
       if (k == states.size()) return false;
       states[k] = states[k] != 0 ? 0 : wants(problem.choices[k], rates.tension);
     }
@@ -618,12 +748,13 @@ class Reference::Follower {
   Matrix imposes_;  // elongations of the segments from every move: slips, payouts, excess lengths
   Matrix by_move_;  // forces of all bars from every move
   Vector moved_, forces_, tension_;
-  std::vector<bool> slack_;
+  std::vector<bool> slack_, rests_;
   std::vector<int> states_;  // of all joints on the present piece
   Drive now_;
-  static constexpr Exact finest = 1e-15L, coarsest = 1e-12L;
-  Exact tolerance_ = finest;  // of forces, as a part of the largest one
-  Exact peak_ = 0, fraction_ = 1;
+  static constexpr Exact rounding = 1e-17L, finest = 1e-15L, coarsest = 1e-12L;
+  Exact usual_ = finest, tolerance_ = finest;  // of forces, as a part of the largest one
+  Exact peak_ = 0, rest_ = 0;                  // of the path
+  Exact clearance_ = 1;
   int events_ = 0, several_ = 0;
   bool collect_ = false;
   std::vector<Vector> found_at_start_;
@@ -638,6 +769,7 @@ bool Reference::advance(const Row& row) { return follower_->advance(row); }
 Exact Reference::fraction() const { return follower_->fraction(); }
 int Reference::events() const { return follower_->events(); }
 int Reference::events_with_several_answers() const { return follower_->events_with_several_answers(); }
+Exact Reference::clearance() const { return follower_->clearance(); }
 Exact Reference::tension(int segment) const { return follower_->tension(segment); }
 Exact Reference::strut(int i) const { return follower_->strut(i); }
 Exact Reference::slip(int joint) const { return follower_->slip(joint); }

@@ -37,6 +37,9 @@ class Reference {
   int events() const;
   /// Events since the beginning at which several combinations of states with different forces were possible.
   int events_with_several_answers() const;
+  /// After advance() failed: by how much all combinations of states contradict the rates under them, as a
+  /// part of the rates. Of the order of rounding where rounding may have decided.
+  Exact clearance() const;
   Exact tension(int segment) const;
   Exact strut(int i) const;
   Exact slip(int joint) const;

@@ -144,3 +144,46 @@ TEST_CASE("jacks that differ by more than all friction are refused where they be
   for (int j = 0; j < 3; ++j) carried *= chain_ratio(0.3, j);
   CHECK(std::fabs(found.fraction() - (1 / carried - 1)) <= 1e-13L);
 }
+
+TEST_CASE("of a refusal it is known by how much there is no answer") {
+  // Sticking would lose rho T_big at the limit; sliding between two jacks nothing resists.
+  rigid_saddles(scene, steel_cable(0.3, two_jacks), chain_points(2));
+  Reference found(scene);
+  REQUIRE(found.start());
+  Sample even = jack_force(1e5);
+  even.jack[0][0].force = 1e5;
+  REQUIRE(found.advance(even));
+  Sample uneven = jack_force(2e5);
+  uneven.jack[0][0].force = 1e5;
+  CHECK(!found.advance(uneven));
+  CHECK(std::fabs(found.clearance() - chain_ratio(0.3, 0)) <= 1e-13L);
+}
+
+TEST_CASE("two jacks on a cable without a joint must pull alike") {
+  rigid_saddles(scene, steel_cable(0.3, two_jacks), chain_points(1));
+  Reference found(scene);
+  REQUIRE(found.start());
+  Sample sample = jack_force(2e5);
+  sample.jack[0][0].force = 1e5;
+  CHECK(!found.advance(sample));
+  CHECK(found.fraction() == 0);
+  CHECK(found.clearance() == 0.5L);
+  sample.jack[0][0].locked = true;
+  REQUIRE(found.advance(sample));
+  CHECK(found.tension(0) == 2e5L);
+}
+
+TEST_CASE("nothing is left behind a joint that all but locks when the jack is released to zero") {
+  taut::Cable<double> cable = steel_cable(50);
+  cable.law = taut::FrictionLaw::capstan;
+  rigid_saddles(scene, cable, chain_points(3));
+  Reference found(scene);
+  REQUIRE(found.start());
+  for (int round = 0; round < 3; ++round) {
+    REQUIRE(found.advance(jack_force(1e5)));
+    const Exact rho = std::exp(-50 * Exact(chain_turn[1]));
+    CHECK(std::fabs(found.tension(1) - rho * 1e5L) <= 1e-12L * rho * 1e5L);
+    REQUIRE(found.advance(jack_force(0)));
+    for (int i = 0; i < 3; ++i) CHECK(found.tension(i) == 0);
+  }
+}
