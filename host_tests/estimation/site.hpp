@@ -83,6 +83,13 @@ class Site {
     good_ = good_ && estimator_.advance(readings).status.ok();
   }
 
+  /// Puts another estimator in the place of the present one, from its saved state.
+  void restart() {
+    const auto state = estimator_.save();
+    estimator_ = {};
+    good_ = good_ && estimator_.restore(model_, knowledge_, state).ok();
+  }
+
   bool good() const { return good_; }
   int segments() const { return truth_model_.segments; }
   double true_force(int segment) const { return truth_.tension(segment); }

@@ -205,6 +205,36 @@ TEST_CASE("a payout outside of the tolerance on the elongation is told, one insi
   }
 }
 
+template <class Scalar>
+void compare_restarted() {
+  static Ground ground;
+  for (const bool shared : {true, false}) {
+    make_ground(ground, true, 0.2, 0.05, 0.25, shared);
+    ground.known.cables[0].seating = 0.004;
+    const auto plain = std::make_unique<Site<Scalar>>(ground, Instruments{}, full, 11),
+               restarted = std::make_unique<Site<Scalar>>(ground, Instruments{}, full, 11);
+    int row = 0;
+    for (const double force : {0.5, 1.0, 1.0, 0.4, 0.4, 0.9})
+      for (int i = 0; i < 30; ++i, ++row) {
+        CAPTURE(row);
+        const bool locked = row >= 130 && row < 150;
+        for (Site<Scalar>* site : {plain.get(), restarted.get()})
+          site->advance(full * (force - 0.01 * (30 - i)), locked);
+        restarted->restart();
+        REQUIRE(plain->good());
+        REQUIRE(restarted->good());
+        for (int k = 0; k < plain->segments(); ++k) {
+          REQUIRE(plain->estimator().force(k) == restarted->estimator().force(k));
+          REQUIRE(plain->estimator().deviation(k) == restarted->estimator().deviation(k));
+        }
+      }
+  }
+}
+TEST_CASE("restored after every row, an estimator gives the same bits") {
+  compare_restarted<double>();
+  compare_restarted<float>();
+}
+
 TEST_CASE("more unknowns than there is room for are refused with how many are missing") {
   static Ground ground;
   make_ground(ground, false, 0.2, 0.02, 0.2, false);

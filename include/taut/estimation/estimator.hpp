@@ -43,27 +43,18 @@ class Estimator {
   /// outlive the estimator.
   Progress<Scalar> start(const CondensedType& condensed, const KnowledgeType& knowledge,
                          const AlarmLimits<Scalar>& limits = {}) {
-    model_ = &condensed;
-    knowledge_ = &knowledge;
-    limits_ = limits;
-    alarms_.clear();
-    tracker_.begin(condensed);
-    drive_ = {};
-    most_payout_.fill(Scalar(0));
-    for (int c = 0; c < Cap::cables; ++c)
-      for (std::size_t end = 0; end < 2; ++end) {
-        cells_[c][end] = {};
-        cells_[c][end].filter.start(knowledge.sensor_sd[c][end]);
-      }
-    const Status known = find_unknowns();
+    const Status known = begin(condensed, knowledge, limits);
     if (!known) return {known, Scalar(0), 0};
     return tracker_.bring_on_prestrain();
   }
 
   /// Follows the readings of one row. Fails as Tracker::advance() does; then the state is where the path
-  /// ended. A reading that is not finite is refused with an alarm.
+  /// ended; with `bad_sample` nothing was done. A reading that is not finite is refused with an alarm.
   Progress<Scalar> advance(const ReadingsType& readings, int event_budget = TrackerType::default_budget) {
     alarms_.clear();
+    for (int i = 0; i < model_->loads; ++i)
+      if (!std::isfinite(readings.sample.factor[i]))
+        return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
     Sample<Scalar, Cap> before = drive_, turn = readings.sample, goal = readings.sample;
     const bool locks = take_loads(readings, before);
     bool turns = false;
@@ -158,7 +149,7 @@ class Estimator {
   const TrackerType& tracker() const { return tracker_; }
   int unknowns() const { return unknowns_; }
 
- private:
+  /// A jack's load cell.
   struct Cell {
     LoadFilter<Scalar> filter;
     ConditionedLoad<Scalar> at{};
@@ -176,6 +167,49 @@ class Estimator {
     /// Whether the load is behind where it surely was, without being known to have turned.
     bool is_behind() const { return !locked && (at.load - at.sure) * way < 0; }
   };
+  /// All that restore() needs to go on with the same bits, as Tracker::State.
+  struct State {
+    typename TrackerType::State tracker;
+    Sample<Scalar, Cap> drive;
+    FixedArray<std::array<Cell, 2>, Cap::cables> cells;
+    FixedArray<Scalar, 2 * Cap::cables> most_payout;
+    FixedArray<Scalar, Parameters> mean, at;
+    FixedArray<FixedArray<Scalar, Parameters>, Parameters> covariance;
+  };
+  State save() const { return {tracker_.save(), drive_, cells_, most_payout_, mean_, at_, covariance_}; }
+  /// Goes on where save() was called on an estimator of the same scene. Fails with `bad_sample` if the state
+  /// is none of this scene; then only start() or another restore() may follow.
+  Status restore(const CondensedType& condensed, const KnowledgeType& knowledge, const State& state,
+                 const AlarmLimits<Scalar>& limits = {}) {
+    const Status known = begin(condensed, knowledge, limits);
+    if (!known) return known;
+    drive_ = state.drive;
+    cells_ = state.cells;
+    most_payout_ = state.most_payout;
+    mean_ = state.mean;
+    at_ = state.at;
+    covariance_ = state.covariance;
+    set_frictions();
+    return tracker_.resume(state.tracker);
+  }
+
+ private:
+  Status begin(const CondensedType& condensed, const KnowledgeType& knowledge,
+               const AlarmLimits<Scalar>& limits) {
+    model_ = &condensed;
+    knowledge_ = &knowledge;
+    limits_ = limits;
+    alarms_.clear();
+    tracker_.begin(condensed);
+    drive_ = {};
+    most_payout_.fill(Scalar(0));
+    for (int c = 0; c < Cap::cables; ++c)
+      for (std::size_t end = 0; end < 2; ++end) {
+        cells_[c][end] = {};
+        cells_[c][end].filter.start(knowledge.sensor_sd[c][end]);
+      }
+    return find_unknowns();
+  }
 
   // The unknowns.
 
@@ -250,12 +284,15 @@ class Estimator {
       change[p] = mean_[p] - at_[p];
       at_[p] = mean_[p];
     }
+    set_frictions();
+    return tracker_.adjust(change).ok();
+  }
+  void set_frictions() {
     for (int c = 0; c < model_->cables.size(); ++c) {
       const auto& cable = model_->cables[c];
       for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
         if (unknown_of_[j] >= 0) set_friction(c, j);
     }
-    return tracker_.adjust(change).ok();
   }
   /// Jacks that turn or are locked now: friction will remember the error of their loads.
   template <class Which>

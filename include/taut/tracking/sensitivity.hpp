@@ -28,10 +28,10 @@ class Sensitivity {
   /// What is kept from map to map: derivatives of the moves where they froze.
   struct Frozen {
     FixedArray<Moving<Scalar, Cap>, Parameters> derivative;
+    int used = 0;  ///< parameters
   };
 
   void begin() {
-    used_ = 0;
     frozen_ = {};
     parameter_.fill(-1);
     later_.fill(Real(0));
@@ -47,14 +47,14 @@ class Sensitivity {
   /// Calls change(derivatives of all that has moved) for every parameter.
   template <class Change>
   void for_each(Change change) {
-    for (int p = 0; p < used_; ++p) change(frozen_.derivative[p], p);
+    for (int p = 0; p < frozen_.used; ++p) change(frozen_.derivative[p], p);
   }
 
   /// Of the map that was just made; settle(due, T, moves) lets its active moves follow until their laws give
   /// what is due, carry(moved, T) adds the tensions of everything that has moved.
   template <class Settle, class Carry>
   void make(const Map& map, Settle settle, Carry carry) {
-    for (int p = 0; p < used_; ++p) {
+    for (int p = 0; p < frozen_.used; ++p) {
       Tensions T;
       T.fill(Real(0));
       carry(frozen_.derivative[p], T);
@@ -74,7 +74,7 @@ class Sensitivity {
   /// dT/dp of a segment [N], at inputs `x`.
   template <class Values>
   Scalar tension(const Map& map, int p, int segment, const Values& x) const {
-    if (p >= used_) return 0;
+    if (p >= frozen_.used) return 0;
     Scalar at = base_[p][segment];
     for (int k = 0; k < map.inputs(); ++k)
       at += static_cast<Scalar>(static_cast<Real>(x[k]) - map.anchor()[k]) * column_[p][k][segment];
@@ -85,7 +85,7 @@ class Sensitivity {
   /// whose limit it is, or -1.
   void meet(const Map& map, const Inputs& x, const Tensions& T, const Law<Real>& law, int joint,
             Real falling) {
-    for (int p = 0; p < used_; ++p) {
+    for (int p = 0; p < frozen_.used; ++p) {
       Real change = static_cast<Real>(tension(map, p, law.first, x));
       if (law.second >= 0) change -= law.weight * static_cast<Real>(tension(map, p, law.second, x));
       if (joint >= 0 && parameter_[joint] == p) change -= slope_[joint] * T[law.second];
@@ -94,7 +94,7 @@ class Sensitivity {
   }
   /// The same where the active move `i` came to its end.
   void meet_move(const Map& map, const Inputs& x, int i, Real falling) {
-    for (int p = 0; p < used_; ++p) later_[p] = -move(map, p, i, x) * map.stiffness(i) / falling;
+    for (int p = 0; p < frozen_.used; ++p) later_[p] = -move(map, p, i, x) * map.stiffness(i) / falling;
   }
   /// From here on parameter `p` is by how much further input `k` went before it turned, or before its jack
   /// was locked.
@@ -108,7 +108,7 @@ class Sensitivity {
 
   /// Takes the derivatives where they are; `direction` is that of the inputs on the way here.
   void freeze(const Map& map, const Inputs& x, const Inputs& direction) {
-    for (int p = 0; p < used_; ++p)
+    for (int p = 0; p < frozen_.used; ++p)
       for (int i = 0; i < map.active(); ++i)
         of_move(map.move(i), p) =
             static_cast<Scalar>(move(map, p, i, x) + later_[p] * map.move_rate(i, direction));
@@ -116,7 +116,7 @@ class Sensitivity {
 
  private:
   void use(int parameter) {
-    if (parameter >= used_) used_ = parameter + 1;
+    if (parameter >= frozen_.used) frozen_.used = parameter + 1;
   }
   static Scalar column_move(const Map& map, int k, int i) {
     Inputs along;
@@ -152,7 +152,6 @@ class Sensitivity {
     for (int i = 0; i < map.active(); ++i) moves_into[i] = static_cast<Scalar>(moves[i]);
   }
 
-  int used_ = 0;  // parameters
   Frozen frozen_;
   FixedArray<std::int16_t, Cap::joints> parameter_;
   FixedArray<Real, Cap::joints> slope_;

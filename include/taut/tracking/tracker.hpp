@@ -129,6 +129,10 @@ class Tracker {
   /// none of this scene; then only start() or another restore() may follow.
   Status restore(const CondensedType& condensed, const State& state) {
     begin(condensed);
+    return resume(state);
+  }
+  /// The same after begin() and set_friction().
+  Status resume(const State& state) {
     goal_ = state.goal;
     now_ = state.built;
     moved_ = state.moved;
