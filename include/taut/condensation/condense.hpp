@@ -17,12 +17,18 @@ class Condensation {
   static constexpr int dimension = SceneType::dimension;
 
   /// Condenses a scene. Fails as validate() does, or with `mechanism` or `ill_conditioned`.
-  /// `struts`, if given, receives the rows for strut forces.
+  ///
+  /// `struts`, if given, receives the rows for strut forces, `displacements` those for the displacements that
+  /// were chosen in it. Fails with `capacity_exceeded` if too many were, and with `out_of_range` at a node
+  /// that is not in the scene or has no such axis.
   Status run(const SceneType& scene, Condensed<Scalar, Cap>& condensed,
-             CondensedStruts<Scalar, Cap>* struts = nullptr) {
+             CondensedStruts<Scalar, Cap>* struts = nullptr,
+             CondensedDisplacements<Scalar, Cap>* displacements = nullptr) {
     Status status = validate(scene);
     if (!status) return status;
     scene_ = &scene;
+    if (displacements != nullptr) status = check(displacements->of);
+    if (!status) return status;
     condensed = {};
     condensed.segments = scene.prestrain.size();
     condensed.joints = scene.mu.size();
@@ -34,7 +40,7 @@ class Condensation {
       static_cast<void>(struts);
       status = rigid(condensed);
     } else {
-      status = elastic(condensed, struts);
+      status = elastic(condensed, struts, displacements);
     }
     return status;
   }
@@ -69,6 +75,15 @@ class Condensation {
     return kelvin;
   }
 
+  Status check(const FixedList<NodeAxis, Cap::displacements>& wanted) const {
+    if (wanted.excess() > 0)
+      return Status::at(Code::capacity_exceeded, Place::none, wanted.capacity(), wanted.excess());
+    for (const NodeAxis& each : wanted)
+      if (each.node < 0 || each.node >= scene_->nodes.size() || each.axis < 0 || each.axis >= dimension)
+        return Status::at(Code::out_of_range, Place::node, each.node);
+    return Status::success();
+  }
+
   /// Rigid saddles: no structure, every segment for itself.
   Status rigid(Condensed<Scalar, Cap>& condensed) {
     for (int node = 0; node < scene_->nodes.size(); ++node)
@@ -90,22 +105,27 @@ class Condensation {
     return Status::success();
   }
 
-  Status elastic(Condensed<Scalar, Cap>& condensed, CondensedStruts<Scalar, Cap>* struts) {
+  Status elastic(Condensed<Scalar, Cap>& condensed, CondensedStruts<Scalar, Cap>* struts,
+                 CondensedDisplacements<Scalar, Cap>* displacements) {
     Status status = structure_.make(*scene_);
     if (!status) return status;
     const auto& elements = structure_.elements();
     for (int j = 0; j < condensed.joints; ++j) set_joint(condensed, j, elements.joints[j]);
-    const auto store = [&](auto imposed, FixedArray<Real, Cap::segments>& tensions,
-                           FixedArray<Real, Cap::struts>* rows) {
+    // Keeps the last solution as tensions, and in the row of requested rows that `row` points at.
+    const auto store = [&](auto imposed, FixedArray<Real, Cap::segments>& tensions, auto row) {
       for (int i = 0; i < condensed.segments; ++i) tensions[i] = structure_.tension(i, imposed(i));
-      for (int i = 0; rows != nullptr && i < scene_->struts.size(); ++i)
-        (*rows)[i] = structure_.strut_force(i);
+      for (int i = 0; struts != nullptr && i < scene_->struts.size(); ++i)
+        (*row(*struts))[i] = structure_.strut_force(i);
+      for (int i = 0; displacements != nullptr && i < displacements->of.size(); ++i) {
+        const NodeAxis& wanted = displacements->of[i];
+        (*row(displacements->rows))[i] = structure_.node_displacement(wanted.node, wanted.axis);
+      }
     };
 
     const auto prestrained = [&](int i) { return elements.segments[i].initial / elements.segments[i].axial; };
     status = structure_.solve(no_force, prestrained);
     if (!status) return status;
-    store(prestrained, condensed.prestrain, struts ? &struts->prestrain : nullptr);
+    store(prestrained, condensed.prestrain, [](auto& rows) { return &rows.prestrain; });
 
     for (int load = 0; load < scene_->loads; ++load) {
       const auto force = [&](int node, int axis) { return nodal_force(load, node, axis); };
@@ -115,7 +135,7 @@ class Condensation {
       };
       status = structure_.solve(force, warmed);
       if (!status) return status;
-      store(warmed, condensed.load[load], struts ? &struts->load[load] : nullptr);
+      store(warmed, condensed.load[load], [load](auto& rows) { return &rows.load[load]; });
     }
 
     FixedArray<Real, Cap::segments> column;
@@ -123,7 +143,7 @@ class Condensation {
       const auto unit = [k](int i) { return i == k ? Real(1) : Real(0); };
       status = structure_.solve(no_force, unit);
       if (!status) return status;
-      store(unit, column, struts ? &struts->elongation[k] : nullptr);
+      store(unit, column, [k](auto& rows) { return &rows.elongation[k]; });
       for (int i = 0; i < condensed.segments; ++i) condensed.coupling.set(i, k, column[i]);
     }
     return Status::success();

@@ -75,15 +75,63 @@ struct Condensed {
   constexpr bool is_locked(int joint) const { return !(rho[joint] > 0); }
 };
 
-/// On request: the rows that give strut forces, S = load x factors + prestrain + elongation x e [N].
-template <class Scalar, class Cap>
-struct CondensedStruts {
-  using Real = Wide<Scalar>;
+/// Rows that give `Count` numbers of the state: load x factors + prestrain + elongation x e, with e as in
+/// Condensed. An aggregate, too.
+template <class Real, int Count, class Cap>
+struct CondensedRows {
+  FixedArray<FixedArray<Real, Count>, Cap::loads> load;  ///< for a unit factor
+  FixedArray<Real, Count> prestrain;
+  FixedArray<FixedArray<Real, Count>, Cap::segments> elongation;  ///< for a unit elongation of each segment
 
-  FixedArray<FixedArray<Real, Cap::struts>, Cap::loads> load;
-  FixedArray<Real, Cap::struts> prestrain;
-  FixedArray<FixedArray<Real, Cap::struts>, Cap::segments>
-      elongation;  ///< for a unit elongation of each segment [N/m]
+  /// The numbers in the state of `model` that `drive` (a Drive) and the elongations e [m] describe; what is
+  /// beyond `Count` stays as it is.
+  template <class Scalar, class Loads, class Elongations, int Size>
+  constexpr void evaluate(const Condensed<Scalar, Cap>& model, const Loads& drive, const Elongations& e,
+                          FixedArray<Scalar, Size>& numbers) const {
+    static_assert(Count <= Size, "there is room for every number");
+    for (int i = 0; i < Count; ++i) {
+      Real sum = drive.prestrain * prestrain[i];
+      for (int k = 0; k < model.loads; ++k) sum += drive.factor[k] * load[k][i];
+      for (int segment = 0; segment < model.segments; ++segment) sum += e[segment] * elongation[segment][i];
+      numbers[i] = static_cast<Scalar>(sum);
+    }
+  }
+};
+
+/// On request: the rows that give strut forces [N], tension positive.
+template <class Scalar, class Cap>
+using CondensedStruts = CondensedRows<Wide<Scalar>, Cap::struts, Cap>;
+
+/// A displacement: of a node, along an axis (0, 1 or 2).
+struct NodeAxis {
+  int node = 0;
+  int axis = 0;
+};
+
+/// On request: the rows that give displacements of nodes [m], at most Capacity::displacements. Which ones is
+/// chosen with add() before Condensation::run(), which fills the rows. Rigid saddles need no rows: nothing
+/// moves.
+template <class Scalar, class Cap>
+struct CondensedDisplacements {
+  FixedList<NodeAxis, Cap::displacements> of;
+  CondensedRows<Wide<Scalar>, has_rigid_saddles<Cap> ? 0 : Cap::displacements, Cap> rows;
+
+  /// Chooses a displacement; returns its number, -1 if there is no room.
+  constexpr int add(int node, int axis) { return of.add({node, axis}); }
+  /// Chooses all displacements of a scene: that of a node along an axis is number node x dimension + axis.
+  template <class SceneType>
+  constexpr void add_all(const SceneType& scene) {
+    for (int node = 0; node < scene.nodes.size(); ++node)
+      for (int axis = 0; axis < SceneType::dimension; ++axis) add(node, axis);
+  }
+
+  /// The displacements [m] at the loads `drive` (a Drive) and the elongations e [m] of the segments.
+  template <class Loads, class Elongations>
+  constexpr void evaluate(const Condensed<Scalar, Cap>& model, const Loads& drive, const Elongations& e,
+                          FixedArray<Scalar, Cap::displacements>& displacements) const {
+    displacements.fill(Scalar(0));
+    rows.evaluate(model, drive, e, displacements);
+  }
 };
 
 }  // namespace taut

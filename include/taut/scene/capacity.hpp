@@ -23,7 +23,8 @@ struct Capacity {
   static constexpr int loads = 0;                 ///< load patterns
   static constexpr int forces = 0;                ///< nodal forces of all load patterns together
   static constexpr int temperatures = 0;          ///< cable temperatures of all load patterns together
-  static constexpr int profile = 0;  ///< entries of the structure's factor; 0: enough for any structure
+  static constexpr int displacements = 0;  ///< that a condensed scene gives, see CondensedDisplacements
+  static constexpr int profile = 0;        ///< entries of the structure's factor; 0: enough for any structure
 };
 
 }  // namespace taut

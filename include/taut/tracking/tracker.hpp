@@ -46,6 +46,7 @@ class Tracker {
   using Map = AffineMap<CondensedType>;
   using Derivatives = Sensitivity<CondensedType, Parameters>;
   using Moving = taut::Moving<Real, Cap>;
+  using Tensions = typename Map::Tensions;
   /// Events in one call. Of 300,000 random logs none reached it.
   static constexpr int default_budget = 64 + 16 * Cap::segments;
 
@@ -268,6 +269,13 @@ class Tracker {
         moving.payout[jack.cable][jack.end] = now_.jack[jack.cable][jack.end].payout;
     return moving;
   }
+  /// Elongations that the moves impose on the segments [m], for CondensedRows.
+  Tensions elongations() const {
+    Tensions e;
+    e.fill(Real(0));
+    impose(moves(), e);
+    return e;
+  }
   const CondensedType& model() const { return *model_; }
   /// The loads and jack forces reached.
   const Loads& loads() const { return now_; }
@@ -309,11 +317,14 @@ class Tracker {
         response.state[j] = is_slack(sides[0]) && is_slack(sides[1]) ? JointState::open : motion(j);
       }
     }
-    if (struts != nullptr) strut_forces(moved, *struts, response);
+    if (struts == nullptr) return;
+    Tensions e;
+    e.fill(Real(0));
+    impose(moved, e);
+    struts->evaluate(*model_, now_, e, response.strut);
   }
 
  private:
-  using Tensions = typename Map::Tensions;
   using Inputs = typename Map::Inputs;
   using Rounded = typename Map::Rounded;
   using Given = FixedArray<Scalar, Map::max_inputs>;
@@ -1187,20 +1198,6 @@ class Tracker {
         return Status::along(code, Place::joint, c, j);
     }
     return Status::at(code, Place::none, -1);
-  }
-
-  void strut_forces(const Moving& moved, const CondensedStruts<Scalar, Cap>& rows,
-                    Response<Scalar, Cap>& response) const {
-    Tensions e;
-    e.fill(Real(0));
-    impose(moved, e);
-    for (int i = 0; i < Cap::struts; ++i) {
-      Real force = now_.prestrain * rows.prestrain[i];
-      for (int k = 0; k < model_->loads; ++k) force += now_.factor[k] * rows.load[k][i];
-      for (int segment = 0; segment < model_->segments; ++segment)
-        force += e[segment] * rows.elongation[segment][i];
-      response.strut[i] = static_cast<Scalar>(force);
-    }
   }
 
   struct Nothing {};
