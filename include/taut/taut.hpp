@@ -3,6 +3,7 @@
 
 #include "taut/condensation/condense.hpp"
 #include "taut/elements/elements.hpp"
+#include "taut/estimation/bounds.hpp"
 #include "taut/estimation/estimator.hpp"
 #include "taut/scene/capacity.hpp"
 #include "taut/scene/friction.hpp"

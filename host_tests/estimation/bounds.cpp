@@ -1,0 +1,126 @@
+// Bounds without history: every history that there can be stays within them, and some history reaches them.
+#include <doctest/doctest.h>
+
+#include <memory>
+
+#include "estimation/site.hpp"
+
+using namespace estimation;
+
+namespace {
+
+constexpr double full = 2e5, least_known = 1e-9;
+using Model = taut::Condensed<double, PlaneCapacity>;
+using Known = taut::Knowledge<double, PlaneCapacity>;
+using Ranges = taut::FixedArray<taut::ForceRange<double>, PlaneCapacity::segments>;
+
+struct Bounded {
+  Plane scene;
+  Model model;
+  Known known;
+
+  void make(bool elastic, double mu, double mu_sd) {
+    taut::Cable<double> cable = support::steel_cable(mu);
+    cable.mu_sd = mu_sd;
+    cable.sensor_sd = {100, 100};
+    if (elastic)
+      support::truss_string(scene, cable, 6);
+    else
+      support::rigid_saddles(scene, cable, support::chain_points(7));
+    static taut::Condensation<double, Plane> condensation;
+    REQUIRE(condensation.run(scene, model).ok());
+    taut::find_knowledge(scene, known);
+  }
+};
+
+TEST_CASE("no history leads outside of the bounds that its last readings give") {
+  static Bounded given;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    given.make(random.coin(), 0.2, 0.04);
+    Plane actual = given.scene;
+    for (int j = 0; j < actual.mu.size(); ++j) actual.mu[j] = random.between(0.12, 0.28);
+    static taut::Condensation<double, Plane> condensation;
+    Model truth;
+    REQUIRE(condensation.run(actual, truth).ok());
+    const auto tracker = std::make_unique<taut::Tracker<Model>>();
+    REQUIRE(tracker->start(truth).status.ok());
+    for (int turn = 0; turn < 6; ++turn) {
+      taut::Sample<double, PlaneCapacity> sample;
+      sample.jack[0][1].force = random.between(0.1, 1) * full;
+      REQUIRE(tracker->advance(sample).status.ok());
+      const int n = truth.segments;
+      const std::array<taut::EndReading<double>, 2> ends{
+          {{random.coin(), false, tracker->tension(0) + random.between(-200, 200), 0},
+           {true, false, tracker->tension(n - 1) + random.between(-200, 200), 0}}};
+      Ranges ranges;
+      REQUIRE(taut::find_bounds(given.model, given.known, ends, 0, ranges));
+      for (int i = 0; i < n; ++i) {
+        CHECK(tracker->tension(i) >= ranges[i].least * (1 - least_known));
+        CHECK(tracker->tension(i) <= ranges[i].most * (1 + least_known));
+      }
+    }
+  }
+}
+
+TEST_CASE("pulling and releasing reach both bounds") {
+  static Bounded given;
+  given.make(false, 0.2, 0);
+  given.known.sensor_sd[0] = {0, 0};
+  const auto tracker = std::make_unique<taut::Tracker<Model>>();
+  REQUIRE(tracker->start(given.model).status.ok());
+  const auto pull = [&](double force) {
+    taut::Sample<double, PlaneCapacity> sample;
+    sample.jack[0][1].force = force;
+    REQUIRE(tracker->advance(sample).status.ok());
+  };
+  Ranges ranges;
+  const std::array<taut::EndReading<double>, 2> ends{{{}, {true, false, full, 0}}};
+  REQUIRE(taut::find_bounds(given.model, given.known, ends, 0, ranges));
+  pull(full);
+  for (int i = 0; i < given.model.segments; ++i)
+    CHECK(std::fabs(tracker->tension(i) - ranges[i].least) < 1e-9 * full);
+  pull(10 * full);
+  pull(full);
+  for (int i = 0; i < given.model.segments; ++i)
+    CHECK(std::fabs(tracker->tension(i) - ranges[i].most) < 1e-9 * full);
+}
+
+TEST_CASE("a cell at each end narrows the bounds, and cells that contradict friction make them empty") {
+  static Bounded given;
+  given.make(false, 0.2, 0.02);
+  Ranges one, both;
+  std::array<taut::EndReading<double>, 2> ends{{{}, {true, false, full, 0}}};
+  REQUIRE(taut::find_bounds(given.model, given.known, ends, 0, one));
+  ends[0] = {true, false, 0.8 * full, 0};
+  REQUIRE(taut::find_bounds(given.model, given.known, ends, 0, both));
+  for (int i = 0; i < given.model.segments; ++i) {
+    CHECK(both[i].most <= one[i].most);
+    CHECK(both[i].least >= one[i].least);
+    CHECK(!both[i].is_empty());
+  }
+  ends[0].force = 0.01 * full;
+  REQUIRE(taut::find_bounds(given.model, given.known, ends, 0, both));
+  bool empty = false;
+  for (int i = 0; i < given.model.segments; ++i) empty = empty || both[i].is_empty();
+  CHECK(empty);
+}
+
+TEST_CASE("without a reading there are no bounds, and nothing is carried over a locked joint") {
+  static Bounded given;
+  given.make(false, 0.2, 0);
+  Ranges ranges;
+  CHECK(!taut::find_bounds(given.model, given.known, {}, 0, ranges));
+  given.scene.mu[2] = 50;
+  static taut::Condensation<double, Plane> condensation;
+  REQUIRE(condensation.run(given.scene, given.model).ok());
+  taut::find_knowledge(given.scene, given.known);
+  const std::array<taut::EndReading<double>, 2> ends{{{}, {true, false, full, 0}}};
+  REQUIRE(taut::find_bounds(given.model, given.known, ends, 0, ranges));
+  CHECK(std::isfinite(ranges[3].most));
+  CHECK(!std::isfinite(ranges[2].most));
+  CHECK(ranges[2].least == 0);
+}
+
+}  // namespace

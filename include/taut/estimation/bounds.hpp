@@ -1,0 +1,84 @@
+// What the forces can be when the past is not known.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "taut/estimation/knowledge.hpp"
+#include "taut/estimation/readings.hpp"
+#include "taut/numerics/larger.hpp"
+#include "taut/tracking/moves.hpp"
+
+namespace taut {
+
+/// The smallest and the largest force that a segment can have [N].
+template <class Scalar>
+struct ForceRange {
+  Scalar least = 0;
+  Scalar most = std::numeric_limits<Scalar>::infinity();
+
+  /// No force agrees with everything that is given.
+  bool is_empty() const { return !(least <= most); }
+};
+
+/// How sure the bounds are to be.
+template <class Scalar>
+struct BoundWidths {
+  Scalar mu = 2;      ///< mu is at most its nominal value and so many of its standard deviations
+  Scalar sensor = 2;  ///< a load cell is off by at most so many of its own
+};
+
+/// Bounds on every segment of a cable whose past is not known: a controller switched on beside a stressed
+/// cable.
+///
+/// Whatever the history, every joint keeps rho T_big <= T_small with rho at the largest mu of its band. So a
+/// load cell bounds its segment, and a bound carries over a joint as T rho <= T' <= T / rho; bounds from all
+/// load cells of the cable hold at once. They are as narrow as friction alone allows: some history leads to
+/// every force within them, on rigid saddles. A joint that is locked, or may be, carries nothing over.
+///
+/// `ranges` are those of all segments of the scene; the segments of cable `c` are filled. Returns whether any
+/// load cell was read. A range that is empty says that the readings contradict the band of mu.
+template <class CondensedType>
+bool find_bounds(
+    const CondensedType& model,
+    const Knowledge<typename CondensedType::Scalar, typename CondensedType::Capacity>& knowledge,
+    const std::array<EndReading<typename CondensedType::Scalar>, 2>& ends, int c,
+    FixedArray<ForceRange<typename CondensedType::Scalar>, CondensedType::Capacity::segments>& ranges,
+    const BoundWidths<typename CondensedType::Scalar>& widths = {}) {
+  using Scalar = typename CondensedType::Scalar;
+  using Real = typename CondensedType::Real;
+  const auto& cable = model.cables[c];
+  for (int i = 0; i < cable.segments(); ++i) ranges[cable.first_segment + i] = {};
+  if (cable.closed) return false;
+
+  const auto least_rho = [&](int joint) {
+    if (model.is_locked(joint)) return Scalar(0);
+    const Real mu = knowledge.mu[joint] + static_cast<Real>(widths.mu * knowledge.mu_sd[c]);
+    return static_cast<Scalar>(larger(Real(0), knowledge.limit(c, joint, mu).rho));
+  };
+  const auto narrow = [&](int segment, Scalar least, Scalar most) {
+    ForceRange<Scalar>& range = ranges[segment];
+    range.least = larger(range.least, least);
+    range.most = -larger(-range.most, -most);
+  };
+  bool any = false;
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (!ends[end].has_force) continue;
+    any = true;
+    const Scalar off = widths.sensor * knowledge.sensor_sd[c][end];
+    Scalar least = larger(Scalar(0), ends[end].force - off), most = larger(Scalar(0), ends[end].force + off);
+    const int n = cable.segments();
+    for (int i = 0; i < n; ++i) {
+      const int at = end == 0 ? i : n - 1 - i;
+      if (i > 0) {
+        const Scalar rho = least_rho(cable.first_joint + (end == 0 ? at - 1 : at));
+        least *= rho;
+        most = rho > 0 ? most / rho : std::numeric_limits<Scalar>::infinity();
+      }
+      narrow(cable.first_segment + at, least, most);
+    }
+  }
+  return any;
+}
+
+}  // namespace taut
