@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "taut/scene/sample.hpp"
@@ -15,6 +16,9 @@ struct Answer {
   std::vector<JointState> state;
   std::vector<std::array<double, 2>> payout;
   std::vector<double> strut;
+  std::vector<double> deviation;         ///< of the tensions [N]; of `estimate` alone, like the rest
+  std::vector<double> mu, mu_deviation;  ///< of every joint
+  std::string alarms;
 };
 
 }  // namespace taut::host

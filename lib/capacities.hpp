@@ -1,4 +1,4 @@
-// The capacities that the program is compiled for, and the choice of one for a scene.
+// The capacity classes of the program, and the choice of one for a scene.
 #pragma once
 
 #include <array>
@@ -29,6 +29,12 @@ struct Large : Capacity {
   static constexpr int substructures = 128, substructure_nodes = 256, substructure_entries = 147456;
   static constexpr int loads = 32, forces = 2048, temperatures = 512;
 };
+
+template <class... Caps>
+struct CapacityList {};
+
+/// The classes that the program is compiled for, the smallest first: CMake's TAUT_CAPACITIES.
+using Capacities = CapacityList<TAUT_CAPACITIES>;
 
 /// Numbers of everything that a capacity counts, in the order of `amount_names`.
 using Amounts = std::array<std::size_t, 11>;
@@ -79,13 +85,14 @@ struct SceneKind {
 
 namespace detail {
 
-template <int Dimension, class Call>
-auto with_capacity(const SceneDescription& scene, Call&& call) {
+template <int Dimension, class Call, class Cap, class... Larger>
+auto with_capacity(const SceneDescription& scene, Call&& call, CapacityList<Cap, Larger...>) {
   const Amounts needed = needs(scene);
-  if (fits(needed, holds<Small>())) return call(SceneKind<Dimension, Small>{});
-  if (fits(needed, holds<Medium>())) return call(SceneKind<Dimension, Medium>{});
-  if (fits(needed, holds<Large>())) return call(SceneKind<Dimension, Large>{});
-  refuse_too_large(scene, needed, holds<Large>());
+  if (fits(needed, holds<Cap>())) return call(SceneKind<Dimension, Cap>{});
+  if constexpr (sizeof...(Larger) > 0)
+    return with_capacity<Dimension>(scene, call, CapacityList<Larger...>{});
+  else
+    refuse_too_large(scene, needed, holds<Cap>());
 }
 
 }  // namespace detail
@@ -94,8 +101,8 @@ auto with_capacity(const SceneDescription& scene, Call&& call) {
 /// what it returns, which must be of one type. Throws InputError if none holds it.
 template <class Call>
 auto with_capacity(const SceneDescription& scene, Call&& call) {
-  if (scene.dimension == 2) return detail::with_capacity<2>(scene, call);
-  return detail::with_capacity<3>(scene, call);
+  if (scene.dimension == 2) return detail::with_capacity<2>(scene, call, Capacities{});
+  return detail::with_capacity<3>(scene, call, Capacities{});
 }
 
 }  // namespace taut::host

@@ -3,6 +3,7 @@
 
 #include "lib/scene_description.hpp"
 #include "taut/condensation/condensed.hpp"
+#include "taut/estimation/knowledge.hpp"
 #include "taut/status.hpp"
 
 namespace taut::host {
@@ -19,5 +20,9 @@ struct Condensing {
 template <class Scalar, int Dimension, class Cap>
 Condensing condense_scene(const SceneDescription& scene, Condensed<Scalar, Cap>& condensed,
                           CondensedStruts<Scalar, Cap>& struts);
+
+/// What the scene says of friction and load cells, for an Estimator. Compiled with condense_scene().
+template <class Scalar, int Dimension, class Cap>
+void know_scene(const SceneDescription& scene, Knowledge<Scalar, Cap>& knowledge);
 
 }  // namespace taut::host

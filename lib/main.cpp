@@ -10,7 +10,8 @@
 #include "lib/check.hpp"
 #include "lib/export_scene.hpp"
 #include "lib/input_error.hpp"
-#include "lib/simulate.hpp"
+#include "lib/report.hpp"
+#include "lib/run_log.hpp"
 
 namespace {
 
@@ -40,6 +41,8 @@ class CommandLine {
     app_.footer("Exit status: 0 done; 1 the scene has no answer somewhere; 2 unusable input.");
     add_check();
     add_simulate();
+    add_estimate();
+    add_report();
     add_export();
   }
 
@@ -51,9 +54,10 @@ class CommandLine {
     }
     if (check_->parsed()) return check(options_.scene);
     if (export_->parsed()) return export_scene({options_.scene, options_.output});
-    options_.method = method_called(method_);
+    if (report_->parsed()) return report({options_.scene, options_.log, options_.output});
+    options_.method = estimate_->parsed() ? Method::estimate : method_called(method_);
     options_.numbers.scalar = scalar_ == "float" ? ScalarType::float32 : ScalarType::float64;
-    return simulate(options_);
+    return run_log(options_);
   }
 
  private:
@@ -64,19 +68,37 @@ class CommandLine {
 
   void add_simulate() {
     CLI::App* simulate = app_.add_subcommand("simulate", "Compute the cable forces for every row of a log");
-    simulate->add_option("SCENE", options_.scene, "Scene file (JSON)")->required();
-    simulate->add_option("LOG", options_.log, "Log of loads and jack forces (CSV)")->required();
-    simulate->add_option("-o", options_.output, "Result file (CSV); standard output if absent");
+    add_run(*simulate, "Log of loads and jack forces (CSV)");
     simulate->add_option("--method", method_, "Method of computation")
         ->check(CLI::IsMember(method_names()))
-        ->capture_default_str();
-    simulate->add_option("--scalar", scalar_, "Floating-point type of the computation")
-        ->check(CLI::IsMember({"double", "float"}))
         ->capture_default_str();
     simulate->add_option("--substeps", options_.substeps, "Load steps a row, for the method stepwise")
         ->check(CLI::Range(1, most_substeps))
         ->capture_default_str();
-    simulate->add_flag("--hex", options_.numbers.hex, "Write numbers as the bits of their IEEE values");
+  }
+
+  void add_estimate() {
+    estimate_ = app_.add_subcommand(
+        "estimate", "Estimate the cable forces, and friction, from the readings of a log, with error bars");
+    add_run(*estimate_, "Log of readings (CSV)");
+  }
+
+  void add_report() {
+    report_ =
+        app_.add_subcommand("report", "Show what estimate finds: drawings, charts and tables on a page");
+    report_->add_option("SCENE", options_.scene, "Scene file (JSON)")->required();
+    report_->add_option("LOG", options_.log, "Log of readings (CSV)")->required();
+    report_->add_option("-o", options_.output, "The page (HTML)")->required();
+  }
+
+  void add_run(CLI::App& command, const std::string& log) {
+    command.add_option("SCENE", options_.scene, "Scene file (JSON)")->required();
+    command.add_option("LOG", options_.log, log)->required();
+    command.add_option("-o", options_.output, "Result file (CSV); standard output if absent");
+    command.add_option("--scalar", scalar_, "Floating-point type of the computation")
+        ->check(CLI::IsMember({"double", "float"}))
+        ->capture_default_str();
+    command.add_flag("--hex", options_.numbers.hex, "Write numbers as the bits of their IEEE values");
   }
 
   void add_export() {
@@ -87,8 +109,10 @@ class CommandLine {
 
   CLI::App app_{"Cable forces with friction in cable-supported structures."};
   CLI::App* check_ = nullptr;
+  CLI::App* estimate_ = nullptr;
   CLI::App* export_ = nullptr;
-  SimulateOptions options_;
+  CLI::App* report_ = nullptr;
+  RunOptions options_;
   std::string method_ = methods.front().first, scalar_ = "double";
 };
 

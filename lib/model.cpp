@@ -1,6 +1,7 @@
 #include "lib/model.hpp"
 
 #include "lib/condensed_kind.hpp"
+#include "lib/make_estimator.hpp"
 #include "lib/make_stepwise.hpp"
 #include "lib/make_tracker.hpp"
 #include "lib/valid_scene.hpp"
@@ -13,6 +14,15 @@ std::unique_ptr<Model> tracker_model(const SceneDescription& scene, ScalarType s
   return with_condensed_capacity(scene, [&](auto kind) -> std::unique_ptr<Model> {
     using Cap = typename decltype(kind)::Capacity;
     return scalar == ScalarType::float32 ? make_tracker<float, Cap>(scene) : make_tracker<double, Cap>(scene);
+  });
+}
+
+std::unique_ptr<Model> estimator_model(const SceneDescription& scene, ScalarType scalar) {
+  require_valid(scene);
+  return with_condensed_capacity(scene, [&](auto kind) -> std::unique_ptr<Model> {
+    using Cap = typename decltype(kind)::Capacity;
+    return scalar == ScalarType::float32 ? make_estimator<float, Cap>(scene)
+                                         : make_estimator<double, Cap>(scene);
   });
 }
 
@@ -33,6 +43,8 @@ std::unique_ptr<Model> make_model(const SceneDescription& scene, Method method, 
       return tracker_model(scene, scalar);
     case Method::stepwise:
       return stepwise_model(scene, scalar);
+    case Method::estimate:
+      return estimator_model(scene, scalar);
   }
   return nullptr;
 }

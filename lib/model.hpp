@@ -15,9 +15,9 @@
 namespace taut::host {
 
 /// The methods of computation.
-enum class Method { tracker, stepwise };
+enum class Method { tracker, stepwise, estimate };
 
-/// All methods by the name that the command line gives them, the default one first.
+/// Those of `taut simulate` by the name that the command line gives them, the default one first.
 inline const std::vector<std::pair<std::string, Method>> methods = {{"tracker", Method::tracker},
                                                                     {"stepwise", Method::stepwise}};
 

@@ -84,7 +84,7 @@ void append_number(std::string& text, double value, const NumberFormat& format) 
   }
 }
 
-std::string result_header(const SceneDescription& scene) {
+std::string result_header(const SceneDescription& scene, ResultColumns columns) {
   Line line(NumberFormat{});
   line.field("time");
   for (const CableDescription& cable : scene.cables) {
@@ -98,11 +98,19 @@ std::string result_header(const SceneDescription& scene) {
     }
   }
   line.numbered("strut", scene.struts.size());
+  if (columns == ResultColumns::estimate) {
+    for (const CableDescription& cable : scene.cables) {
+      line.numbered(cable.name + ".sd", cable.segments());
+      line.numbered(cable.name + ".mu", cable.joints());
+      line.numbered(cable.name + ".mu_sd", cable.joints());
+    }
+    line.field("alarms");
+  }
   return line.finished();
 }
 
 std::string result_row(const SceneDescription& scene, double time, const Answer& answer,
-                       const NumberFormat& format) {
+                       const NumberFormat& format, ResultColumns columns) {
   Line line(format);
   line.number(time);
   std::size_t segment = 0, joint = 0;
@@ -121,6 +129,17 @@ std::string result_row(const SceneDescription& scene, double time, const Answer&
     joint += joints;
   }
   line.number(answer.strut, 0, answer.strut.size());
+  if (columns == ResultColumns::estimate) {
+    segment = joint = 0;
+    for (const CableDescription& cable : scene.cables) {
+      line.number(answer.deviation, segment, cable.segments());
+      line.number(answer.mu, joint, cable.joints());
+      line.number(answer.mu_deviation, joint, cable.joints());
+      segment += cable.segments();
+      joint += cable.joints();
+    }
+    line.field(answer.alarms);
+  }
   return line.finished();
 }
 

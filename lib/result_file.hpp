@@ -21,11 +21,14 @@ struct NumberFormat {
 /// Appends a number in the format; a value of a float computation is rounded to float first.
 void append_number(std::string& text, double value, const NumberFormat& format);
 
+/// The columns of a result: what every method finds, or also what `estimate` says of its certainty.
+enum class ResultColumns { state, estimate };
+
 /// Header line of a result of the scene.
-std::string result_header(const SceneDescription& scene);
+std::string result_header(const SceneDescription& scene, ResultColumns columns = ResultColumns::state);
 
 /// Line of a result: the time [s] and the answer, in the columns of result_header().
 std::string result_row(const SceneDescription& scene, double time, const Answer& answer,
-                       const NumberFormat& format);
+                       const NumberFormat& format, ResultColumns columns = ResultColumns::state);
 
 }  // namespace taut::host

@@ -36,6 +36,7 @@ struct CableDescription {
   std::vector<double> prestrain;   ///< of every segment
   bool prestrain_is_list = false;  ///< the file gives one a segment
   double wobble = 0, mu_sd = 0;
+  bool has_mu_sd = false;  ///< the file gives it
   bool shared_mu = false;
   double alpha = 0, seating = 0;
   std::array<double, 2> sensor_sd{};  ///< 0: not given

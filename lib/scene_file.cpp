@@ -293,17 +293,11 @@ class SceneReader {
         wobble->refuse("a point contact has no wobble", "remove it, or set \"law\" to \"capstan\"");
       }
     }
-    if (const auto sd = field.find("mu_sd"))
+    if (const auto sd = field.find("mu_sd")) {
       cable.mu_sd = sd->number("the standard deviation of mu as a number");
-    if (const auto shared = field.find("shared")) {
-      cable.shared_mu = shared->boolean("true or false");
-      const bool differ =
-          std::adjacent_find(cable.mu.begin(), cable.mu.end(), std::not_equal_to<>()) != cable.mu.end();
-      if (cable.shared_mu && differ) {
-        shared->refuse("one mu cannot hold for all joints while \"mu\" gives them different ones",
-                       "write \"mu\" as one number, or false here");
-      }
+      cable.has_mu_sd = true;
     }
+    if (const auto shared = field.find("shared")) cable.shared_mu = shared->boolean("true or false");
   }
 
   // One number for all, or a list with one for each.

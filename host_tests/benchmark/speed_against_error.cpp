@@ -7,11 +7,13 @@
 // relative to the jack force. Prints a table at the end, and draws the figure of the README.
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <map>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "benchmark/figure.hpp"
@@ -129,6 +131,94 @@ class Tracking {
   bool good_ = true;
 };
 
+constexpr double noise = 0.005 * full_force;
+/// Of load cells, always the same.
+template <class Scalar>
+std::array<Scalar, 2 * samples> scatter() {
+  support::Random random(1);
+  std::array<Scalar, 2 * samples> numbers{};
+  for (Scalar& each : numbers)
+    each = static_cast<Scalar>(noise * std::sqrt(-2 * std::log(random.between(1e-9, 1))) *
+                               std::cos(2 * support::pi * random.between(0, 1)));
+  return numbers;
+}
+
+/// The tracker, fed with readings as they come: every other one is a reversal.
+template <class Scalar, class Cap>
+class TrackingReadings : public Tracking<Scalar, Cap> {
+ public:
+  using Tracking<Scalar, Cap>::Tracking;
+  void restart() {
+    row_ = 0;
+    Tracking<Scalar, Cap>::restart();
+  }
+  void advance(const taut::Sample<Scalar, Cap>& sample) {
+    const Scalar reading = sample.jack[0][1].force + scatter_[2 * row_++];
+    Tracking<Scalar, Cap>::advance(
+        jacked<Scalar, Cap>(static_cast<double>(reading > 0 ? reading : Scalar(0))));
+  }
+
+ private:
+  std::array<Scalar, 2 * samples> scatter_ = scatter<Scalar>();
+  std::size_t row_ = 0;
+};
+
+/// With 0.5 % of noise on the jack's load cell and one at the far end, and one mu to be found.
+template <class Scalar_, class Cap_>
+class Estimating {
+ public:
+  using Scalar = Scalar_;
+  using Cap = Cap_;
+  Estimating(const Scene<Cap>& scene, int) {
+    auto known = std::make_unique<Scene<Cap>>(scene);
+    auto& cable = known->cables[0];
+    cable.mu_sd = 0.1;
+    cable.shared_mu = true;
+    cable.sensor_sd = {noise, noise};
+    const auto condensation = std::make_unique<taut::Condensation<Scalar, Scene<Cap>>>();
+    good_ = condensation->run(*known, condensed_).ok();
+    taut::find_knowledge(*known, knowledge_);
+    readings_.ends[0][0].has_force = readings_.ends[0][1].has_force = true;
+  }
+  /// Reads the far end as it is with a mu of 0.4.
+  void prepare(const Scene<Cap>& scene, const Log& log) {
+    auto actual = std::make_unique<Scene<Cap>>(scene);
+    for (int j = 0; j < actual->mu.size(); ++j) actual->mu[j] = 0.4;
+    const auto condensation = std::make_unique<taut::Condensation<Scalar, Scene<Cap>>>();
+    const auto condensed = std::make_unique<taut::Condensed<Scalar, Cap>>();
+    const auto truth = std::make_unique<taut::Tracker<taut::Condensed<Scalar, Cap>>>();
+    good_ = good_ && condensation->run(*actual, *condensed).ok() && truth->start(*condensed).status.ok();
+    for (const double force : log.forces) {
+      good_ = truth->advance(jacked<Scalar, Cap>(force)).status.ok() && good_;
+      far_.push_back(truth->tension(0));
+    }
+  }
+  void restart() {
+    row_ = 0;
+    good_ = estimator_.start(condensed_, knowledge_).status.ok() && good_;
+  }
+  void advance(const taut::Sample<Scalar, Cap>& sample) {
+    const Scalar force = sample.jack[0][1].force;
+    readings_.ends[0][1].force = force + scatter_[2 * row_];
+    readings_.ends[0][0].force = far_[row_] + scatter_[2 * row_ + 1];
+    ++row_;
+    good_ = estimator_.advance(readings_).status.ok() && good_;
+    benchmark::DoNotOptimize(estimator_.force(0) + estimator_.deviation(0));
+  }
+  Scalar tension(int segment) const { return estimator_.force(segment); }
+  bool good() const { return good_; }
+
+ private:
+  taut::Condensed<Scalar, Cap> condensed_;
+  taut::Knowledge<Scalar, Cap> knowledge_;
+  taut::Estimator<taut::Condensed<Scalar, Cap>, 3> estimator_;
+  taut::Readings<Scalar, Cap> readings_;
+  std::array<Scalar, 2 * samples> scatter_ = scatter<Scalar>();
+  std::vector<Scalar> far_;
+  std::size_t row_ = 0;
+  bool good_ = true;
+};
+
 template <class Scalar_, class Cap_>
 class Stepping {
  public:
@@ -200,6 +290,8 @@ void run(benchmark::State& state, const Scene<typename Method::Cap>& scene, cons
          bool has_error) {
   using Cap = typename Method::Cap;
   const auto method = std::make_unique<Method>(scene, substeps);
+  if constexpr (std::is_same<Method, Estimating<typename Method::Scalar, Cap>>::value)
+    method->prepare(scene, log);
   const double error = has_error ? error_of(*method, scene, log) : 0;
   if (error < 0) state.SkipWithError("the reference has no answer");
   std::vector<taut::Sample<typename Method::Scalar, Cap>> rows;
@@ -227,9 +319,13 @@ void register_methods(const Scene<Cap>& scene, const std::string& name, const Lo
   benchmark::RegisterBenchmark((head + "/tracker").c_str(), [&](benchmark::State& state) {
     run<Tracking<Scalar, Cap>>(state, scene, log, 0, true);
   });
+  benchmark::RegisterBenchmark((head + "/tracker on raw readings").c_str(), [&](benchmark::State& state) {
+    run<TrackingReadings<Scalar, Cap>>(state, scene, log, 0, false);
+  });
+  benchmark::RegisterBenchmark((head + "/estimator").c_str(), [&](benchmark::State& state) {
+    run<Estimating<Scalar, Cap>>(state, scene, log, 0, false);
+  });
   for (const int substeps : {1, 4, 16, 64, 256}) {
-    // Minutes for nothing new.
-    if (substeps * Cap::joints > 4000) continue;
     benchmark::RegisterBenchmark((head + "/stepwise " + std::to_string(substeps)).c_str(),
                                  [&scene, &log, substeps](benchmark::State& state) {
                                    run<Stepping<Scalar, Cap>>(state, scene, log, substeps, true);

@@ -36,6 +36,27 @@ std::string refusal(const std::string& text) {
   return "accepted";
 }
 
+std::string chosen(const SceneDescription& scene) {
+  return with_capacity(scene, [](auto kind) { return decltype(kind)::Capacity::name; });
+}
+
+// Every class is chosen for what just fits, and the next one for a node or a load pattern more.
+template <class Cap>
+void check_chosen(CapacityList<Cap>) {}
+template <class Cap, class Next, class... Larger>
+void check_chosen(CapacityList<Cap, Next, Larger...>) {
+  SceneDescription scene;
+  scene.nodes.resize(Cap::nodes);
+  scene.loads.resize(Cap::loads);
+  CHECK(chosen(scene) == Cap::name);
+  scene.nodes.emplace_back();
+  CHECK(chosen(scene) == Next::name);
+  scene.nodes.pop_back();
+  scene.loads.emplace_back();
+  CHECK(chosen(scene) == Next::name);
+  check_chosen(CapacityList<Next, Larger...>{});
+}
+
 }  // namespace
 
 TEST_CASE("a scene with every key is accepted and valid") { CHECK_NOTHROW(require_valid(every_key())); }
@@ -129,19 +150,7 @@ TEST_CASE("the core scene holds everything in the order of the file") {
   CHECK(scene->temperatures[2].cable == 1);
 }
 
-TEST_CASE("the smallest capacity that holds the scene is chosen") {
-  const auto chosen = [](const SceneDescription& scene) {
-    return std::string(with_capacity(scene, [](auto kind) { return decltype(kind)::Capacity::name; }));
-  };
-  SceneDescription scene;
-  scene.nodes.resize(24);
-  CHECK(chosen(scene) == "small");
-  scene.nodes.resize(25);
-  CHECK(chosen(scene) == "medium");
-  scene.nodes.resize(3);
-  scene.loads.resize(17);
-  CHECK(chosen(scene) == "large");
-}
+TEST_CASE("the smallest capacity that holds the scene is chosen") { check_chosen(Capacities{}); }
 
 TEST_CASE("a scene beyond the largest capacity is refused with both numbers") {
   SceneDescription scene;

@@ -19,12 +19,13 @@ namespace taut {
 /// end is a measurement
 ///     y = T(sure) + dT/dF (raw - sure) + dT/dmu (mu - mu_0) + noise,
 /// where the noise is that of the cell and, through dT/dF, of the raw jack readings: both independent from
-/// sample to sample. When mu has moved by more than a quarter of its standard deviation from where the
-/// tracker is linearized, the tracker is adjusted to it and the measurement is taken again (iterated update;
-/// Gelb, Applied Optimal Estimation, 1974, 6.1). Where nothing measures mu, the answer is the prior carried
-/// through.
+/// sample to sample. When mu has moved so far from where the tracker is linearized that it shows, the
+/// tracker is adjusted to it and the measurement is taken again (iterated update; Gelb, Applied Optimal
+/// Estimation, 1974, 6.1). Where nothing measures mu, the answer is the prior carried through.
 ///
-/// `Parameters` bounds the number of unknowns: one a cable with a shared mu, one a joint otherwise.
+/// `Parameters` bounds the number of unknowns: one a cable with a shared mu, one a joint otherwise; and
+/// `memories` of every jack whose load cell has noise. If there is no room for these, turning points are
+/// taken for exact.
 template <class CondensedType, int Parameters>
 class Estimator {
  public:
@@ -34,12 +35,15 @@ class Estimator {
   using TrackerType = Tracker<CondensedType, Parameters>;
   using KnowledgeType = Knowledge<Scalar, Cap>;
   using ReadingsType = Readings<Scalar, Cap>;
+  /// The tracker is adjusted to the estimate when the measured force is off its linearization by half of this
+  /// part of its standard deviation.
+  static constexpr Scalar bent = Scalar(0.2);
   /// Turning points of every jack that friction is taken to remember.
   static constexpr int memories = 2;
   using Alarms = FixedList<Alarm, 8 + 4 * Cap::cables + Cap::joints>;
 
   /// Begins without loads, with friction as it is known beforehand. Fails with `capacity_exceeded` if there
-  /// are more unknowns than Parameters (the amount is what is missing), and as Tracker::start(). Both must
+  /// are more unknown mu than Parameters (the amount is what is missing), and as Tracker::start(). Both must
   /// outlive the estimator.
   Progress<Scalar> start(const CondensedType& condensed, const KnowledgeType& knowledge,
                          const AlarmLimits<Scalar>& limits = {}) {
@@ -253,10 +257,11 @@ class Estimator {
       }
     }
     friction_unknowns_ = unknowns_;
-    for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
-      for (auto& memory : cells_[c][end].memory)
-        memory = static_cast<std::int16_t>(knowledge_->sensor_sd[c][end] > 0 ? add(Scalar(0)) : -1);
-    });
+    for (std::size_t m = 0; m < memories; ++m)
+      for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
+        const bool has = knowledge_->sensor_sd[c][end] > 0 && unknowns_ < Parameters;
+        cells_[c][end].memory[m] = static_cast<std::int16_t>(has ? add(Scalar(0)) : -1);
+      });
     if (missing > 0) return Status::at(Code::capacity_exceeded, Place::none, Parameters, missing);
     return Status::success();
   }
@@ -308,13 +313,6 @@ class Estimator {
       for (int q = 0; q < unknowns_; ++q) covariance_[p][q] = covariance_[q][p] = 0;
       covariance_[p][p] = cell.before * cell.before;
     });
-  }
-  bool is_far_off() const {
-    for (int p = 0; p < friction_unknowns_; ++p) {
-      const Scalar off = mean_[p] - at_[p];
-      if (off * off > covariance_[p][p] / 16) return true;
-    }
-    return false;
   }
 
   // The loads.
@@ -396,7 +394,7 @@ class Estimator {
         alarms_.add(Alarm::of(Alarm::Kind::sensor, c, static_cast<int>(end)));
         return;
       }
-      if (!is_far_off() || !relinearize()) return;
+      if (!is_bent_ || !relinearize()) return;
       if (round == 3) return;
       mean_ = mean;
       covariance_ = covariance;
@@ -448,6 +446,13 @@ class Estimator {
       mean_[p] = larger(least_[p], -larger(-most_[p], -mean_[p]));
       for (int q = 0; q < unknowns_; ++q) covariance_[p][q] -= CH[p] * CH[q] / spread;
     }
+    // T is about exponential in mu: by shift^2 / 2T it is off the line.
+    Scalar shift = 0, left = 0;
+    for (int p = 0; p < friction_unknowns_; ++p) {
+      shift += std::fabs(H[p] * (mean_[p] - at_[p]));
+      for (int q = 0; q < friction_unknowns_; ++q) left += H[p] * covariance_[p][q] * H[q];
+    }
+    is_bent_ = shift * shift > bent * larger(expected, sd) * std::sqrt(larger(left, Scalar(0)));
     return true;
   }
 
@@ -497,6 +502,7 @@ class Estimator {
   FixedArray<Scalar, 2 * Cap::cables> most_payout_;
   Alarms alarms_;
 
+  bool is_bent_ = false;  // the last measurement
   int unknowns_ = 0, friction_unknowns_ = 0;
   FixedArray<std::int16_t, Cap::joints> unknown_of_;
   FixedArray<Scalar, Cap::joints> weight_;       // of the unknown in mu

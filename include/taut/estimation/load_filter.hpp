@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "taut/numerics/bits.hpp"
+
 namespace taut {
 
 /// What is known of the load once a reading has been taken. No force is below zero.
@@ -99,12 +101,14 @@ class LoadFilter {
   static constexpr Scalar sure_load = Scalar(3.3), sure_mean = 5, sure_turn = 5;
   static constexpr Scalar sure_slope = 3, left_behind = 3;
 
-  /// exp(x), x <= 0, to a few per cent of what matters.
+  /// exp(x), x <= 0, to a part in ten thousand: a power of two, its fraction by a polynomial.
   static Scalar exponential(Scalar x) {
-    const Scalar u = (x > -60 ? x : Scalar(-60)) / 128;
-    Scalar power = 1 + u * (1 + u * (Scalar(1) / 2 + u * (Scalar(1) / 6 + u / 24)));
-    for (int i = 0; i < 7; ++i) power *= power;
-    return power;
+    const Scalar u = (x > -60 ? x : Scalar(-60)) * Scalar(1.44269504);
+    const int whole = static_cast<int>(u);
+    const Scalar f = u - static_cast<Scalar>(whole);
+    return power_of_two<Scalar>(whole) *
+           (1 + f * (Scalar(0.6931472) +
+                     f * (Scalar(0.2402265) + f * (Scalar(0.0555041) + f * Scalar(0.0096181)))));
   }
 
   /// One way to see the present piece of the path, fitted by recursive least squares.
@@ -136,9 +140,10 @@ class LoadFilter {
       covariance *= growth;
       slope_variance *= growth;
     }
-    Scalar density(Scalar y) const {
-      const Scalar variance = level_variance + 1, r = y - level;
-      return Scalar(0.39894228) / std::sqrt(variance) * exponential(-r * r / (2 * variance));
+    Scalar density(Scalar y) const { return density(y, 1 / (level_variance + 1)); }
+    Scalar density(Scalar y, Scalar precision) const {
+      const Scalar r = y - level;
+      return Scalar(0.39894228) * std::sqrt(precision) * exponential(-r * r * precision / 2);
     }
     Scalar outlier_density() const {
       if (known < established || strays >= most_strays) return 0;
@@ -146,24 +151,26 @@ class LoadFilter {
     }
     /// Takes the reading into account, or for an outlier.
     void weigh(Scalar y) {
-      const Scalar fits = density(y), stray = outlier_density();
+      const Scalar precision = 1 / (level_variance + 1);
+      const Scalar fits = density(y, precision), stray = outlier_density();
       weight *= fits + stray;
       if (stray > fits) {
         ++strays;
         return;
       }
       strays = 0;
-      learn(y);
+      learn(y, precision);
       if (age < greatest_age) ++age;
       mean += (y - mean) / averaged();
     }
-    void learn(Scalar y) {
-      const Scalar variance = level_variance + 1, r = y - level;
-      level += level_variance / variance * r;
-      slope += covariance / variance * r;
-      slope_variance -= covariance * covariance / variance;
-      level_variance /= variance;
-      covariance /= variance;
+    void learn(Scalar y) { learn(y, 1 / (level_variance + 1)); }
+    void learn(Scalar y, Scalar precision) {
+      const Scalar r = y - level;
+      level += level_variance * precision * r;
+      slope += covariance * precision * r;
+      slope_variance -= covariance * covariance * precision;
+      level_variance *= precision;
+      covariance *= precision;
       if (known < established) ++known;
     }
     /// Where the load had come at the last reading that it believed. In a hold its slope is known to be zero,
@@ -223,6 +230,9 @@ class LoadFilter {
         bent.advance(dt);
         bent.weight = odds * bends * bent.density(y);
         if (bent.weight > born.weight) born = bent;
+        // So near, a steep bend explains it worse.
+        const Scalar r = y - bent.level;
+        if (r * r < 2 * (bent.level_variance + 1)) break;
       }
       if (born.known > 1 || born.age > 1) bend_at(born, y);
     }
@@ -279,7 +289,8 @@ class LoadFilter {
       total += line(i).weight;
       if (line(i).weight > line(best_).weight) best_ = static_cast<std::int8_t>(i);
     }
-    for (int i = 0; i < lines_in_use_; ++i) line(i).weight /= total;
+    const Scalar unit = 1 / total;
+    for (int i = 0; i < lines_in_use_; ++i) line(i).weight *= unit;
   }
 
   ConditionedLoad<Scalar> conclude(bool accepted) {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "taut/condensation/condensed.hpp"
-#include "taut/numerics/sign_bit.hpp"
+#include "taut/numerics/bits.hpp"
 #include "taut/scene/path.hpp"
 #include "taut/scene/runs.hpp"
 #include "taut/status.hpp"

@@ -1,4 +1,4 @@
-// Whether any of many numbers is negative, without a comparison at each.
+// Numbers as their bits: whether any of many is negative, without a comparison at each; powers of two.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +20,16 @@ BitsOf<Scalar> bits_of(Scalar x) {
   BitsOf<Scalar> bits;
   std::memcpy(&bits, &x, sizeof bits);
   return bits;
+}
+
+/// 2^n, -126 <= n <= 127.
+template <class Scalar>
+Scalar power_of_two(int n) {
+  constexpr bool single = sizeof(Scalar) == sizeof(float);
+  const BitsOf<Scalar> bits = static_cast<BitsOf<Scalar>>(n + (single ? 127 : 1023)) << (single ? 23 : 52);
+  Scalar power;
+  std::memcpy(&power, &bits, sizeof power);
+  return power;
 }
 
 }  // namespace taut

@@ -1,0 +1,211 @@
+// `taut estimate` from files to columns.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "files/run_program.hpp"
+
+namespace {
+
+/// One cable over three saddles, anchored at its start and jacked at its end.
+std::string scene(const std::string& friction, const std::string& sensors) {
+  return R"({ "taut": 1, "name": "chain", "dimension": 2,
+  "nodes": { "a": [0, 0], "b": [2, 0.3], "c": [4, 0.4], "d": [6, 0.3], "e": [8, 0] },
+  "supports": { "a": "xy", "b": "xy", "c": "xy", "d": "xy", "e": "xy" },
+  "cables": [ { "name": "C", "path": ["a", "b", "c", "d", "e"], "E": 1.95e11, "A": 8e-4, "start": "anchored", "end": "jacked",
+                "friction": { "law": "point", )" +
+         friction + R"( } } ],
+  "sensors": { )" +
+         sensors + " } }";
+}
+const std::string both_cells = R"("C.start": { "sd": 500 }, "C.end": { "sd": 500 })";
+
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> found;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');) found.push_back(field);
+  if (!line.empty() && line.back() == ',') found.emplace_back();
+  return found;
+}
+/// A result as columns by name.
+struct Table {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+
+  explicit Table(const std::string& text) {
+    std::istringstream stream(text);
+    std::string line;
+    std::getline(stream, line);
+    header = fields(line);
+    while (std::getline(stream, line)) rows.push_back(fields(line));
+  }
+  const std::string& at(std::size_t row, const std::string& column) const {
+    const auto found = std::find(header.begin(), header.end(), column);
+    REQUIRE(found != header.end());
+    return rows.at(row).at(static_cast<std::size_t>(found - header.begin()));
+  }
+  double number(std::size_t row, const std::string& column) const {
+    return std::strtod(at(row, column).c_str(), nullptr);
+  }
+};
+
+void write(const Scratch& scratch, const std::string& name, const std::string& text) {
+  std::ofstream(scratch.path / name) << text;
+}
+Outcome estimate(const Scratch& scratch, const std::string& options = "") {
+  return run_taut(scratch,
+                  "estimate " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv") + options);
+}
+/// Closed form: a joint holds (1 - mu c) / (1 + mu c), c = cot(alpha).
+double far_end(double force, double mu) {
+  const double turns[] = {std::atan2(0.3, 2) - std::atan2(0.1, 2), 2 * std::atan2(0.1, 2),
+                          std::atan2(0.3, 2) - std::atan2(0.1, 2)};
+  for (const double turn : turns) {
+    const double c = std::tan(turn / 2);
+    force *= (1 - mu * c) / (1 + mu * c);
+  }
+  return force;
+}
+
+}  // namespace
+
+TEST_CASE("both load cells of one ramp give mu and the forces in between") {
+  const Scratch scratch;
+  const double mu = 0.3;
+  write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0.1, "shared": true)", both_cells));
+  std::string log = "time,C.start,C.end\n";
+  for (int i = 1; i <= 200; ++i) {
+    const double force = 1000.0 * i, noise = i % 2 == 0 ? 300 : -300;
+    log += std::to_string(i) + ',' + std::to_string(far_end(force, mu) + noise) + ',' +
+           std::to_string(force + (i % 4 < 2 ? 300 : -300)) + '\n';
+  }
+  write(scratch, "log.csv", log);
+  for (const std::string scalar : {"double", "float"}) {
+    const Outcome outcome = estimate(scratch, " --scalar " + scalar);
+    REQUIRE(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    const Table table(outcome.out);
+    REQUIRE(table.rows.size() == 200);
+    CHECK(table.header.back() == "alarms");
+    for (const std::string name : {"C.sd1", "C.sd4", "C.mu1", "C.mu3", "C.mu_sd1"})
+      CHECK(std::count(table.header.begin(), table.header.end(), name) == 1);
+    CHECK(std::fabs(table.number(199, "C.mu1") - mu) < 0.01);
+    CHECK(table.number(199, "C.mu1") == table.number(199, "C.mu3"));
+    CHECK(table.number(199, "C.mu_sd1") < 0.01);
+    CHECK(std::fabs(table.number(199, "C.T1") - far_end(2e5, mu)) < 0.005 * 2e5);
+    CHECK(std::fabs(table.number(199, "C.T1") - far_end(2e5, mu)) < 4 * table.number(199, "C.sd1"));
+  }
+}
+
+TEST_CASE("the paper's experiment: mu from both forces, and from one force and that mu the other") {
+  // Table 4 of Yan et al. (2015), original state: 40.00 kN at the jack, 33.35 kN at the other end, mu =
+  // 0.2189.
+  const Scratch scratch;
+  std::ifstream stream(TAUT_DATA "/rolling_joint.json");
+  std::string text((std::istreambuf_iterator<char>(stream)), {});
+  REQUIRE(!text.empty());
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const auto at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, from.size(), to);
+  };
+  const std::string sensors =
+      R"("sensors": { "original.start": { "sd": 20 }, "original.end": { "sd": 20 } }, "cables")";
+  replace("\"cables\"", sensors);
+  const auto friction = text.find("\"mu\":");
+  REQUIRE(friction != std::string::npos);
+  const auto stop = text.find_first_of(",}", friction);
+  text.replace(friction, stop - friction, R"("mu": 0.15, "mu_sd": 0.1, "shared": true )");
+  write(scratch, "scene.json", text);
+  std::string log = "time,original.start,original.end\n";
+  for (int i = 1; i <= 100; ++i)
+    log += std::to_string(i) + ',' + std::to_string(333.5 * i) + ',' + std::to_string(400.0 * i) + '\n';
+  write(scratch, "log.csv", log);
+  const Outcome outcome = estimate(scratch);
+  REQUIRE(outcome.status == 0);
+  const Table table(outcome.out);
+  CHECK(std::fabs(table.number(99, "original.mu1") - 0.2189) < 0.0005);
+  CHECK(std::fabs(table.number(99, "original.T1") - 33350) < 20);
+}
+
+TEST_CASE("what the scene does not say is assumed with a remark") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": 0.2)", ""));
+  write(scratch, "log.csv", "time,C.start,C.end\n1,80000,100000\n2,160000,200000\n");
+  const Outcome outcome = estimate(scratch);
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.err.find("cable \"C\" has no \"mu_sd\"") != std::string::npos);
+  CHECK(outcome.err.find("\"C.start\" has no \"sd\"") != std::string::npos);
+  CHECK(outcome.err.find("800 N, is taken") != std::string::npos);
+  CHECK(outcome.err.find("\"C.end\" has no \"sd\"") != std::string::npos);
+  CHECK(outcome.err.find("exact") != std::string::npos);
+}
+
+TEST_CASE("with everything known estimate gives what simulate gives") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0)", ""));
+  write(scratch, "log.csv", "time,C.end\n1,50000\n2,100000\n3,40000\n4,120000\n");
+  const Outcome simulated = run_taut(
+      scratch, "simulate " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv") + " --hex");
+  const Outcome estimated = estimate(scratch, " --hex");
+  REQUIRE(simulated.status == 0);
+  REQUIRE(estimated.status == 0);
+  const Table expected(simulated.out), found(estimated.out);
+  for (std::size_t row = 0; row < expected.rows.size(); ++row)
+    for (const std::string& column : expected.header) {
+      CAPTURE(column);
+      CHECK(found.at(row, column) == expected.at(row, column));
+    }
+  CHECK(found.at(3, "C.sd1") == "0000000000000000");
+}
+
+TEST_CASE("a negative reading is noise to estimate, and unusable input to simulate") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0.1)", both_cells));
+  write(scratch, "log.csv", "time,C.end\n1,-300\n2,200\n3,-100\n");
+  const Outcome outcome = estimate(scratch);
+  CHECK(outcome.status == 0);
+  const Table table(outcome.out);
+  for (std::size_t row = 0; row < 3; ++row) CHECK(table.number(row, "C.T4") >= 0);
+  CHECK(run_taut(scratch, "simulate " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv"))
+            .status == 2);
+}
+
+TEST_CASE("a list of mu with one unknown is a common factor") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": [0.1, 0.2, 0.3], "mu_sd": 0.1, "shared": true)", both_cells));
+  std::string log = "time,C.start,C.end\n";
+  for (int i = 1; i <= 50; ++i)
+    log += std::to_string(i) + ',' + std::to_string(3600 * i) + ',' + std::to_string(4000 * i) + '\n';
+  write(scratch, "log.csv", log);
+  const Outcome outcome = estimate(scratch);
+  REQUIRE(outcome.status == 0);
+  const Table table(outcome.out);
+  const double first = table.number(49, "C.mu1");
+  CHECK(first > 0);
+  CHECK(first != 0.1);
+  CHECK(std::fabs(table.number(49, "C.mu2") - 2 * first) < 1e-9);
+  CHECK(std::fabs(table.number(49, "C.mu3") - 3 * first) < 1e-9);
+}
+
+TEST_CASE("a stroke outside of its tolerance raises an alarm in its row") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": 0, "mu_sd": 0)", ""));
+  // Without friction the payout is F L / EA.
+  const double payout = 2e5 * (2 * std::hypot(2, 0.3) + 2 * std::hypot(2, 0.1)) / (1.95e11 * 8e-4);
+  write(scratch, "log.csv",
+        "time,C.end,C.end.stroke\n1,200000," + std::to_string(payout) + "\n2,200000," +
+            std::to_string(1.2 * payout) + "\n");
+  const Outcome outcome = estimate(scratch);
+  REQUIRE(outcome.status == 0);
+  const Table table(outcome.out);
+  CHECK(table.at(0, "alarms").empty());
+  CHECK(table.at(1, "alarms") == "elongation:C.end");
+}

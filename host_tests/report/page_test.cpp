@@ -1,0 +1,194 @@
+// The page that `taut report` writes.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "files/run_program.hpp"
+#include "report/well_formed.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string chain = R"({ "taut": 1, "name": "chain <b>&\"", "dimension": 2,
+  "nodes": { "a": [0, 0], "b<i>": [2, 0.4], "c": [4, 0.4], "d": [6, 0] },
+  "supports": { "a": "xy", "b<i>": "xy", "c": "xy", "d": "xy" },
+  "cables": [ { "name": "C<&>", "path": ["a", "b<i>", "c", "d"], "E": 1.95e11, "A": 8e-4, "start": "anchored",
+                "end": "jacked", "friction": { "law": "point", "mu": 0.2, "mu_sd": 0.1, "shared": true } } ],
+  "sensors": { "C<&>.start": { "sd": 500 }, "C<&>.end": { "sd": 500 } } })";
+
+const std::string two_jacks = R"({ "taut": 1, "name": "", "dimension": 3,
+  "nodes": { "a": [0, 0, 0], "b": [1, 1, 1], "c": [2, 0, 0] },
+  "supports": { "a": "xyz", "b": "xyz", "c": "xyz" },
+  "cables": [ { "name": "D", "path": ["a", "b", "c"], "E": 1.95e11, "A": 8e-4, "start": "jacked", "end": "jacked",
+                "friction": { "law": "point", "mu": 0.1, "mu_sd": 0.02 } } ],
+  "sensors": { "D.start": { "sd": 100 }, "D.end": { "sd": 100 } } })";
+
+std::string chain_log(int rows) {
+  std::ostringstream log;
+  log << "time,C<&>.start,C<&>.end\n";
+  for (int i = 1; i <= rows; ++i)
+    log << i << ',' << 800 * i + i * 37 % 100 << ',' << 1000 * i + i * 53 % 100 << '\n';
+  return log.str();
+}
+
+std::string two_jacks_log(double start_of_row_30) {
+  std::ostringstream log;
+  log << "time,D.start,D.end\n";
+  for (int i = 1; i <= 60; ++i)
+    log << i << ',' << (i == 30 ? start_of_row_30 : 500 * i) << ',' << 500 * i << '\n';
+  return log.str();
+}
+
+// Runs `taut report` on these texts; the page is page.html in the folder.
+Outcome report(const Scratch& scratch, const std::string& scene, const std::string& log) {
+  std::ofstream(scratch.path / "scene.json") << scene;
+  std::ofstream(scratch.path / "log.csv") << log;
+  return run_taut(scratch, "report " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv") +
+                               " -o " + scratch.quoted("page.html"));
+}
+
+std::string page_of(const Scratch& scratch) { return text_of(scratch.path / "page.html"); }
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// The values of all attributes with this name.
+std::vector<std::string> attributes(const std::string& page, const std::string& name) {
+  const std::string begin = " " + name + "=\"";
+  std::vector<std::string> found;
+  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at + 1)) {
+    const std::size_t from = at + begin.size();
+    found.push_back(page.substr(from, page.find('"', from) - from));
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a report is one well-formed page that needs nothing else") {
+  const Scratch scratch;
+  const Outcome outcome = report(scratch, chain, chain_log(100));
+  CHECK(outcome.status == 0);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err.empty());
+  const std::string page = page_of(scratch);
+  CHECK(WellFormed(page)() == "");
+  for (const char* outside : {"http:", "https:", "//", " src=", "url(", "@import", "<link", " href="}) {
+    CAPTURE(outside);
+    CHECK_FALSE(has(page, outside));
+  }
+  for (const char* part :
+       {"<html lang=\"en\">", "name=\"viewport\"", "prefers-color-scheme:dark", "@media print",
+        "role=\"img\"", "aria-label=", "<strong>100 rows</strong>", "95 % band"}) {
+    CAPTURE(part);
+    CHECK(has(page, part));
+  }
+}
+
+TEST_CASE("names of a scene are text, whatever they hold") {
+  const Scratch scratch;
+  REQUIRE(report(scratch, chain, chain_log(20)).status == 0);
+  const std::string page = page_of(scratch);
+  CHECK(has(page, "chain &lt;b&gt;&amp;&quot;"));
+  CHECK(has(page, "C&lt;&amp;&gt;"));
+  CHECK(has(page, "b&lt;i&gt;"));
+  CHECK_FALSE(has(page, "<b>"));
+  CHECK_FALSE(has(page, "<i>"));
+}
+
+TEST_CASE("all points lie within their charts, and long logs have no more of them") {
+  const Scratch scratch;
+  REQUIRE(report(scratch, chain, chain_log(20000)).status == 0);
+  const std::string page = page_of(scratch);
+  CHECK(page.size() < 600000);
+  const auto curves = attributes(page, "points");
+  CHECK(curves.size() >= 8);
+  for (const std::string& curve : curves) {
+    std::istringstream points(curve);
+    double x = 0, y = 0;
+    char comma = 0;
+    std::size_t count = 0;
+    bool inside = true;
+    while (points >> x >> comma >> y) {
+      ++count;
+      inside = inside && x >= 0 && x <= 1000 && y >= 0 && y <= 220;
+    }
+    CHECK(points.eof());
+    CHECK(inside);
+    CHECK(count >= 2);
+    CHECK(count <= 2000);  // a band has two sides
+  }
+}
+
+TEST_CASE("the same input gives the same page") {
+  const Scratch scratch;
+  REQUIRE(report(scratch, chain, chain_log(300)).status == 0);
+  const std::string first = page_of(scratch);
+  REQUIRE(report(scratch, chain, chain_log(300)).status == 0);
+  CHECK(page_of(scratch) == first);
+}
+
+TEST_CASE("a row without an answer gives status 1 and a page of the rows before it") {
+  const Scratch scratch;
+  const Outcome outcome = report(
+      scratch, two_jacks, "time,D.start,D.end\n1,20000,20000\n2,20000,20000\n3,20000,90000\n4,20000,90000\n");
+  CHECK(outcome.status == 1);
+  CHECK(has(outcome.err, "(row 3, time 3 s)"));
+  CHECK(has(outcome.err, "; the report ends before it\n"));
+  const std::string page = page_of(scratch);
+  CHECK(WellFormed(page)() == "");
+  CHECK(has(page, "<strong>2 rows</strong>"));
+  CHECK(has(page, "The answer ends before the log does."));
+  CHECK(has(page, "(row 3, time 3 s)"));
+}
+
+TEST_CASE("without any answer the page shows the structure and says why") {
+  const Scratch scratch;
+  const Outcome outcome = report(scratch, two_jacks, "time,D.start,D.end\n1,20000,90000\n");
+  CHECK(outcome.status == 1);
+  const std::string page = page_of(scratch);
+  CHECK(WellFormed(page)() == "");
+  CHECK(has(page, "No row has an answer."));
+  CHECK(has(page, "class=\"structure\""));
+}
+
+TEST_CASE("a prediction without an answer is left out, and the page says so") {
+  const Scratch scratch;
+  REQUIRE(report(scratch, two_jacks, two_jacks_log(15000)).status == 0);
+  CHECK(has(page_of(scratch), "predicted with the friction of the scene"));
+  const Outcome outcome = report(scratch, two_jacks, two_jacks_log(60000));
+  CHECK(outcome.status == 0);
+  const std::string page = page_of(scratch);
+  CHECK(WellFormed(page)() == "");
+  CHECK(has(page, "is left out: it has no answer in row 30: "));
+  CHECK(has(page, "A reading of the load cell at this jack does not belong to the others."));
+}
+
+TEST_CASE("unusable input gives status 2 and no page") {
+  const Scratch scratch;
+  CHECK(report(scratch, chain, "time,X\n1,2\n").status == 2);
+  CHECK_FALSE(fs::exists(scratch.path / "page.html"));
+  CHECK(report(scratch, "{}", chain_log(3)).status == 2);
+  CHECK_FALSE(fs::exists(scratch.path / "page.html"));
+}
+
+TEST_CASE("a report needs a file to go to, and does not overwrite its input") {
+  const Scratch scratch;
+  REQUIRE(report(scratch, chain, chain_log(3)).status == 0);
+  const std::string inputs = "report " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv");
+  CHECK(run_taut(scratch, inputs).status == 2);
+  CHECK(run_taut(scratch, inputs + " -o " + scratch.quoted("log.csv")).status == 2);
+  CHECK(text_of(scratch.path / "log.csv") == chain_log(3));
+}
+
+TEST_CASE("a log of one row is a report too") {
+  const Scratch scratch;
+  CHECK(report(scratch, chain, chain_log(1)).status == 0);
+  CHECK(WellFormed(page_of(scratch))() == "");
+}

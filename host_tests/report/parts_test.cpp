@@ -1,0 +1,157 @@
+// What a report is made of.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lib/report/alarm_meaning.hpp"
+#include "lib/report/alarm_record.hpp"
+#include "lib/report/axis.hpp"
+#include "lib/report/colour_scale.hpp"
+#include "lib/report/curve.hpp"
+#include "lib/report/html.hpp"
+#include "lib/report/number_text.hpp"
+#include "lib/report/state_strip.hpp"
+
+using namespace taut::host;
+
+namespace {
+
+LogRow row_number(std::size_t row) {
+  LogRow made;
+  made.row = row;
+  made.time = static_cast<double>(row) / 2;
+  return made;
+}
+
+}  // namespace
+
+TEST_CASE("a curve of a million points keeps its ends, minima and maxima in a thousand") {
+  Curve curve;
+  for (int i = 0; i < 1000000; ++i) curve.add(i, i == 123456 ? 7 : i == 777777 ? -5 : std::sin(1e-5 * i));
+  const CurvePoints points = curve.points();
+  CHECK(points.size() <= Curve::usual_points);
+  CHECK(points.size() > Curve::usual_points / 4);
+  CHECK(points.front().x == 0);
+  CHECK(points.back().x == 999999);
+  const auto has = [&](double x, double y) {
+    return std::any_of(points.begin(), points.end(), [&](const auto& p) { return p.x == x && p.y == y; });
+  };
+  CHECK(has(123456, 7));
+  CHECK(has(777777, -5));
+  CHECK(std::is_sorted(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.x < b.x; }));
+}
+
+TEST_CASE("a short curve is kept as it is, with its gaps") {
+  Curve curve;
+  for (int i = 0; i < 250; ++i) curve.add(i, i == 40 ? std::numeric_limits<double>::quiet_NaN() : i % 7);
+  const CurvePoints points = curve.points();
+  REQUIRE(points.size() == 250);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    CHECK(points[i].x == static_cast<double>(i));
+    if (i == 40) {
+      CHECK(std::isnan(points[i].y));
+    } else {
+      CHECK(points[i].y == static_cast<double>(i % 7));
+    }
+  }
+}
+
+TEST_CASE("spans of states count every row once") {
+  Thinned<StateSpan> spans(10);
+  for (std::size_t i = 0; i < 1003; ++i) {
+    const auto time = static_cast<double>(i);
+    spans.add({time, time, {StateCounts{i % 2, 1 - i % 2, 0, 0}}});
+  }
+  CHECK(spans.cells().size() <= 10);
+  CHECK(spans.cells().front().first_time == 0);
+  CHECK(spans.cells().back().last_time == 1002);
+  std::size_t rows = 0;
+  for (const StateSpan& span : spans.cells()) rows += span.joints[0][0] + span.joints[0][1];
+  CHECK(rows == 1003);
+}
+
+TEST_CASE("alarms of consecutive rows are one, those after a pause another") {
+  AlarmRecord record;
+  record.add(row_number(1), "");
+  record.add(row_number(2), "mu:C outlier:C.end");
+  record.add(row_number(3), "mu:C");
+  record.add(row_number(4), "");
+  record.add(row_number(5), "mu:C mu:C");
+  REQUIRE(record.runs().size() == 3);
+  CHECK(record.count() == 3);
+  CHECK(record.runs()[0].word == "mu:C");
+  CHECK(record.runs()[0].first_row == 2);
+  CHECK(record.runs()[0].last_row == 3);
+  CHECK(record.runs()[0].last_time == 1.5);
+  CHECK(record.runs()[1].word == "outlier:C.end");
+  CHECK(record.runs()[1].last_row == 2);
+  CHECK(record.runs()[2].first_row == 5);
+}
+
+TEST_CASE("alarms beyond the longest list are counted") {
+  AlarmRecord record;
+  const std::size_t rows = 2 * AlarmRecord::most_runs + 200;
+  for (std::size_t i = 1; i <= rows; ++i) record.add(row_number(i), i % 2 == 0 ? "sensor:C.start" : "");
+  CHECK(record.runs().size() == AlarmRecord::most_runs);
+  CHECK(record.count() == rows / 2);
+  CHECK(record.further().at("sensor:C.start") == 100);
+}
+
+TEST_CASE("alarms have words") {
+  for (const char* kind :
+       {"outlier", "sensor", "mu", "stuck", "elongation", "force-high", "force-low", "no-information"})
+    CHECK(alarm_meaning(std::string(kind) + ":C").means != alarm_meaning("no such alarm").means);
+  CHECK(alarm_place("force-high:a:b.T3") == "a:b.T3");
+}
+
+TEST_CASE("text cannot break out of its element") {
+  CHECK(escaped("<a href=\"x\">&") == "&lt;a href=&quot;x&quot;&gt;&amp;");
+  CHECK(escaped("a\nb\x01") == "a b\xEF\xBF\xBD");
+  CHECK(escaped("\xC3\xA9") == "\xC3\xA9");
+  CHECK(escaped("\xE9 of Latin-1") == "\xEF\xBF\xBD of Latin-1");
+  CHECK(element("p", {{"class", "\"<"}}, "x") == "<p class=\"&quot;&lt;\">x</p>");
+  CHECK(shortened("\xC3\xA9\xC3\xA9\xC3\xA9", 3) == "\xC3\xA9\xC3\xA9\xC3\xA9");
+  CHECK(shortened("\xC3\xA9\xC3\xA9\xC3\xA9", 2) == "\xC3\xA9\xE2\x80\xA6");
+}
+
+TEST_CASE("numbers are legible") {
+  CHECK(fixed(-0.0001, 2) == "0.00");
+  CHECK(significant(123.4, 2) == "123");
+  CHECK(significant(0.01234, 2) == "0.012");
+  CHECK(coordinate(2.50) == "2.5");
+  CHECK(coordinate(1700000000.25, 2) == "1700000000.25");
+  CHECK(ForceUnit::for_largest(98765).text(98765) == "98.77 kN");
+  CHECK(ForceUnit::for_largest(12).text(3) == "3.00 N");
+  CHECK(ForceUnit::for_largest(0).text(0) == "0.0 N");
+  CHECK(ForceUnit::for_largest(5e6).text(5e6) == "5.000 MN");
+}
+
+TEST_CASE("axes have round numbers and hold their range") {
+  Range range;
+  range.include(182.3);
+  range.include(204);
+  const Axis axis = Axis::round(range, 6);
+  CHECK(axis.low == 180);
+  CHECK(axis.high == 205);
+  REQUIRE(axis.ticks.size() == 6);
+  CHECK(axis.ticks[1].label == "185");
+  Range one;
+  one.include(5);
+  CHECK(Axis::round(one, 5).part(5) > 0);
+  CHECK(Axis::round(one, 5).part(5) < 1);
+  CHECK(Axis::round(Range(), 5).ticks.size() > 1);
+  CHECK(Axis::counted(256, 16).ticks.size() <= 17);
+}
+
+TEST_CASE("equal forces have no colours of noise, and no forces none at all") {
+  const ForceScale equal({1000, 1000.1, 999.9});
+  CHECK(equal.low < 960);
+  CHECK(equal.look(1000) == equal.look(999.9));
+  CHECK(ForceScale({0, 0}).look(0) == "c0");
+  const ForceScale wide({100, 200});
+  CHECK(wide.look(100) == "c0");
+  CHECK(wide.look(200) == "c31");
+}

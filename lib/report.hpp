@@ -1,0 +1,16 @@
+// `taut report`: what `taut estimate` finds, as a page to look at.
+#pragma once
+
+#include <string>
+
+namespace taut::host {
+
+struct ReportOptions {
+  std::string scene, log, output;
+};
+
+/// Writes the page and returns the exit status as run_log() does: 0, or 1 if there is no answer at some row;
+/// the page then shows the rows before it. Throws InputError, with nothing written, for unusable input.
+int report(const ReportOptions& options);
+
+}  // namespace taut::host

@@ -1,0 +1,56 @@
+#include "lib/report/alarm_meaning.hpp"
+
+#include <array>
+#include <utility>
+
+namespace taut::host {
+namespace {
+
+constexpr std::array<std::pair<const char*, AlarmMeaning>, 8> meanings = {{
+    {"outlier",
+     {"A reading of the load cell at this jack does not belong to the others. It was left out.",
+      "Nothing, if it is rare. If it comes again and again, check the cell, its cable and its sd in the "
+      "scene."}},
+    {"sensor",
+     {"The load cell at this anchored end contradicts the model by more than five standard deviations.",
+      "Check the cell (zero, range, seat), then the scene: angles at the joints, mu and its sd, forgotten "
+      "joints."}},
+    {"mu",
+     {"Friction is surely outside of what the scene says was known of it.",
+      "Look at the joints: dirt, damage, missing grease or liner. If all is well, correct mu and mu_sd in "
+      "the scene."}},
+    {"stuck",
+     {"The joint holds back more than its friction allows: it does not slide though it should.",
+      "Look whether the cable is caught or clamped there before pulling on."}},
+    {"elongation",
+     {"The measured payout of the jack is off the computed one by more than the tolerance (5 % of the "
+      "largest).",
+      "Stop and find the reason before pulling on: slipping wedges, a broken wire, slack, wrong E, A or "
+      "lengths."}},
+    {"force-high",
+     {"The force in this segment is above its limit.", "Stop pulling; release until it is below the limit."}},
+    {"force-low",
+     {"The force in this segment is below its limit.",
+      "Pull on, or release and pull again to bring the force over the joints; look for a slack cable."}},
+    {"no-information",
+     {"The load cell at this anchored end was read, but joints between it and the jack stick: the reading "
+      "says "
+      "nothing about mu.",
+      "Nothing. Readings taken while the cable slides over all joints are worth more."}},
+}};
+
+}  // namespace
+
+AlarmMeaning alarm_meaning(const std::string& word) {
+  const std::string kind = word.substr(0, word.find(':'));
+  for (const auto& [name, meaning] : meanings)
+    if (kind == name) return meaning;
+  return {"An alarm that this report has no words for.", "See the description of the alarms."};
+}
+
+std::string alarm_place(const std::string& word) {
+  const std::size_t colon = word.find(':');
+  return colon == std::string::npos ? "" : word.substr(colon + 1);
+}
+
+}  // namespace taut::host

@@ -1,0 +1,37 @@
+// How a report calls the parts of a structure.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "lib/scene_description.hpp"
+#include "taut/scene/sample.hpp"
+
+namespace taut::host {
+
+/// The nodes at both ends of a segment, and the node of a joint; both counted from 0 within their cable.
+inline std::array<int, 2> segment_nodes(const CableDescription& cable, std::size_t segment) {
+  return {cable.path[segment], cable.path[(segment + 1) % cable.path.size()]};
+}
+inline int joint_node(const CableDescription& cable, std::size_t joint) {
+  return cable.path[cable.closed ? joint : joint + 1];
+}
+
+inline const std::string& node_name(const SceneDescription& scene, int node) {
+  return scene.nodes[static_cast<std::size_t>(node)].name;
+}
+
+/// `segment 2 (b-c)`
+inline std::string segment_name(const SceneDescription& scene, const CableDescription& cable, std::size_t i) {
+  const auto nodes = segment_nodes(cable, i);
+  return "segment " + std::to_string(i + 1) + " (" + node_name(scene, nodes[0]) + "\u2013" +
+         node_name(scene, nodes[1]) + ")";
+}
+
+/// The words of the result, which are also classes of the page.
+inline const char* state_word(JointState state) {
+  constexpr std::array<const char*, 4> words = {"stick", "forward", "backward", "open"};
+  return words.at(static_cast<std::size_t>(state));
+}
+
+}  // namespace taut::host

@@ -1,0 +1,217 @@
+#include "lib/report/report_page.hpp"
+
+#include "lib/report/colour_scale.hpp"
+#include "lib/report/html.hpp"
+#include "lib/report/names.hpp"
+#include "lib/report/number_text.hpp"
+#include "lib/report/page_style.hpp"
+#include "lib/report/report_charts.hpp"
+#include "lib/report/report_tables.hpp"
+#include "lib/report/state_strip.hpp"
+#include "lib/report/structure_drawing.hpp"
+
+namespace taut::host {
+namespace {
+
+constexpr const char* dash = "\u2013";
+
+std::string strong(const std::string& text) { return element("strong", {}, escaped(text)); }
+
+class Page {
+ public:
+  explicit Page(const ReportContent& content)
+      : view_(content),
+        content_(content),
+        scene_(content.scene),
+        record_(content.record),
+        unit_(view_.unit) {}
+
+  std::string operator()() const {
+    std::string body = header() + structure();
+    if (record_.rows > 0) body += along_the_cable() + over_time() + mu_over_time() + joint_states();
+    body += element("section", {}, heading("Alarms") + alarm_table(view_));
+    if (record_.rows > 0) body += final_values();
+    return "<!DOCTYPE html>\n" +
+           element("html", {{"lang", "en"}},
+                   head() + "\n" + element("body", {}, body + remarks() + script())) +
+           "\n";
+  }
+
+ private:
+  std::string head() const {
+    return element(
+        "head", {},
+        void_element("meta", {{"charset", "utf-8"}}) +
+            void_element("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}}) +
+            void_element("meta", {{"name", "color-scheme"}, {"content", "light dark"}}) +
+            element("title", {}, escaped(title())) + "\n" +
+            element("style", {}, page_style + force_colour_rules()));
+  }
+  std::string title() const { return "Cable forces: " + (scene_.name.empty() ? "scene" : scene_.name); }
+
+  std::string header() const {
+    std::string html =
+        element("h1", {}, escaped(title())) +
+        paragraph("files", "Scene " + escaped(content_.scene_file) + ", log " + escaped(content_.log_file) +
+                               ". Forces and friction estimated by <code>taut report</code>; "
+                               "bands hold the true value with 95 %.") +
+        paragraph("summary", summary());
+    if (!content_.end.empty())
+      html += paragraph("warning", strong("The answer ends before the log does.") + " " +
+                                       escaped(content_.end) + ". What follows shows the rows before it.");
+    return element("header", {}, html);
+  }
+
+  std::string summary() const {
+    if (record_.rows == 0) return "No row has an answer.";
+    const LargestForce& most = record_.largest;
+    std::string html = strong(std::to_string(record_.rows) + (record_.rows == 1 ? " row" : " rows")) +
+                       " in " + strong(view_.time_text(record_.last_time - record_.first_time) + " s");
+    if (most.force >= 0)
+      html += " \u00b7 largest force " + strong(unit_.text(most.force)) + " (sd " +
+              escaped(unit_.deviation(most.deviation) + ") in " + place_of_segment(most.segment)) + " at " +
+              view_.time_text(most.time) + " s";
+    html += mu_summary();
+    const std::size_t count = record_.alarms.count();
+    return html + " \u00b7 " +
+           strong(count == 0 ? "no alarm" : std::to_string(count) + (count == 1 ? " alarm" : " alarms"));
+  }
+
+  std::string place_of_segment(std::size_t segment) const {
+    std::size_t c = 0, i = segment;
+    while (i >= scene_.cables[c].segments()) i -= scene_.cables[c++].segments();
+    return segment_name(scene_, scene_.cables[c], i) + " of cable " + scene_.cables[c].name;
+  }
+
+  // One value a cable, or from the smallest to the largest of its joints; of many cables from the smallest to
+  // the largest of all.
+  std::string mu_summary() const {
+    constexpr std::size_t most_listed = 3;
+    const std::size_t joints = record_.end.mu.size();
+    if (joints == 0) return "";
+    if (scene_.cables.size() > most_listed) return " \u00b7 mu " + mu_between(0, joints);
+    std::string html;
+    for (std::size_t c = 0; c < scene_.cables.size(); ++c) {
+      if (scene_.cables[c].joints() == 0) continue;
+      html += " \u00b7 mu " +
+              (scene_.cables.size() > 1 ? "of cable " + escaped(scene_.cables[c].name) + " " : "") +
+              mu_between(start_of(scene_, c).joint, scene_.cables[c].joints());
+    }
+    return html;
+  }
+  std::string mu_between(std::size_t first, std::size_t count) const {
+    Range mu, sd;
+    for (std::size_t j = first; j < first + count; ++j) {
+      mu.include(record_.end.mu[j]);
+      sd.include(record_.end.mu_deviation[j]);
+    }
+    const std::string low = significant(mu.low(), 3), high = significant(mu.high(), 3);
+    if (low == high) return strong(low) + " (sd " + significant(sd.high(), 2) + ")";
+    return strong(low + dash + high) + " (sd up to " + significant(sd.high(), 2) + ")";
+  }
+
+  std::string structure() const {
+    std::string html = heading(record_.rows > 0 ? "Structure " + view_.at_end() : "Structure");
+    const ForceScale scale(record_.end.tension);
+    html += structure_drawing(scene_, record_, unit_, scale);
+    if (!record_.end.tension.empty()) html += player() + scale.bar(unit_);
+    html += structure_legend(scene_);
+    if (scene_.dimension == 3)
+      html += paragraph("note", "Axonometric projection, seen from the front right and from above.");
+    return element("section", {}, html);
+  }
+
+  // A browser without JavaScript leaves it hidden.
+  std::string player() const {
+    return element(
+        "p", {{"class", "player"}, {"id", "player"}, {"hidden", "hidden"}},
+        element("label", {{"for", "moment"}}, "Show at") +
+            void_element("input", {{"type", "range"}, {"id", "moment"}, {"min", "0"}, {"step", "1"}}) +
+            element("output", {{"for", "moment"}}));
+  }
+
+  std::string along_the_cable() const {
+    std::string html = heading("Force along the cable " + view_.at_end());
+    for (std::size_t c = 0; c < scene_.cables.size(); ++c) html += cable_heading(c) + force_chart(view_, c);
+    if (content_.nominal.tension.empty())
+      html += paragraph("note", "What was predicted with the friction of the scene is left out: " +
+                                    escaped(content_.nominal.reason) + ".");
+    return element("section", {}, html);
+  }
+  std::string cable_heading(std::size_t c) const {
+    return scene_.cables.size() == 1 ? "" : element("h3", {}, "Cable " + escaped(scene_.cables[c].name));
+  }
+  std::string over_time() const {
+    std::string html = heading("Force over time");
+    for (std::size_t c = 0; c < scene_.cables.size(); ++c) html += cable_heading(c) + time_chart(view_, c);
+    return element("section", {}, html);
+  }
+
+  std::string mu_over_time() const {
+    std::string html;
+    for (std::size_t c = 0; c < scene_.cables.size(); ++c)
+      if (scene_.cables[c].joints() > 0) html += cable_heading(c) + mu_chart(view_, c);
+    return html.empty() ? "" : element("section", {}, heading("Friction coefficient over time") + html);
+  }
+
+  std::string joint_states() const {
+    std::string html;
+    for (std::size_t c = 0; c < scene_.cables.size(); ++c)
+      if (scene_.cables[c].joints() > 0)
+        html += cable_heading(c) + state_strip(scene_, c, record_, view_.time, view_.time_title);
+    return html.empty()
+               ? ""
+               : element("section", {}, heading("States of the joints over time") + state_legend() + html);
+  }
+
+  std::string final_values() const {
+    std::string html = heading("Values " + view_.at_end());
+    for (std::size_t c = 0; c < scene_.cables.size(); ++c) html += cable_heading(c) + final_table(view_, c);
+    return element("section", {}, html);
+  }
+
+  std::string remarks() const {
+    std::string list;
+    for (const std::string& remark : content_.remarks) list += element("li", {}, escaped(remark));
+    return list.empty() ? "" : element("section", {}, heading("Remarks") + element("ul", {}, list));
+  }
+
+  // Numbers and fixed words only: nothing of a file gets into the script.
+  std::string script() const {
+    if (record_.end.tension.empty()) return "";
+    std::string data = "{\"unit\":\"" + std::string(unit_.name) +
+                       "\",\"decimals\":" + std::to_string(unit_.decimals) +
+                       ",\"span\":" + significant(ForceScale::least_span, 4) +
+                       ",\"colours\":" + std::to_string(force_colours) + ",\"states\":[";
+    for (int s = 0; s < 4; ++s) {
+      const auto state = static_cast<JointState>(s);
+      data +=
+          std::string(s == 0 ? "" : ",") + "[\"" + state_word(state) + "\",\"" + joint_outline(state) + "\"]";
+    }
+    data += "],\"frames\":[";
+    bool is_first = true;
+    for (const Frame& frame : record_.frames.cells()) {
+      data += std::string(is_first ? "\n" : ",\n") + "[\"" + view_.time_text(frame.time) + "\",[";
+      for (std::size_t i = 0; i < frame.tension.size(); ++i)
+        data += (i == 0 ? "" : ",") + coordinate(unit_.of(frame.tension[i]), unit_.decimals);
+      data += "],\"";
+      for (const JointState state : frame.state) data += static_cast<char>('0' + static_cast<int>(state));
+      data += "\"]";
+      is_first = false;
+    }
+    return element("script", {{"type", "application/json"}, {"id", "frames"}}, data + "]}") +
+           element("script", {}, page_script);
+  }
+
+  ReportView view_;
+  const ReportContent& content_;
+  const SceneDescription& scene_;
+  const RunRecord& record_;
+  const ForceUnit& unit_;
+};
+
+}  // namespace
+
+std::string report_page(const ReportContent& content) { return Page(content)(); }
+
+}  // namespace taut::host

@@ -1,0 +1,110 @@
+#include "lib/report/report_tables.hpp"
+
+#include "lib/report/alarm_meaning.hpp"
+#include "lib/report/html.hpp"
+#include "lib/report/names.hpp"
+#include "lib/report/number_text.hpp"
+
+namespace taut::host {
+namespace {
+
+constexpr int mu_digits = 4;  // decimals
+constexpr const char* dash = "\u2013";
+
+// The cells of one row of a table.
+class TableRow {
+ public:
+  explicit TableRow(const char* kind = "td") : kind_(kind) {}
+
+  TableRow& cell(const char* look, const std::string& text) {
+    cells_ += element(kind_, {{"class", look}}, escaped(text));
+    return *this;
+  }
+  TableRow& number(const std::string& text) { return cell("number", text); }
+  TableRow& word(const std::string& text) { return cell("short", text); }
+  TableRow& text(const std::string& text) { return cell("text", text); }
+  std::string finished() const { return element("tr", {}, cells_); }
+
+ private:
+  const char* kind_;
+  std::string cells_;
+};
+
+// Wider than a phone, it can be moved on its own.
+std::string table(const std::string& name, const TableRow& head, const std::string& rows) {
+  return element("div", {{"class", "wide"}, {"role", "region"}, {"aria-label", name}, {"tabindex", "0"}},
+                 element("table", {}, element("thead", {}, head.finished()) + element("tbody", {}, rows)));
+}
+
+std::string further_alarms(const ReportView& view) {
+  std::string list;
+  for (const auto& [word, count] : view.record.alarms.further())
+    list += (list.empty() ? "" : ", ") + word + " " + std::to_string(count) + " times";
+  return list.empty() ? "" : paragraph("note", "Later, and not listed one by one: " + escaped(list) + ".");
+}
+
+}  // namespace
+
+std::string alarm_table(const ReportView& view) {
+  if (view.record.alarms.count() == 0) return paragraph("note", "There is none.");
+  std::string rows;
+  for (const AlarmRun& run : view.record.alarms.runs()) {
+    const bool is_one = run.first_row == run.last_row;
+    const AlarmMeaning meaning = alarm_meaning(run.word);
+    rows += TableRow()
+                .number(std::to_string(run.first_row) + (is_one ? "" : dash + std::to_string(run.last_row)))
+                .number(view.time_text(run.first_time - view.origin) +
+                        (is_one ? "" : dash + view.time_text(run.last_time - view.origin)))
+                .word(run.word.substr(0, run.word.find(':')))
+                .word(alarm_place(run.word))
+                .text(meaning.means)
+                .text(meaning.to_do)
+                .finished();
+  }
+  TableRow head("th");
+  head.number("Rows")
+      .number(view.origin == 0 ? "Time [s]" : "Since " + view.time_text(view.origin) + " [s]")
+      .word("Alarm")
+      .word("Where")
+      .text("What it means")
+      .text("What to do");
+  return element("div", {{"class", "alarms"}}, table("Alarms", head, rows)) + further_alarms(view);
+}
+
+std::string final_table(const ReportView& view, std::size_t c) {
+  const CableDescription& cable = view.scene.cables[c];
+  const Answer& end = view.record.end;
+  const std::string unit = std::string(" [") + view.unit.name + "]";
+  const CableStart first = start_of(view.scene, c);
+  const bool has_nominal = !view.content.nominal.tension.empty();
+  TableRow head("th");
+  head.word("Segment").number("Force" + unit).number("sd" + unit);
+  if (has_nominal) head.number("Predicted" + unit);
+  // The joint of a hoop lies at the start of its segment, all others at the end.
+  head.word(cable.closed ? "Joint at its start" : "Joint at its end")
+      .word("State")
+      .number("mu")
+      .number("sd of mu");
+  head.number("Contact force" + unit);
+  std::string rows;
+  for (std::size_t i = 0; i < cable.segments(); ++i) {
+    const std::size_t s = first.segment + i, j = first.joint + i;
+    const auto nodes = segment_nodes(cable, i);
+    TableRow row;
+    row.word(std::to_string(i + 1) + " (" + node_name(view.scene, nodes[0]) + dash +
+             node_name(view.scene, nodes[1]) + ")");
+    row.number(view.unit.number(end.tension[s])).number(view.unit.deviation(end.deviation[s]));
+    if (has_nominal) row.number(view.unit.number(view.content.nominal.tension[s]));
+    if (i < cable.joints()) {
+      row.word(std::to_string(i + 1) + " (" + node_name(view.scene, joint_node(cable, i)) + ")");
+      row.word(state_word(end.state[j])).number(fixed(end.mu[j], mu_digits));
+      row.number(significant(end.mu_deviation[j], 2)).number(view.unit.number(end.contact[j]));
+    } else {
+      row.word("").word("").number("").number("").number("");
+    }
+    rows += row.finished();
+  }
+  return table("Values of cable " + cable.name + " " + view.at_end(), head, rows);
+}
+
+}  // namespace taut::host

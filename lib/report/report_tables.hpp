@@ -1,0 +1,17 @@
+// The tables of a report.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "lib/report/report_view.hpp"
+
+namespace taut::host {
+
+/// What alarms there were, what they mean and what to do.
+std::string alarm_table(const ReportView& view);
+
+/// Force, friction and contact of one cable after the last row.
+std::string final_table(const ReportView& view, std::size_t cable);
+
+}  // namespace taut::host

@@ -1,0 +1,50 @@
+// What a report shows, and what all its parts agree on.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "lib/report/axis.hpp"
+#include "lib/report/number_text.hpp"
+#include "lib/report/run_record.hpp"
+
+namespace taut::host {
+
+/// What was to be expected with the friction of the scene: forces of the segments after the last row.
+struct NominalRun {
+  std::vector<double> tension;  ///< empty: no answer
+  std::string reason;           ///< why there is none
+};
+
+/// Everything that a report shows.
+struct ReportContent {
+  const SceneDescription& scene;
+  std::string scene_file, log_file;
+  const RunRecord& record;
+  NominalRun nominal;
+  std::string end;  ///< where and why the answer ends before the log does; empty if it does not
+  std::vector<std::string> remarks;
+};
+
+/// The content with one unit of force and one axis of time for all drawings and tables.
+struct ReportView {
+  explicit ReportView(const ReportContent& shown);
+
+  const ReportContent& content;
+  const SceneDescription& scene;
+  const RunRecord& record;
+  ForceUnit unit;
+  double origin = 0;  ///< times count from here where they would be too long
+  Axis time;
+  std::string time_title;
+
+  /// With as many decimals as the duration asks for.
+  std::string time_text(double seconds) const;
+  /// `at the end of the log`, unless the answer ends before it.
+  std::string at_end() const;
+  /// The values of one cable out of those of all segments.
+  std::vector<double> of_cable(const std::vector<double>& all, std::size_t cable) const;
+};
+
+}  // namespace taut::host

@@ -1,0 +1,91 @@
+// What a report needs to remember of a run, however long it is.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "lib/answer.hpp"
+#include "lib/log_file.hpp"
+#include "lib/report/alarm_record.hpp"
+#include "lib/report/curve.hpp"
+#include "lib/report/thinned.hpp"
+
+namespace taut::host {
+
+/// In how many rows a joint was in each state.
+using StateCounts = std::array<std::size_t, 4>;
+
+/// States of all joints in some consecutive rows.
+struct StateSpan {
+  double first_time = 0, last_time = 0;
+  std::vector<StateCounts> joints;
+  void join(const StateSpan& later);
+};
+
+/// Whether there was an alarm in some consecutive rows.
+struct AlarmSpan {
+  double first_time = 0, last_time = 0;
+  bool any = false;
+  void join(const AlarmSpan& later);
+};
+
+/// The structure at one moment.
+struct Frame {
+  double time = 0;
+  std::vector<double> tension;
+  std::vector<JointState> state;
+  void join(const Frame& later) { *this = later; }  // so that the last one is the end of the log
+};
+
+/// A load cell's last reading.
+struct LastReading {
+  bool given = false;
+  double force = 0, time = 0;
+};
+
+/// The largest force of all segments in all rows.
+struct LargestForce {
+  double force = -1, deviation = 0, time = 0;
+  std::size_t segment = 0, row = 0;
+};
+
+/// Takes a run row by row. Forces in N, times in s; segments and joints in the numbering of the scene.
+class RunRecord {
+ public:
+  explicit RunRecord(const SceneDescription& scene);
+
+  void add(const LogRow& row, const Answer& answer);
+
+  std::size_t rows = 0;
+  double first_time = 0, last_time = 0;
+  Answer end;  ///< the last answer
+  LargestForce largest;
+  std::vector<Curve> tension;                    ///< of every segment
+  std::vector<std::array<Curve, 2>> cell;        ///< loads of jacks and readings at anchored ends
+  std::vector<std::array<LastReading, 2>> read;  ///< of those, where it still says something of the cable
+  std::vector<Curve> mu, least_mu, most_mu;      ///< of every joint, with its 95 % band
+  Thinned<StateSpan> states;
+  Thinned<AlarmSpan> alarm_spans;
+  Thinned<Frame> frames;
+  AlarmRecord alarms;
+
+ private:
+  void add_cells(const LogRow& row);
+  void add_tensions(const LogRow& row, const Answer& answer);
+  void add_mu(const LogRow& row, const Answer& answer);
+  void add_states(const LogRow& row, const Answer& answer);
+
+  const SceneDescription& scene_;
+};
+
+/// Half the width of a 95 % band in standard deviations.
+inline constexpr double band_width = 1.96;
+
+/// Segments and joints of all cables before cable `c`.
+struct CableStart {
+  std::size_t segment = 0, joint = 0;
+};
+CableStart start_of(const SceneDescription& scene, std::size_t c);
+
+}  // namespace taut::host

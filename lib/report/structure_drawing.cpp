@@ -1,0 +1,258 @@
+#include "lib/report/structure_drawing.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "lib/report/chart.hpp"
+#include "lib/report/colour_scale.hpp"
+#include "lib/report/html.hpp"
+#include "lib/report/names.hpp"
+#include "lib/report/projection.hpp"
+
+namespace taut::host {
+namespace {
+
+std::string title(const std::string& text) { return element("title", {}, escaped(text)); }
+
+std::string line(const char* look, const CurvePoint& from, const CurvePoint& to) {
+  return void_element("line", {{"class", look},
+                               {"x1", coordinate(from.x)},
+                               {"y1", coordinate(from.y)},
+                               {"x2", coordinate(to.x)},
+                               {"y2", coordinate(to.y)}});
+}
+
+std::string moved_to(const CurvePoint& at) {
+  return "translate(" + coordinate(at.x) + " " + coordinate(at.y) + ")";
+}
+
+std::string turned(const CurvePoint& at, const CurvePoint& along) {
+  const double degrees = std::atan2(along.y, along.x) * 57.29577951308232;
+  return moved_to(at) + " rotate(" + coordinate(degrees) + ")";
+}
+
+CurvePoint difference(const CurvePoint& a, const CurvePoint& b) { return {a.x - b.x, a.y - b.y}; }
+
+class StructureDrawing {
+ public:
+  StructureDrawing(const SceneDescription& scene, const RunRecord& record, const ForceUnit& unit,
+                   const ForceScale& scale)
+      : scene_(scene), record_(record), unit_(unit), scale_(scale), points_(scene) {}
+
+  std::string operator()() const {
+    const std::string says = "The structure " + scene_.name + " with cables coloured by force";
+    std::string parts = substructures() + struts() + supports();
+    for (std::size_t c = 0; c < scene_.cables.size(); ++c) parts += segments(c);
+    for (std::size_t c = 0; c < scene_.cables.size(); ++c) parts += jacks(c) + joints(c);
+    if (scene_.dimension == 3) parts += axes();
+    return element("svg",
+                   {{"class", "structure"},
+                    {"role", "img"},
+                    {"aria-label", says},
+                    {"viewBox", "0 0 " + coordinate(Projection::width) + " " + coordinate(points_.height())}},
+                   parts);
+  }
+
+ private:
+  bool has_answer() const { return record_.rows > 0; }
+
+  std::string struts() const {
+    std::string drawn;
+    for (std::size_t i = 0; i < scene_.struts.size(); ++i) {
+      const auto& nodes = scene_.struts[i].nodes;
+      const double force = has_answer() ? record_.end.strut[i] : 0;
+      std::string name = "strut " + std::to_string(i + 1) + " (" + node_name(scene_, nodes[0]) + "\u2013" +
+                         node_name(scene_, nodes[1]) + ")";
+      if (has_answer())
+        name += ": " + unit_.text(force) + (force > 0 ? ", tension" : force < 0 ? ", compression" : "");
+      const CurvePoint from = points_.at(nodes[0]), to = points_.at(nodes[1]);
+      drawn += element(
+          "g", {},
+          line("hit", from, to) + line(force > 0 ? "strut tension" : "strut", from, to) + title(name));
+    }
+    return drawn;
+  }
+
+  std::string supports() const {
+    std::string drawn;
+    for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+      const NodeDescription& node = scene_.nodes[i];
+      if (node.held == held_none) continue;
+      std::string axes;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if ((node.held >> axis & 1) != 0) axes += std::string(axes.empty() ? "" : ", ") + "xyz"[axis];
+      drawn += element("g", {{"transform", moved_to(points_.at(static_cast<int>(i)))}},
+                       element("path", {{"class", "support"}, {"d", support_outline(node.held)}},
+                               title("support " + node.name + ": held in " + axes)));
+    }
+    return drawn;
+  }
+  // A triangle where a node is held; one on a line where it can move along the line.
+  const char* support_outline(std::uint8_t held) const {
+    if (held == (scene_.dimension == 2 ? held_xy : held_xyz)) return "M0,0 L-8,13 L8,13 z";
+    if (scene_.dimension == 2 && held == held_x) return "M0,0 L-13,-8 L-13,8 z M-17,-9 V9";
+    return "M0,0 L-8,13 L8,13 z M-9,17 H9";
+  }
+
+  std::string substructures() const {
+    std::string drawn;
+    for (const SubstructureDescription& part : scene_.substructures)
+      for (const int node : part.nodes)
+        drawn += element("g", {{"transform", moved_to(points_.at(node))}},
+                         element("path", {{"class", "substructure"}, {"d", "M-11,-11 H11 V11 H-11 z"}},
+                                 title("substructure " + part.name + " at node " + node_name(scene_, node))));
+    return drawn;
+  }
+
+  std::string segments(std::size_t c) const {
+    const CableDescription& cable = scene_.cables[c];
+    const std::size_t first = start_of(scene_, c).segment;
+    std::string drawn;
+    for (std::size_t i = 0; i < cable.segments(); ++i) {
+      const auto nodes = segment_nodes(cable, i);
+      const CurvePoint from = points_.at(nodes[0]), to = points_.at(nodes[1]);
+      const std::string name = cable.name + ", " + segment_name(scene_, cable, i);
+      std::string look = "cable", says = name;
+      if (has_answer()) {
+        const double force = record_.end.tension[first + i];
+        look += " " + scale_.look(force);
+        says += ": " + unit_.text(force) + ", sd " + unit_.deviation(record_.end.deviation[first + i]);
+      }
+      drawn += element(
+          "g", {{"class", "segment"}, {"data-name", name}},
+          line("hit", from, to) + line("casing", from, to) + line(look.c_str(), from, to) + title(says));
+    }
+    return drawn;
+  }
+
+  std::string joints(std::size_t c) const {
+    const CableDescription& cable = scene_.cables[c];
+    const std::size_t first = start_of(scene_, c).joint, nodes = cable.path.size();
+    std::string drawn;
+    for (std::size_t j = 0; j < cable.joints(); ++j) {
+      const std::size_t at = cable.closed ? j : j + 1;
+      const CurvePoint before = points_.at(cable.path[(at + nodes - 1) % nodes]);
+      const CurvePoint after = points_.at(cable.path[(at + 1) % nodes]);
+      const JointState state = has_answer() ? record_.end.state[first + j] : JointState::stick;
+      const std::string name =
+          cable.name + ", joint " + std::to_string(j + 1) + " at " + node_name(scene_, cable.path[at]);
+      drawn += element("g",
+                       {{"class", "joint"},
+                        {"data-name", name},
+                        {"transform", turned(points_.at(cable.path[at]), difference(after, before))}},
+                       element("path", {{"class", state_word(state)}, {"d", joint_outline(state)}}) +
+                           title(has_answer() ? name + ": " + state_word(state) : name));
+    }
+    return drawn;
+  }
+
+  // An arrow that pulls outwards.
+  std::string jacks(std::size_t c) const {
+    const CableDescription& cable = scene_.cables[c];
+    std::string drawn;
+    for (std::size_t e = 0; e < 2; ++e) {
+      if (!cable.is_jacked(e)) continue;
+      const int node = e == 0 ? cable.path.front() : cable.path.back();
+      const int inner = e == 0 ? cable.path[1] : cable.path[cable.path.size() - 2];
+      drawn += element(
+          "g", {{"transform", turned(points_.at(node), difference(points_.at(node), points_.at(inner)))}},
+          element("path", {{"class", "jack"}, {"d", "M3,-2 H15 V-6 L26,0 L15,6 V2 H3 z"}},
+                  title("jack at the " + std::string(end_name(e)) + " of " + cable.name)));
+    }
+    return drawn;
+  }
+
+  std::string axes() const {
+    constexpr double length = 26;
+    std::string drawn;
+    const CurvePoint from{34, points_.height() - 30};
+    const auto directions = Projection::axes();
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      const CurvePoint to{from.x + length * directions[i].x, from.y + length * directions[i].y};
+      drawn += line("axis", from, to);
+      drawn += element("text",
+                       {{"x", coordinate(from.x + 1.4 * (to.x - from.x))},
+                        {"y", coordinate(from.y + 1.4 * (to.y - from.y) + 4)},
+                        {"text-anchor", "middle"}},
+                       std::string(1, "xyz"[i]));
+    }
+    return element("g", {{"class", "axes"}, {"aria-hidden", "true"}}, drawn);
+  }
+
+  const SceneDescription& scene_;
+  const RunRecord& record_;
+  const ForceUnit& unit_;
+  const ForceScale& scale_;
+  Projection points_;
+};
+
+std::string symbol(const std::string& content, const std::string& words) {
+  return element("li", {},
+                 element("svg",
+                         {{"class", "sample"},
+                          {"width", "28"},
+                          {"height", "18"},
+                          {"viewBox", "-14 -9 28 18"},
+                          {"aria-hidden", "true"}},
+                         content) +
+                     words);
+}
+
+std::string joint_symbol(JointState state, const std::string& words) {
+  return symbol(element("g", {{"class", "joint"}},
+                        element("path", {{"class", state_word(state)}, {"d", joint_outline(state)}})),
+                words);
+}
+
+}  // namespace
+
+const char* joint_outline(JointState state) {
+  switch (state) {
+    case JointState::stick:
+      return "M-5,0 a5,5 0 1,0 10,0 a5,5 0 1,0 -10,0 z";
+    case JointState::forward:
+      return "M-6,-7 L8,0 L-6,7 z";
+    case JointState::backward:
+      return "M6,-7 L-8,0 L6,7 z";
+    case JointState::open:
+      return "M-6.5,0 a6.5,6.5 0 1,0 13,0 a6.5,6.5 0 1,0 -13,0 z";
+  }
+  return "";
+}
+
+std::string structure_drawing(const SceneDescription& scene, const RunRecord& record, const ForceUnit& unit,
+                              const ForceScale& scale) {
+  return StructureDrawing(scene, record, unit, scale)();
+}
+
+std::string structure_legend(const SceneDescription& scene) {
+  std::string entries;
+  if (!scene.struts.empty()) {
+    entries += symbol(line("strut", {-13, 0}, {13, 0}), "strut in compression") +
+               symbol(line("strut tension", {-13, 0}, {13, 0}), "strut in tension");
+  }
+  const auto has_jack = [](const CableDescription& cable) {
+    return cable.is_jacked(0) || cable.is_jacked(1);
+  };
+  bool jacks = false, joints = false;
+  for (const CableDescription& cable : scene.cables) {
+    jacks = jacks || has_jack(cable);
+    joints = joints || cable.joints() > 0;
+  }
+  entries += symbol(element("path", {{"class", "support"}, {"d", "M0,-6 L-8,7 L8,7 z"}}), "support");
+  if (!scene.substructures.empty())
+    entries +=
+        symbol(element("path", {{"class", "substructure"}, {"d", "M-8,-8 H8 V8 H-8 z"}}), "substructure");
+  if (jacks)
+    entries +=
+        symbol(element("path", {{"class", "jack"}, {"d", "M-12,-2 H0 V-6 L11,0 L0,6 V2 H-12 z"}}), "jack");
+  if (joints) {
+    entries += joint_symbol(JointState::stick, "joint sticks") +
+               joint_symbol(JointState::forward, "slides to the end of the cable") +
+               joint_symbol(JointState::backward, "slides to its start") +
+               joint_symbol(JointState::open, "open");
+  }
+  return element("ul", {{"class", "legend"}}, entries);
+}
+
+}  // namespace taut::host
