@@ -171,20 +171,8 @@ class Tracker {
   /// Fails with `bad_sample` (nothing was done), or at `fraction` of the path with `pulled_through` (names
   /// the cable), `mechanism` (names a joint whose sliding sets its node free) or `state_iterations`.
   Progress<Scalar> advance(const Sample<Scalar, Cap>& sample, int event_budget = default_budget) {
-    if (quick(sample)) return {};
-    const Status usable = check_sample(model_->cables, model_->loads, sample);
-    if (!usable) return {usable, Scalar(0), 0};
-    set_goal(sample);
-    for (const JackedEnd& jack : jacks_)
-      if (is_spare(jack.cable, jack.end) && !spare_agrees(jack.cable))
-        return {Status::at(Code::pulled_through, Place::cable, jack.cable), Scalar(0), 0};
-    for (int i = 0; i < model_->loads; ++i) {
-      if (has_load_[i] || goal_.factor[i] == now_.factor[i]) continue;
-      find_forces();
-      freeze();
-      map_is_old_ = true;
-    }
-    return follow(event_budget);
+    if (only_ >= 0 && !map_is_old_ && goes_along(sample)) return {};
+    return approach(sample, event_budget);
   }
 
   /// The friction of a joint depends on unknown `parameter` from here on, with derivative `slope` of its rho.
@@ -380,6 +368,23 @@ class Tracker {
     return -1;
   }
 
+  Progress<Scalar> approach(const Sample<Scalar, Cap>& sample, int event_budget) {
+    if (quick(sample)) return {};
+    const Status usable = check_sample(model_->cables, model_->loads, sample);
+    if (!usable) return {usable, Scalar(0), 0};
+    set_goal(sample);
+    for (const JackedEnd& jack : jacks_)
+      if (is_spare(jack.cable, jack.end) && !spare_agrees(jack.cable))
+        return {Status::at(Code::pulled_through, Place::cable, jack.cable), Scalar(0), 0};
+    for (int i = 0; i < model_->loads; ++i) {
+      if (has_load_[i] || goal_.factor[i] == now_.factor[i]) continue;
+      find_forces();
+      freeze();
+      map_is_old_ = true;
+    }
+    return follow(event_budget);
+  }
+
   // A sample without an event.
 
   /// Goes to the sample if no state changes on the way; both ends of the straight path within the limits is
@@ -406,23 +411,46 @@ class Tracker {
       regroup(x);
     else if (!has_range_)
       find_range();
-    if (has_range_ && only_ >= 0) {
-      const Scalar dx = x[only_] - anchor_[only_];
-      if (!(dx >= range_[0] && dx <= range_[1])) return false;
-      const Rounded& column = map_.rounded_column(only_);
-      for (int i = 0; i < model_->segments; ++i) tension_[i] = constant_[i] + dx * column[i];
-    } else {
-      Rounded T = constant_;
-      add_inputs(true, x, T);
-      if (!is_within_limits(T)) return false;
-      tension_ = T;
-    }
+    Rounded T = constant_;
+    add_inputs(true, x, T);
+    if (!is_within_limits(T)) return false;
+    tension_ = T;
     for (int k = 0; k < map_.inputs(); ++k) {
       last_[k] = static_cast<Real>(x[k] - at_[k]);
       if (x[k] == at_[k]) continue;
       set_value(map_.input(k), static_cast<Real>(x[k]), now_);
       at_[k] = x[k];
     }
+    return true;
+  }
+  /// The same where the only input that changes has a range: false if anything else changes, or it leaves it.
+  bool goes_along(const Sample<Scalar, Cap>& sample) {
+    const int k = only_;
+    Scalar x = at_[k];
+    for (const JackedEnd& jack : jacks_) {
+      const Jack<Scalar>& given = sample.jack[jack.cable][jack.end];
+      if (given.locked != jack.locked) return false;
+      if (jack.input == k)
+        x = given.force;
+      else if (jack.input >= 0 && given.force != at_[jack.input])
+        return false;
+    }
+    for (int i = 0; i < model_->loads; ++i) {
+      if (load_input_[i] == k)
+        x = sample.factor[i];
+      else if (sample.factor[i] != (load_input_[i] < 0 ? factor_[i] : at_[load_input_[i]]))
+        return false;
+    }
+    const Scalar step = x - at_[k];
+    if (step != 0) {
+      const Scalar dx = x - anchor_[k];
+      if (!(dx >= range_[0] && dx <= range_[1]) || !map_.keeps(k, step > 0)) return false;
+      const Rounded& column = map_.rounded_column(k);
+      for (int i = 0; i < model_->segments; ++i) tension_[i] = constant_[i] + dx * column[i];
+      set_value(map_.input(k), static_cast<Real>(x), now_);
+      at_[k] = x;
+    }
+    last_[k] = static_cast<Real>(step);
     return true;
   }
   /// What a sample says of the map's inputs; false if it changes anything else.
@@ -452,8 +480,12 @@ class Tracker {
   /// Inputs that do not change are added up once.
   void regroup(const Given& x) {
     for (int k = 0; k < map_.inputs(); ++k) live_[k] = x[k] != at_[k];
-    has_range_ = false;
+    forget_range();
     sum_up_constant();
+  }
+  void forget_range() {
+    has_range_ = false;
+    only_ = -1;
   }
   /// Where one input alone changes, as in most samples: how far it may go from its anchor within all limits.
   /// Found when a second sample is like the first; from then on a sample asks for nothing else.
@@ -466,12 +498,12 @@ class Tracker {
         ++live;
         only_ = k;
       }
-    if (live != 1) {
+    // A slack run has limits of its own.
+    if (live != 1 || map_.has_slack()) {
       only_ = -1;
       return;
     }
-    const Scalar far = std::numeric_limits<Scalar>::max();
-    range_ = {-far, far};
+    range_ = {larger(least_[only_], -reach_[only_]) - anchor_[only_], reach_[only_] - anchor_[only_]};
     const Rounded& column = map_.rounded_column(only_);
     for (int j = 0; j < joints(); ++j) {
       const auto& sides = laws_.sides(j);
@@ -813,7 +845,7 @@ class Tracker {
     for (int i = 0; i < model_->loads; ++i) factor_[i] = static_cast<Scalar>(now_.factor[i]);
     for (int i = 0; i < model_->segments; ++i) tension_[i] = static_cast<Scalar>(force_[i]);
     live_.fill(false);
-    has_range_ = false;
+    forget_range();
     for (int k = 0; k < map_.inputs(); ++k) {
       const Input& input = map_.input(k);
       at_[k] = static_cast<Scalar>(value(input, now_));
