@@ -63,6 +63,26 @@ CondensedArrays condensed_arrays(const SceneDescription& scene) {
   return arrays;
 }
 
+template <class Scalar, int Dimension, class Cap>
+KnowledgeArrays knowledge_arrays(const SceneDescription& scene) {
+  const auto knowledge = std::make_unique<Knowledge<Scalar, Cap>>();
+  know_scene<Scalar, Dimension, Cap>(scene, *knowledge);
+  const auto cables = static_cast<int>(scene.cables.size());
+  std::size_t joints = 0;
+  for (const CableDescription& cable : scene.cables) joints += cable.joints();
+  KnowledgeArrays arrays;
+  arrays.mu = row_of(knowledge->mu, static_cast<int>(joints));
+  arrays.grip = row_of(knowledge->grip, static_cast<int>(joints));
+  arrays.mu_sd = row_of(knowledge->mu_sd, cables);
+  for (int c = 0; c < cables; ++c) {
+    arrays.capstan.push_back(knowledge->capstan[c]);
+    arrays.shared.push_back(knowledge->shared[c]);
+    const auto& sd = knowledge->sensor_sd[c];
+    arrays.sensor_sd.push_back({static_cast<double>(sd[0]), static_cast<double>(sd[1])});
+  }
+  return arrays;
+}
+
 }  // namespace
 
 CondensedArrays condense(const SceneDescription& scene, ScalarType scalar) {
@@ -72,6 +92,15 @@ CondensedArrays condense(const SceneDescription& scene, ScalarType scalar) {
     using Cap = typename Kind::Capacity;
     return scalar == ScalarType::float32 ? condensed_arrays<float, Kind::dimension, Cap>(scene)
                                          : condensed_arrays<double, Kind::dimension, Cap>(scene);
+  });
+}
+
+KnowledgeArrays know(const SceneDescription& scene, ScalarType scalar) {
+  return with_condensed_capacity(scene, [&](auto kind) {
+    using Kind = decltype(kind);
+    using Cap = typename Kind::Capacity;
+    return scalar == ScalarType::float32 ? knowledge_arrays<float, Kind::dimension, Cap>(scene)
+                                         : knowledge_arrays<double, Kind::dimension, Cap>(scene);
   });
 }
 

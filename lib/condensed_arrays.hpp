@@ -1,6 +1,7 @@
-// The condensed scene as plain lists, without its types.
+// The condensed scene, and what is known of friction, as plain lists, without their types.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "lib/condense_scene.hpp"
@@ -27,5 +28,17 @@ struct CondensedArrays {
 
 /// Condenses a scene in the given type. Throws InputError if the scene cannot be used.
 CondensedArrays condense(const SceneDescription& scene, ScalarType scalar);
+
+/// The fields of Knowledge for what the scene holds; values in float are exact.
+struct KnowledgeArrays {
+  CondensedArrays::Row mu, grip;
+  std::vector<bool> capstan;
+  CondensedArrays::Row mu_sd;
+  std::vector<bool> shared;
+  std::vector<std::array<double, 2>> sensor_sd;
+};
+
+/// Collects it from a usable scene in the given type.
+KnowledgeArrays know(const SceneDescription& scene, ScalarType scalar);
 
 }  // namespace taut::host

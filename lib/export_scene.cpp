@@ -7,20 +7,30 @@
 #include "lib/scene_file.hpp"
 #include "lib/scene_header.hpp"
 #include "lib/status_text.hpp"
+#include "lib/usual_deviations.hpp"
 
 namespace taut::host {
+namespace {
+
+ExportedArrays arrays_of(const SceneDescription& scene, ScalarType scalar) {
+  return {condense(scene, scalar), know(scene, scalar)};
+}
+
+}  // namespace
 
 int export_scene(const ExportOptions& options) {
-  const SceneDescription scene = read_scene_file(options.scene);
-  const CondensedArrays in_double = condense(scene, ScalarType::float64);
-  if (!in_double.condensing.status) {
-    std::cerr << scene.file << ": " << failure_text(in_double.condensing.status, scene) << '\n';
+  SceneDescription scene = read_scene_file(options.scene);
+  // As `taut estimate` does, but for load cells: their largest reading is not known here.
+  fill_in_mu_deviations(scene);
+  const ExportedArrays in_double = arrays_of(scene, ScalarType::float64);
+  if (!in_double.condensed.condensing.status) {
+    std::cerr << scene.file << ": " << failure_text(in_double.condensed.condensing.status, scene) << '\n';
     return 1;
   }
-  const CondensedArrays in_float = condense(scene, ScalarType::float32);
-  if (!in_float.condensing.status) {
+  const ExportedArrays in_float = arrays_of(scene, ScalarType::float32);
+  if (!in_float.condensed.condensing.status) {
     std::cerr << "remark: the header holds no condensed<float>: "
-              << failure_text(in_float.condensing.status, scene) << '\n';
+              << failure_text(in_float.condensed.condensing.status, scene) << '\n';
   }
   keep_inputs(options.output, {options.scene});
   OutputFile output(options.output);

@@ -1,5 +1,6 @@
 #include "lib/scene_header.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdio>
@@ -8,6 +9,7 @@
 
 #include "lib/condensed_size.hpp"
 #include "lib/text.hpp"
+#include "taut/estimation/estimator.hpp"
 
 namespace taut::host {
 namespace {
@@ -190,8 +192,8 @@ std::string layout(const CableLayout<double>& cable, const std::string& seating)
 // Writes the constants of one floating-point type.
 class Constants {
  public:
-  Constants(const CondensedArrays& arrays, ScalarType scalar)
-      : arrays_(arrays), single_(scalar == ScalarType::float32) {}
+  Constants(const ExportedArrays& arrays, ScalarType scalar)
+      : arrays_(arrays.condensed), knowledge_(arrays.knowledge), single_(scalar == ScalarType::float32) {}
 
   std::string condensed() const {
     const CondensedArrays& a = arrays_;
@@ -209,6 +211,13 @@ class Constants {
            "  return {/*load*/ " + rows(a.strut_load) + ",\n" +
            field("prestrain", numbers(a.strut_prestrain, 10)) + "          /*elongation*/ " +
            rows(a.strut_elongation) + "};\n}\n";
+  }
+  std::string knowledge() const {
+    const KnowledgeArrays& k = knowledge_;
+    return "constexpr ::taut::Knowledge<" + name() + ", Capacity> make_knowledge(" + name() + ") {\n" +
+           "  return {/*mu*/ " + numbers(k.mu, 10) + ",\n" + field("grip", numbers(k.grip, 10)) +
+           field("capstan", truths(k.capstan)) + field("mu_sd", scalars(k.mu_sd, 10)) +
+           field("shared", truths(k.shared)) + "          /*sensor_sd*/ " + pairs(k.sensor_sd) + "};\n}\n";
   }
 
  private:
@@ -233,6 +242,16 @@ class Constants {
     std::vector<std::string> items;
     for (const double value : row) items.push_back(scalar(value));
     return fixed_array(items, indent);
+  }
+  static std::string truths(const std::vector<bool>& row) {
+    std::vector<std::string> items;
+    for (const bool value : row) items.emplace_back(value ? "true" : "false");
+    return fixed_array(items, 10);
+  }
+  std::string pairs(const std::vector<std::array<double, 2>>& table) const {
+    std::vector<std::string> items;
+    for (const auto& pair : table) items.push_back("{" + scalar(pair[0]) + ", " + scalar(pair[1]) + "}");
+    return fixed_array(items, 10);
   }
   static std::string numbers(const Row& row, std::size_t indent) {
     std::vector<std::string> items;
@@ -264,8 +283,31 @@ class Constants {
   }
 
   const CondensedArrays& arrays_;
+  const KnowledgeArrays& knowledge_;
   bool single_;
 };
+
+int unknown_mus(const CableLayout<double>& cable, const Row& rho, bool shared) {
+  int free = 0;
+  for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
+    free += rho[static_cast<std::size_t>(j)] > 0 ? 1 : 0;
+  return shared ? std::min(free, 1) : free;
+}
+
+// As Estimator counts them.
+int unknowns(const ExportedArrays& arrays) {
+  using AnyEstimator = Estimator<Condensed<double, Capacity>, 1>;
+  int count = 0;
+  for (std::size_t c = 0; c < arrays.condensed.cables.size(); ++c) {
+    const CableLayout<double>& cable = arrays.condensed.cables[c];
+    const KnowledgeArrays& known = arrays.knowledge;
+    if (known.mu_sd[c] > 0) count += unknown_mus(cable, arrays.condensed.rho, known.shared[c]);
+    for (std::size_t end = 0; end < 2; ++end)
+      if (!cable.closed && cable.ends[end] == End::jacked && known.sensor_sd[c][end] > 0)
+        count += AnyEstimator::memories;
+  }
+  return count;
+}
 
 std::string sizes(const CondensedCounts& counts, ScalarType scalar) {
   const CondensedSize size = condensed_size(counts, scalar);
@@ -285,7 +327,8 @@ std::string head(const SceneDescription& scene, const CondensedCounts& counts) {
          ".\n"
          "#pragma once\n"
          "\n"
-         "#include \"taut/condensation/condensed.hpp\"\n";
+         "#include \"taut/condensation/condensed.hpp\"\n"
+         "#include \"taut/estimation/knowledge.hpp\"\n";
 }
 
 std::string capacity(const CondensedCounts& counts) {
@@ -340,24 +383,37 @@ std::string identifier(const std::string& name) {
   return starts_with_digit || has_a_meaning(word) ? "scene_" + word : word;
 }
 
-std::string scene_header(const SceneDescription& scene, const CondensedArrays& in_float,
-                         const CondensedArrays& in_double) {
+std::string scene_header(const SceneDescription& scene, const ExportedArrays& in_float,
+                         const ExportedArrays& in_double) {
   const CondensedCounts counts = condensed_counts(scene);
   const std::string space = identifier(scene.name);
   std::string text =
       head(scene, counts) + "\nnamespace " + space + " {\n\n" + capacity(counts) + "\nnamespace detail {\n\n";
   for (const ScalarType scalar : {ScalarType::float32, ScalarType::float64}) {
-    const CondensedArrays& arrays = scalar == ScalarType::float32 ? in_float : in_double;
-    if (!arrays.condensing.status) continue;
+    const ExportedArrays& arrays = scalar == ScalarType::float32 ? in_float : in_double;
+    if (!arrays.condensed.condensing.status) continue;
     const Constants constants(arrays, scalar);
-    text += constants.condensed() + (counts.struts > 0 ? constants.struts() : "") + "\n";
+    text +=
+        constants.condensed() + (counts.struts > 0 ? constants.struts() : "") + constants.knowledge() + "\n";
   }
   text +=
       "}  // namespace detail\n\n"
-      "/// The scene for Tracker, as condensed<float> or condensed<double>.\n"
+      "/// The scene for Tracker and Estimator, as condensed<float> or condensed<double>.\n"
       "template <class Scalar>\n"
       "inline constexpr ::taut::Condensed<Scalar, Capacity> condensed = "
-      "detail::make_condensed(Scalar());\n\n";
+      "detail::make_condensed(Scalar());\n\n"
+      "/// What is known of friction and load cells, for Estimator. Where the scene has no mu_sd it is half "
+      "of "
+      "the mean mu.\n"
+      "/// A load cell without sd has 0 here: at a jack its readings are exact, at an anchored end they are "
+      "not "
+      "used.\n"
+      "template <class Scalar>\n"
+      "inline constexpr ::taut::Knowledge<Scalar, Capacity> knowledge = "
+      "detail::make_knowledge(Scalar());\n\n"
+      "/// The Parameters of an Estimator of this scene.\n"
+      "constexpr int unknowns = " +
+      std::to_string(std::max({1, unknowns(in_float), unknowns(in_double)})) + ";\n\n";
   if (counts.struts > 0) {
     text +=
         "/// The rows that give strut forces, for Tracker::respond().\n"

@@ -13,8 +13,14 @@ namespace taut::host {
 /// meaning of its own in C++ gets `scene_` before it.
 std::string identifier(const std::string& name);
 
+/// A scene in one floating-point type.
+struct ExportedArrays {
+  CondensedArrays condensed;
+  KnowledgeArrays knowledge;
+};
+
 /// The header. A scene that was condensed with failure in one type is there in the other type only.
-std::string scene_header(const SceneDescription& scene, const CondensedArrays& in_float,
-                         const CondensedArrays& in_double);
+std::string scene_header(const SceneDescription& scene, const ExportedArrays& in_float,
+                         const ExportedArrays& in_double);
 
 }  // namespace taut::host

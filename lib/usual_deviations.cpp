@@ -27,20 +27,26 @@ std::vector<std::array<double, 2>> largest_readings(const std::string& path, con
 
 }  // namespace
 
+std::vector<std::string> fill_in_mu_deviations(SceneDescription& scene) {
+  std::vector<std::string> remarks;
+  for (CableDescription& cable : scene.cables) {
+    if (cable.has_mu_sd || cable.joints() == 0) continue;
+    double sum = 0;
+    for (const double mu : cable.mu) sum += mu;
+    cable.mu_sd = usual_mu_sd * sum / static_cast<double>(cable.joints());
+    if (cable.mu_sd > 0)
+      remarks.push_back("cable " + quote(cable.name) + " has no \"mu_sd\": half of mu, " +
+                        plain(cable.mu_sd) + ", is taken for its standard deviation");
+  }
+  return remarks;
+}
+
 std::vector<std::string> fill_in_deviations(const std::string& path, const LogRules& rules,
                                             SceneDescription& scene) {
-  std::vector<std::string> remarks;
+  std::vector<std::string> remarks = fill_in_mu_deviations(scene);
   const auto largest = largest_readings(path, scene, rules);
   for (std::size_t c = 0; c < scene.cables.size(); ++c) {
     CableDescription& cable = scene.cables[c];
-    if (!cable.has_mu_sd && cable.joints() > 0) {
-      double sum = 0;
-      for (const double mu : cable.mu) sum += mu;
-      cable.mu_sd = usual_mu_sd * sum / static_cast<double>(cable.joints());
-      if (cable.mu_sd > 0)
-        remarks.push_back("cable " + quote(cable.name) + " has no \"mu_sd\": half of mu, " +
-                          plain(cable.mu_sd) + ", is taken for its standard deviation");
-    }
     for (std::size_t end = 0; end < 2; ++end) {
       if (cable.sensor_sd[end] > 0 || largest[c][end] == 0) continue;
       const std::string cell = quote(cable.name + "." + end_name(end));

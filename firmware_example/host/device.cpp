@@ -48,7 +48,7 @@ std::string remedy(const std::string& refusal) {
   if (refusal == "sequence") return "choose the scene again, that begins a new sequence";
   if (refusal == "fields") return "the device holds another scene: build the firmware for this one";
   if (refusal == "zero") return "take the load off before zeroing the cell";
-  if (refusal == "cell") return "only jacked ends have a cell";
+  if (refusal == "cell") return "only open cables have cells, and only jacked ends are locked";
   return "see the table of refusals in firmware_example/README.md";
 }
 
@@ -57,7 +57,7 @@ Information information_of(const std::vector<std::string>& fields) {
   std::size_t i = 1;
   const auto next = [&] { return number_of(at(fields, i++)); };
   found.version = next();
-  if (found.version != 1) misunderstood();
+  if (found.version != protocol_version) misunderstood();
   found.scene = next();
   found.scenes = next();
   found.status = status_at(fields, i);
@@ -91,6 +91,7 @@ std::string number_field(std::uint32_t value) {
   return field;
 }
 std::string real_field(float value) { return number_field(bits_of(value)); }
+std::string reading_field(const Reading& reading) { return reading ? real_field(*reading) : "-"; }
 
 std::uint32_t number_of(const std::string& field) {
   std::uint32_t value = 0;
@@ -119,10 +120,10 @@ Information Device::choose(std::uint32_t scene) {
   throw std::runtime_error("the device does not take up the scene; restart it");
 }
 
-DeviceAnswer Device::sample(const std::vector<float>& numbers) {
+DeviceAnswer Device::sample(float dt, const std::vector<Reading>& numbers) {
   const std::string sequence = number_field(++sequence_);
-  std::string body = "S " + sequence;
-  for (const float each : numbers) body += " " + real_field(each);
+  std::string body = "S " + sequence + " " + real_field(dt);
+  for (const Reading& each : numbers) body += " " + reading_field(each);
   const std::vector<std::string> fields = ask(body, 'A', sequence);
   DeviceAnswer answer;
   answer.sequence = sequence_;

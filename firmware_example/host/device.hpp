@@ -12,6 +12,9 @@
 
 namespace monitor::host {
 
+/// What an instrument says, or nothing.
+using Reading = std::optional<float>;
+
 /// What a device says of itself.
 struct Information {
   std::uint32_t version = 0, scene = 0, scenes = 0;
@@ -41,6 +44,7 @@ std::optional<std::string> body_of(const std::string& line);
 
 std::string number_field(std::uint32_t value);
 std::string real_field(float value);
+std::string reading_field(const Reading& reading);
 std::uint32_t number_of(const std::string& field);
 
 /// The alarms as words with blanks between them.
@@ -53,8 +57,9 @@ class Device {
 
   Information information();
   Information choose(std::uint32_t scene);
-  /// Numbers the sample and sends it until its answer comes. `numbers` are load factors, then jack forces.
-  DeviceAnswer sample(const std::vector<float>& numbers);
+  /// Numbers the sample and sends it until its answer comes. `dt` is the time since the last one; `numbers`
+  /// are load factors, then for both ends of every open cable the force and, if it is jacked, the stroke.
+  DeviceAnswer sample(float dt, const std::vector<Reading>& numbers);
   void lock(int cable, std::size_t end, bool locked);
   void set_limits(float least, float most, std::uint32_t frozen_after);
   /// As after a power failure; the device goes on where its record says.

@@ -19,6 +19,7 @@ using monitor::host::DeviceAnswer;
 using monitor::host::framed;
 using monitor::host::MemoryBoard;
 using monitor::host::number_field;
+using monitor::host::Reading;
 using Application = monitor::Monitor<MemoryBoard>;
 
 [[noreturn]] void fail(const std::string& what) { throw std::runtime_error(what); }
@@ -57,9 +58,17 @@ class NoisyLink : public monitor::host::Link {
   std::mt19937 random_{4711};
 };
 
-std::vector<float> row(int number) {
-  return {1000.0F * static_cast<float>(number % 37), 40000 + 7 * static_cast<float>(number % 11),
-          500.0F * static_cast<float>(number % 5)};
+/// Of every cable of the recorded experiment the cell at the anchor, the one at the jack, and the stroke.
+std::vector<Reading> row(int number) {
+  return {33000.0F,
+          1000.0F * static_cast<float>(number % 37),
+          {},
+          {},
+          40000 + 7 * static_cast<float>(number % 11),
+          {},
+          {},
+          number % 7 == 0 ? Reading() : Reading(500.0F * static_cast<float>(number % 5)),
+          0.001F};
 }
 
 void same(const DeviceAnswer& found, const DeviceAnswer& expected, const std::string& where) {
@@ -81,13 +90,15 @@ void run(const std::string& command) {
   device.choose(0);
   int number = 0;
   for (; number < 2000; ++number)
-    same(device.sample(row(number)), expected.sample(row(number)), "noise, sample " + std::to_string(number));
+    same(device.sample(1, row(number)), expected.sample(1, row(number)),
+         "noise, sample " + std::to_string(number));
   noise.noisy = false;
   std::printf("noise: 2000 samples, %u bad frames\n", static_cast<unsigned>(device.information().bad_frames));
 
   for (int restarts = 0; restarts < 20; ++restarts, ++number) {
     device.restart();
-    same(device.sample(row(number)), expected.sample(row(number)), "restart " + std::to_string(restarts));
+    same(device.sample(1, row(number)), expected.sample(1, row(number)),
+         "restart " + std::to_string(restarts));
   }
   std::puts("restarts: 20, nothing lost");
 
@@ -97,7 +108,7 @@ void run(const std::string& command) {
   link.send(burst);
   while (link.receive(500)) {
   }
-  same(device.sample(row(number)), expected.sample(row(number)), "after a burst");
+  same(device.sample(1, row(number)), expected.sample(1, row(number)), "after a burst");
   ++number;
   std::printf("burst: 500 frames at once, %u bytes lost\n",
               static_cast<unsigned>(device.information().lost_bytes));
@@ -115,7 +126,7 @@ void run(const std::string& command) {
   if (after.restarts != before.restarts + 1 ||
       after.start != static_cast<std::uint32_t>(monitor::Start::watchdog))
     fail("a main loop that hangs: the device does not know of the watchdog's reset");
-  same(device.sample(row(number)), expected.sample(row(number)), "after the watchdog");
+  same(device.sample(1, row(number)), expected.sample(1, row(number)), "after the watchdog");
   std::puts("hang: reset by the watchdog, nothing lost");
 }
 

@@ -23,6 +23,7 @@ using monitor::host::Device;
 using monitor::host::DeviceAnswer;
 using monitor::host::LogReader;
 using monitor::host::LogRow;
+using monitor::host::Reading;
 
 enum ExitStatus : int { done = 0, no_answer = 1, unusable_input = 2 };
 constexpr std::size_t start = 0, end = 1;
@@ -50,6 +51,13 @@ const char* in_words(char state) {
 void take_jack_forces(const LogRow& row, std::vector<float>& forces) {
   for (std::size_t cable = 0; cable < row.cables.size(); ++cable)
     if (const auto& force = row.cables[cable][end]) forces[cable] = static_cast<float>(*force);
+}
+
+/// The measured anchored force is what the computed one is compared with: the device does not get it.
+std::vector<Reading> readings(const std::vector<float>& forces) {
+  std::vector<Reading> numbers;
+  for (const float force : forces) numbers.insert(numbers.end(), {Reading(), Reading(force), Reading()});
+  return numbers;
 }
 
 void print_heading() {
@@ -109,7 +117,8 @@ int replay(const std::string& file, monitor::host::Link& link) {
   require_jacks(log, file);
   Device device(link);
   const auto found = device.choose(0);
-  if (!found.status || found.fingerprint != monitor::fingerprint(FlashScene::model())) {
+  if (!found.status ||
+      found.fingerprint != monitor::fingerprint(FlashScene::model(), FlashScene::knowledge())) {
     std::fprintf(stderr,
                  "monitor: the device does not hold the recorded experiment; build it without a scene\n");
     return no_answer;
@@ -117,10 +126,13 @@ int replay(const std::string& file, monitor::host::Link& link) {
   print_heading();
   std::vector<float> forces(cable_names().size());
   int rows = 0, measurements = 0;
+  double time = 0;
   while (const auto row = log.next()) {
     ++rows;
     take_jack_forces(*row, forces);
-    const DeviceAnswer answer = device.sample(forces);
+    const double dt = rows == 1 ? 1 : row->time - time;
+    time = row->time;
+    const DeviceAnswer answer = device.sample(static_cast<float>(dt), readings(forces));
     if (answer.quality != monitor::Quality::good) {
       std::fprintf(stderr, "monitor: row %d: %s\n", rows, monitor::host::in_words(answer.alarms).c_str());
       return no_answer;

@@ -1,4 +1,4 @@
-// Plays a log to a device and writes what it answers, as `taut simulate --scalar float` would.
+// Plays a log to a device and writes what it answers, as `taut estimate --scalar float` would.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -9,6 +9,7 @@
 
 #include "host/device.hpp"
 #include "host/process_link.hpp"
+#include "lib/alarm_words.hpp"
 #include "lib/answer.hpp"
 #include "lib/input_error.hpp"
 #include "lib/log_file.hpp"
@@ -17,6 +18,7 @@
 #include "lib/scene_file.hpp"
 #include "lib/status_text.hpp"
 #include "lib/text.hpp"
+#include "monitor/estimator_alarm.hpp"
 #include "monitor/frame.hpp"
 
 namespace {
@@ -28,6 +30,7 @@ using monitor::Quality;
 using monitor::host::Device;
 using monitor::host::DeviceAnswer;
 using monitor::host::in_words;
+using monitor::host::Reading;
 
 enum ExitStatus : int { done = 0, no_answer = 1, unusable_input = 2 };
 
@@ -56,6 +59,10 @@ class AnswerReader {
       for (std::size_t end = 0; end < 2; ++end)
         if (scene.cables[c].is_jacked(end)) found_.payout[c][end] = real();
     reals(found_.strut, scene.struts.size());
+    reals(found_.deviation, segments);
+    reals(found_.mu, joints);
+    reals(found_.mu_deviation, joints);
+    found_.alarms = alarm_words(alarms(scene), scene);
   }
   const Answer& found() const { return found_; }
 
@@ -79,6 +86,17 @@ class AnswerReader {
     found_.state.resize(joints);
   }
 
+  // All that is left.
+  std::vector<taut::Alarm> alarms(const SceneDescription& scene) {
+    std::vector<taut::Alarm> found;
+    while (at_ < values_.size()) {
+      found.push_back(monitor::alarm_of(monitor::host::number_of(next())));
+      if (static_cast<std::size_t>(found.back().cable) >= scene.cables.size())
+        throw std::runtime_error("the device names a cable that the scene does not have");
+    }
+    return found;
+  }
+
   const std::vector<std::string>& values_;
   std::size_t at_ = 0;
   Answer found_;
@@ -91,13 +109,14 @@ class Player {
 
   int play(LogReader& log, OutputFile& output) {
     take_scene();
+    remark_on_cells(log);
     const NumberFormat format{ScalarType::float32, options_.hex};
-    output.write(result_header(scene_));
+    output.write(result_header(scene_, ResultColumns::estimate));
     LogRow row = log.first_row(), before = row;
     while (log.next(row)) {
       const DeviceAnswer answer = answer_to(row, before);
       const std::string place = options_.log + ": line " + std::to_string(row.line);
-      // Doubtful forces are those that `taut simulate` finds too; the remark below says what the device
+      // Doubtful forces are those that `taut estimate` finds too; the remark below says what the device
       // thinks.
       if (answer.quality != Quality::good && answer.quality != Quality::doubtful) {
         output.finish();
@@ -109,7 +128,8 @@ class Player {
       if (row.row == 1) alarms = Alarms(alarms.bits() & ~greeting.bits());
       if (alarms.bits() != 0)
         std::cerr << "remark: " << place << ": the device says " << in_words(alarms) << '\n';
-      output.write(result_row(scene_, row.time, AnswerReader(answer, scene_).found(), format));
+      output.write(result_row(scene_, row.time, AnswerReader(answer, scene_).found(), format,
+                              ResultColumns::estimate));
       before = row;
     }
     output.finish();
@@ -139,18 +159,34 @@ class Player {
     device_.set_limits(-largest, largest, 0);
   }
 
+  /// `taut estimate` looks for the largest reading in the log; the device does not know it.
+  void remark_on_cells(const LogReader& log) const {
+    for (const CableDescription& cable : scene_.cables)
+      for (std::size_t end = 0; end < 2 && !cable.closed; ++end) {
+        const std::string name = cable.name + "." + end_name(end);
+        if (!cable.is_jacked(end) && log.has(name) && !(cable.sensor_sd[end] > 0))
+          std::cerr << "remark: the load cell " << quote(name)
+                    << " has no \"sd\" in \"sensors\": the device does not use it\n";
+      }
+  }
+
+  static Reading reading(const std::optional<double>& given) {
+    return given ? Reading(static_cast<float>(*given)) : Reading();
+  }
   DeviceAnswer answer_to(const LogRow& row, const LogRow& before) {
-    std::vector<float> numbers;
-    for (const double factor : row.factor) numbers.push_back(static_cast<float>(factor));
+    std::vector<Reading> numbers;
+    for (const double factor : row.factor) numbers.emplace_back(static_cast<float>(factor));
     for (std::size_t c = 0; c < scene_.cables.size(); ++c)
-      for (std::size_t end = 0; end < 2; ++end) {
-        if (!scene_.cables[c].is_jacked(end)) continue;
+      for (std::size_t end = 0; end < 2 && !scene_.cables[c].closed; ++end) {
         const EndRow& given = row.cables[c][end];
+        numbers.push_back(reading(given.reading));
+        if (!scene_.cables[c].is_jacked(end)) continue;
+        numbers.push_back(reading(given.stroke));
         if (given.locked != before.cables[c][end].locked)
           device_.lock(static_cast<int>(c), end, given.locked);
-        numbers.push_back(static_cast<float>(given.force));
       }
-    DeviceAnswer answer = device_.sample(numbers);
+    const double dt = row.row == 1 ? 1 : row.time - before.time;
+    DeviceAnswer answer = device_.sample(static_cast<float>(dt), numbers);
     if (options_.restart) device_.restart();
     return answer;
   }
@@ -169,6 +205,7 @@ class Player {
 int play(const Options& options) {
   const SceneDescription scene = read_scene_file(options.scene);
   LogRules rules;
+  rules.negative_jack_forces = true;
   rules.largest = static_cast<double>(std::numeric_limits<float>::max());
   check_log(options.log, scene, rules);
   keep_inputs(options.output, {options.scene, options.log});
@@ -184,7 +221,7 @@ int run(int argc, char** argv) {
   CLI::App app{"Plays a log to a device and writes its answers."};
   Options options;
   app.add_option("SCENE", options.scene, "Scene file (JSON) that the device holds")->required();
-  app.add_option("LOG", options.log, "Log of loads and jack forces (CSV)")->required();
+  app.add_option("LOG", options.log, "Log of readings (CSV)")->required();
   app.add_option("-o", options.output, "Result file (CSV); standard output if absent");
   app.add_option("--device", options.device, "Command whose standard input and output are the serial line")
       ->required();

@@ -9,7 +9,7 @@ enum class Alarm : std::uint8_t {
   bad_frame,        ///< something on the line was no frame
   bytes_lost,       ///< the line was faster than the main loop
   sample_lost,      ///< a sequence number is missing: the path went straight past it
-  sensor_range,     ///< a load cell outside its range: the sample was not used
+  sensor_range,     ///< a reading outside its range: at a jack the sample was not used, else the reading
   sensor_frozen,    ///< a load cell that says the same again and again
   budget_exceeded,  ///< the forces are those part of the way to the sample
   no_answer,        ///< the model has none: code and place say why

@@ -18,8 +18,6 @@
 
 namespace monitor {
 
-constexpr std::uint32_t protocol_version = 1;
-
 /// Holds all its storage: make it static. `Sources` are the scenes, by the numbers of the command C.
 template <class Board, class Settings, class... Sources>
 class Application {
@@ -212,7 +210,7 @@ class Application {
     if (!fields.number(cable) || !fields.number(end) || !fields.done()) return refuse("fields");
     session_.visit([&](auto& session) {
       auto* const cell = session.cell(cable, end);
-      if (cell == nullptr) return refuse("cell");
+      if (cell == nullptr || (kind != 'Z' && !session.is_jacked(cable, end))) return refuse("cell");
       if (kind == 'Z') {
         // A zero far from zero would hide a force.
         if (!(cell->last >= common_.limits.least && cell->last <= -common_.limits.least))
@@ -279,7 +277,7 @@ class Application {
       writer_.number(usable ? session.model().segments : 0);
       writer_.number(usable ? session.model().joints : 0);
       writer_.number(usable ? session.model().loads : 0);
-      writer_.number(usable ? fingerprint(session.model()) : 0);
+      writer_.number(usable ? fingerprint(session.model(), session.knowledge()) : 0);
     });
     writer_.number(common_.has_last);
     writer_.number(common_.last);

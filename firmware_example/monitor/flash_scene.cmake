@@ -8,6 +8,9 @@ set(name ${CMAKE_MATCH_1})
 if(NOT header MATCHES "make_condensed\\(float\\)")
   message(FATAL_ERROR "The scene in ${HEADER} cannot be condensed in float; `taut check` says what is stiff and soft")
 endif()
+if(NOT header MATCHES "make_knowledge\\(float\\)")
+  message(FATAL_ERROR "${HEADER} is of an older `taut export`; export the scene again")
+endif()
 set(rows "nullptr")
 if(header MATCHES "make_struts\\(float\\)")
   set(rows "&${name}::struts<float>")
@@ -28,6 +31,8 @@ struct FlashScene {
   using Capacity = ::@name@::Capacity;
   static constexpr const ::taut::Condensed<float, Capacity>& model() { return ::@name@::condensed<float>; }
   static constexpr const ::taut::CondensedStruts<float, Capacity>* struts() { return @rows@; }
+  static constexpr const ::taut::Knowledge<float, Capacity>& knowledge() { return ::@name@::knowledge<float>; }
+  static constexpr int unknowns = ::@name@::unknowns;
   static constexpr const auto& cable_names() { return ::@name@::names::cables; }
 };
 

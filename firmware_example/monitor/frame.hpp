@@ -11,6 +11,9 @@
 
 namespace monitor {
 
+/// One more whenever a frame changes.
+constexpr std::uint32_t protocol_version = 2;
+
 constexpr int digits_of_a_number = 8;
 /// What a frame has around its body.
 constexpr int frame_overhead = 1 + 1 + digits_of_a_number + 1;
@@ -58,6 +61,12 @@ class Fields {
     if (!number(bits)) return false;
     value = float_of(bits);
     return true;
+  }
+  /// A number, or `-` where there is none.
+  bool reading(bool& has, float& value) {
+    has = at_ == end_ || *at_ != '-';
+    char none = 0;
+    return has ? real(value) : letter(none);
   }
   bool done() const { return at_ == end_ && !blank_at_end_; }
 

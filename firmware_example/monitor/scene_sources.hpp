@@ -1,26 +1,47 @@
-// Where the condensed scene of a session comes from.
+// Where the condensed scene of a session comes from, and what is known of it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
 #include "monitor/crc32.hpp"
 #include "taut/condensation/condense.hpp"
 #include "taut/condensation/condensed.hpp"
+#include "taut/estimation/estimator.hpp"
+#include "taut/estimation/find_knowledge.hpp"
 #include "taut/status.hpp"
 
 namespace monitor {
 
-/// A scene that `taut export` has condensed: constants in flash. `Exported` has model() and struts().
+/// A scene that `taut export` has condensed: constants in flash. `Exported` has model(), knowledge(),
+/// unknowns and struts().
 template <class Exported>
 class FromFlash {
  public:
   using Capacity = typename Exported::Capacity;
+  static constexpr int unknowns = Exported::unknowns;
 
   taut::Status prepare() { return taut::Status::success(); }
   static constexpr const taut::Condensed<float, Capacity>& model() { return Exported::model(); }
+  static constexpr const taut::Knowledge<float, Capacity>& knowledge() { return Exported::knowledge(); }
   static constexpr const taut::CondensedStruts<float, Capacity>* struts() { return Exported::struts(); }
 };
+
+/// Room for what an Estimator of the scene does not know; locked joints have some too, for only condensation
+/// tells which they are.
+template <class SceneType>
+constexpr int most_unknowns(const SceneType& scene) {
+  using Model = taut::Condensed<float, typename SceneType::Capacity>;
+  int count = 0;
+  for (const auto& cable : scene.cables) {
+    if (cable.mu_sd > 0) count += cable.shared_mu ? 1 : cable.joints();
+    for (std::size_t end = 0; end < 2; ++end)
+      if (!cable.closed && cable.ends[end] == taut::End::jacked && cable.sensor_sd[end] > 0)
+        count += taut::Estimator<Model, 1>::memories;
+  }
+  return count > 0 ? count : 1;
+}
 
 /// A scene as it was drawn, in flash too, that the device condenses itself when it is chosen.
 template <const auto& scene>
@@ -28,20 +49,28 @@ class CondensedAtStartUp {
  public:
   using SceneType = std::decay_t<decltype(scene)>;
   using Capacity = typename SceneType::Capacity;
+  static constexpr int unknowns = most_unknowns(scene);
 
-  taut::Status prepare() { return condensation_.run(scene, condensed_, &struts_); }
+  taut::Status prepare() {
+    const taut::Status status = condensation_.run(scene, condensed_, &struts_);
+    if (status) taut::find_knowledge(scene, knowledge_);
+    return status;
+  }
   const taut::Condensed<float, Capacity>& model() const { return condensed_; }
+  const taut::Knowledge<float, Capacity>& knowledge() const { return knowledge_; }
   const taut::CondensedStruts<float, Capacity>* struts() const { return &struts_; }
 
  private:
   taut::Condensation<float, SceneType> condensation_;
   taut::Condensed<float, Capacity> condensed_;
+  taut::Knowledge<float, Capacity> knowledge_;
   taut::CondensedStruts<float, Capacity> struts_;
 };
 
 /// A number that changes with everything that the scene's answers depend on.
 template <class Capacity>
-std::uint32_t fingerprint(const taut::Condensed<float, Capacity>& model) {
+std::uint32_t fingerprint(const taut::Condensed<float, Capacity>& model,
+                          const taut::Knowledge<float, Capacity>& knowledge) {
   Crc32 crc;
   const auto add = [&crc](const auto& value) { crc.add(&value, sizeof value); };
   for (const auto& cable : model.cables) {
@@ -59,7 +88,17 @@ std::uint32_t fingerprint(const taut::Condensed<float, Capacity>& model) {
   add(model.coupling);
   if constexpr (Capacity::segments > 0) add(model.prestrain);
   if constexpr (Capacity::loads > 0) add(model.load);
-  if constexpr (Capacity::joints > 0) add(model.rho);
+  if constexpr (Capacity::joints > 0) {
+    add(model.rho);
+    add(knowledge.mu);
+    add(knowledge.grip);
+  }
+  for (int c = 0; c < model.cables.size(); ++c) {
+    add(knowledge.capstan[c]);
+    add(knowledge.mu_sd[c]);
+    add(knowledge.shared[c]);
+    add(knowledge.sensor_sd[c]);
+  }
   return crc.value();
 }
 

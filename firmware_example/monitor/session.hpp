@@ -1,4 +1,4 @@
-// One scene at work: readings in, forces out.
+// One scene at work: readings in, forces with their standard deviations out.
 #pragma once
 
 #include <array>
@@ -9,12 +9,13 @@
 #include <type_traits>
 
 #include "monitor/alarms.hpp"
+#include "monitor/estimator_alarm.hpp"
 #include "monitor/frame.hpp"
 #include "monitor/scene_sources.hpp"
 #include "monitor/settings.hpp"
+#include "taut/estimation/estimator.hpp"
 #include "taut/scene/path.hpp"
 #include "taut/scene/sample.hpp"
-#include "taut/tracking/tracker.hpp"
 #include "taut/tracking/verify.hpp"
 
 namespace monitor {
@@ -33,9 +34,11 @@ class Session {
  public:
   using Cap = typename Source::Capacity;
   using Model = taut::Condensed<float, Cap>;
-  using Tracker = taut::Tracker<Model>;
+  using Estimator = taut::Estimator<Model, Source::unknowns>;
+  using Findings = typename Estimator::Alarms;
+  static_assert(Cap::cables <= most_coded_cables, "a code of an alarm has no room for the cable's number");
 
-  /// The load cell and the wedge of one jacked end.
+  /// The load cell of one end, and the wedge if it is jacked.
   struct Cell {
     float zero = 0;          ///< what the cell says without load [N]
     float last = 0;          ///< what it said last [N]
@@ -45,87 +48,107 @@ class Session {
   /// All that a power failure must not take.
   struct State {
     taut::FixedArray<std::array<Cell, 2>, Cap::cables> cells;
-    taut::Sample<float, Cap> sample;
     Outcome outcome;
-    typename Tracker::State tracker;
+    float waited = 0;
+    Findings findings;
+    typename Estimator::State estimator;
   };
   static_assert(std::is_trivially_copyable_v<State>, "the record keeps bytes");
 
   /// Longest bodies of the frames of a sample and of its answer.
-  static constexpr int most_sample = 1 + 9 + 9 * (Cap::loads + 2 * Cap::cables);
+  static constexpr int most_sample = 1 + 2 * 9 + 9 * (Cap::loads + 4 * Cap::cables);
   static constexpr int most_answer =
-      1 + 2 + 9 * 8 + 9 * (Cap::segments + 3 * Cap::joints + 2 * Cap::cables + Cap::struts) + Cap::joints + 2;
+      1 + 2 + 9 * 8 + 9 * (2 * Cap::segments + 5 * Cap::joints + 2 * Cap::cables + Cap::struts) +
+      Cap::joints + 2 + 9 * Findings::capacity();
 
   /// Begins without load. The answer says whether the scene can be used.
   taut::Status begin() {
     cells_ = {};
-    sample_ = {};
+    findings_.clear();
+    waited_ = 0;
     outcome_ = {};
     outcome_.status = source_.prepare();
-    if (outcome_.status) outcome_.status = tracker_.start(source_.model()).status;
+    if (outcome_.status) outcome_.status = estimator_.start(model(), knowledge()).status;
     outcome_.quality = outcome_.status ? Quality::held : Quality::none;
     usable_ = outcome_.status.ok();
     return outcome_.status;
   }
   bool usable() const { return usable_; }
   const Model& model() const { return source_.model(); }
+  const taut::Knowledge<float, Cap>& knowledge() const { return source_.knowledge(); }
   const Outcome& outcome() const { return outcome_; }
 
   /// What must be the same for a record to be read back.
-  std::uint32_t maker() const { return usable_ ? fingerprint(model()) : 0; }
+  std::uint32_t maker() const { return usable_ ? fingerprint(model(), knowledge()) : 0; }
   /// The state, until the next call.
   const State& save() {
     kept_.cells = cells_;
-    kept_.sample = sample_;
     kept_.outcome = outcome_;
+    kept_.waited = waited_;
+    kept_.findings = findings_;
     // In its place: a copy on the way would need the stack.
-    new (&kept_.tracker) typename Tracker::State(tracker_.save());
+    new (&kept_.estimator) typename Estimator::State(estimator_.save());
     return kept_;
   }
   /// Room for a state that restore() is to take.
   State& kept() { return kept_; }
   bool restore() {
     cells_ = kept_.cells;
-    sample_ = kept_.sample;
     outcome_ = kept_.outcome;
-    return tracker_.restore(source_.model(), kept_.tracker).ok();
+    waited_ = kept_.waited;
+    findings_ = kept_.findings;
+    return estimator_.restore(model(), knowledge(), kept_.estimator).ok();
   }
 
   // Commands; `cable` and `end` are checked.
 
+  /// Null if there is no such end.
   Cell* cell(std::uint32_t cable, std::uint32_t end) {
     if (!usable_ || cable >= static_cast<std::uint32_t>(model().cables.size()) || end > 1) return nullptr;
-    const auto& layout = model().cables[static_cast<int>(cable)];
-    if (layout.closed || layout.ends[end] != taut::End::jacked) return nullptr;
+    if (model().cables[static_cast<int>(cable)].closed) return nullptr;
     return &cells_[static_cast<int>(cable)][end];
   }
+  /// Of an end that there is.
+  bool is_jacked(std::uint32_t cable, std::uint32_t end) const {
+    return model().cables[static_cast<int>(cable)].ends[end] == taut::End::jacked;
+  }
 
-  /// Reads the numbers of a sample: the factor of every load pattern, the reading of every jacked end.
-  /// Nothing is changed if they do not fit.
+  /// Reads the numbers of a sample: the time since the last one, the factor of every load pattern, then what
+  /// the instruments of every end say. Nothing but them is changed.
   bool read(Fields& fields) {
-    bool fits = usable_;
-    for (int i = 0; fits && i < model().loads; ++i) fits = fields.real(read_.factor[i]);
-    taut::for_each_jacked_end(model().cables, [&](int c, std::size_t end) {
-      fits = fits && fields.real(read_.jack[c][end].force);
+    bool fits = usable_ && fields.real(readings_.dt) && readings_.dt > 0 && std::isfinite(readings_.dt);
+    for (int i = 0; fits && i < model().loads; ++i) fits = fields.real(readings_.sample.factor[i]);
+    for_each_end([&](int c, std::size_t end, bool jacked) {
+      auto& given = readings_.ends[c][end];
+      fits = fits && fields.reading(given.has_force, given.force) &&
+             (!jacked || fields.reading(given.has_stroke, given.stroke));
     });
     return fits && fields.done();
   }
   /// Answers the sample that was read. `feed` is called between bounded pieces of work.
   template <class Settings, class Feed>
   Alarms take(const CellLimits& limits, Feed feed) {
-    Alarms alarms = check_cells(limits);
+    Alarms alarms;
+    const bool can_be_used = check_readings(limits, alarms);
+    findings_.clear();
     outcome_ = {};
-    if (alarms.has(Alarm::sensor_range)) {
+    if (!can_be_used) {
       outcome_.quality = Quality::held;
+      waited_ += readings_.dt;
       return alarms;
     }
-    sample_ = next_;
+    readings_.dt += waited_;
+    waited_ = 0;
     outcome_.fraction = 0;
     float rest = 1;
     for (int call = 0; call < Settings::most_calls; ++call) {
-      constexpr int budget = Settings::event_budget > 0 ? Settings::event_budget : Tracker::default_budget;
-      const auto progress = tracker_.advance(sample_, budget);
+      constexpr int budget =
+          Settings::event_budget > 0 ? Settings::event_budget : Estimator::TrackerType::default_budget;
+      const auto progress = estimator_.advance(readings_, budget);
       feed();
+      if (call == 0) findings_ = estimator_.alarms();
+      // They are taken; what follows is the rest of the path.
+      forget_readings();
       rest *= 1 - progress.fraction;
       outcome_.events += progress.events;
       outcome_.status = progress.status;
@@ -136,7 +159,7 @@ class Session {
     return alarms;
   }
 
-  /// Adds the answer to a frame, from the tracker as it is.
+  /// Adds the answer to a frame, from the estimator as it is.
   template <class Writer>
   void write(Writer& frame) {
     frame.number(outcome_.events);
@@ -146,7 +169,7 @@ class Session {
     frame.number(outcome_.status.index);
     frame.number(outcome_.status.cable);
     if (!usable_) return;
-    tracker_.respond(response_, source_.struts());
+    estimator_.respond(response_, source_.struts());
     const int segments = model().segments, joints = model().joints;
     for (int i = 0; i < segments; ++i) frame.real(response_.tension[i]);
     for (int j = 0; j < joints; ++j) frame.real(response_.slip[j]);
@@ -157,6 +180,10 @@ class Session {
     taut::for_each_jacked_end(model().cables,
                               [&](int c, std::size_t end) { frame.real(response_.payout[c][end]); });
     for (int i = 0; i < Cap::struts; ++i) frame.real(response_.strut[i]);
+    for (int i = 0; i < segments; ++i) frame.real(estimator_.deviation(i));
+    for (int j = 0; j < joints; ++j) frame.real(estimator_.mu(j));
+    for (int j = 0; j < joints; ++j) frame.real(estimator_.mu_deviation(j));
+    for (const taut::Alarm& finding : findings_) frame.number(code_of(finding));
   }
 
  private:
@@ -174,35 +201,53 @@ class Session {
     return '?';
   }
 
-  /// From what was read to the next sample; says what is wrong with the cells.
-  Alarms check_cells(const CellLimits& limits) {
-    Alarms alarms;
-    next_ = sample_;
-    for (int i = 0; i < model().loads; ++i) {
-      if (!std::isfinite(read_.factor[i])) alarms.raise(Alarm::sensor_range);
-      next_.factor[i] = read_.factor[i];
-    }
-    taut::for_each_jacked_end(model().cables, [&](int c, std::size_t end) {
-      Cell& cell = cells_[c][end];
-      auto& jack = next_.jack[c][end];
-      jack.locked = cell.locked;
-      const float reading = read_.jack[c][end].force;
-      const bool same = bits_of(reading) == bits_of(cell.last);
-      cell.same = same && !cell.locked ? (cell.same < 0xFFFFFFFF ? cell.same + 1 : cell.same) : 1;
-      cell.last = reading;
-      // While the wedge holds, the jack may be anywhere.
-      if (cell.locked) return;
-      const float force = reading - cell.zero;
-      if (!(force >= limits.least && force <= limits.most)) {
-        alarms.raise(Alarm::sensor_range);
-        return;
-      }
-      // A cell at rest may well say the same all day.
-      if (limits.frozen_after > 0 && force > 0 && cell.same >= limits.frozen_after)
-        alarms.raise(Alarm::sensor_frozen);
-      jack.force = force > 0 ? force : 0;
+  /// Every end of every open cable.
+  template <class Call>
+  void for_each_end(Call call) const {
+    for (int c = 0; c < model().cables.size(); ++c)
+      for (std::size_t end = 0; end < 2 && !model().cables[c].closed; ++end)
+        call(c, end, model().cables[c].ends[end] == taut::End::jacked);
+  }
+  void forget_readings() {
+    readings_.dt = 0;
+    for_each_end(
+        [this](int c, std::size_t end, bool) { readings_.ends[c][end] = taut::EndReading<float>(); });
+  }
+
+  /// From what was read to what is used; says what is wrong. False if the sample is of no use: a factor or a
+  /// jack is out of range.
+  bool check_readings(const CellLimits& limits, Alarms& alarms) {
+    bool can_be_used = true;
+    for (int i = 0; i < model().loads; ++i)
+      can_be_used = can_be_used && std::isfinite(readings_.sample.factor[i]);
+    for_each_end([&](int c, std::size_t end, bool jacked) {
+      auto& given = readings_.ends[c][end];
+      readings_.sample.jack[c][end].locked = cells_[c][end].locked;
+      const bool good = check_cell(cells_[c][end], given, limits, alarms);
+      if (!good && jacked) can_be_used = false;
+      if (good && !(given.has_stroke && !std::isfinite(given.stroke))) return;
+      alarms.raise(Alarm::sensor_range);
+      given.has_force = given.has_force && good;
+      given.has_stroke = given.has_stroke && std::isfinite(given.stroke);
     });
-    return alarms;
+    if (!can_be_used) alarms.raise(Alarm::sensor_range);
+    return can_be_used;
+  }
+  /// Whether its reading, if there is one, is within the limits.
+  static bool check_cell(Cell& cell, taut::EndReading<float>& given, const CellLimits& limits,
+                         Alarms& alarms) {
+    if (!given.has_force) return true;
+    const bool same = bits_of(given.force) == bits_of(cell.last);
+    cell.same = same && !cell.locked ? (cell.same < 0xFFFFFFFF ? cell.same + 1 : cell.same) : 1;
+    cell.last = given.force;
+    // While the wedge holds, the jack may be anywhere.
+    if (cell.locked) return true;
+    given.force -= cell.zero;
+    if (!(given.force >= limits.least && given.force <= limits.most)) return false;
+    // A cell at rest may well say the same all day.
+    if (limits.frozen_after > 0 && given.force > 0 && cell.same >= limits.frozen_after)
+      alarms.raise(Alarm::sensor_frozen);
+    return true;
   }
 
   template <class Settings>
@@ -219,16 +264,18 @@ class Session {
     if (since_verified_ < Settings::verify_every) return;
     since_verified_ = 0;
     // Written so that a NaN is doubtful.
-    if (taut::verify(tracker_).worst() <= Settings::most_violation) return;
+    if (taut::verify(estimator_.tracker()).worst() <= Settings::most_violation) return;
     alarms.raise(Alarm::doubtful);
     if (outcome_.quality == Quality::good) outcome_.quality = Quality::doubtful;
   }
 
   Source source_;
-  Tracker tracker_;
+  Estimator estimator_;
   taut::FixedArray<std::array<Cell, 2>, Cap::cables> cells_;
-  taut::Sample<float, Cap> sample_, next_, read_;
+  taut::Readings<float, Cap> readings_;  // as they were read, then as they are used
+  float waited_ = 0;                     // time of the samples that could not be used
   Outcome outcome_;
+  Findings findings_;
   taut::Response<float, Cap> response_;
   State kept_;
   std::uint32_t since_verified_ = 0;

@@ -1,8 +1,9 @@
 // Counts the instructions of the parts of taut on an emulated board, one line a part over the serial line.
 //
 // BENCH_TRACK: the tracker follows the exported scene; BENCH_VERIFY: verify() after every sample;
-// BENCH_CONDENSE: a scene of BENCH_JOINTS joints in BENCH_DIMENSION dimensions is condensed, with struts if
-// BENCH_STRUTS. With none of them what is left is the program that the sizes are compared with.
+// BENCH_ESTIMATE: the estimator follows it from readings with noise, the far end's cell in one sample of
+// three; BENCH_CONDENSE: a scene of BENCH_JOINTS joints in BENCH_DIMENSION dimensions is condensed, with
+// struts if BENCH_STRUTS. With none of them what is left is the program that the sizes are compared with.
 #include <cstdint>
 
 #include "board.hpp"
@@ -12,6 +13,10 @@
 #include "flash_scene.hpp"
 #include "taut/tracking/tracker.hpp"
 #include "taut/tracking/verify.hpp"
+#endif
+#if BENCH_ESTIMATE
+#include "flash_scene.hpp"
+#include "taut/estimation/estimator.hpp"
 #endif
 #if BENCH_CONDENSE
 #include "taut/condensation/condense.hpp"
@@ -74,6 +79,13 @@ std::uint32_t count(Part part) {
   return instructions(from, ticks());
 }
 
+#if BENCH_TRACK || BENCH_ESTIMATE
+constexpr int steps = 96;
+
+/// By how much a jack changes: it pulls, releases, pulls again, with small changes in between.
+float change(int step) { return (step / 24 == 2 ? -1.0F : 1.0F) * (step % 3 == 2 ? 20.0F : 4000.0F); }
+#endif
+
 #if BENCH_TRACK
 using Cap = monitor::FlashScene::Capacity;
 using Model = taut::Condensed<float, Cap>;
@@ -81,15 +93,12 @@ taut::Tracker<Model> tracker;
 taut::Sample<float, Cap> sample;
 volatile float worst = 0;
 
-/// Pulls in steps, releases, pulls again, with small changes in between, as a jack does.
 void track() {
   const Model& model = monitor::FlashScene::model();
   tracker.start(model).status.ok();
   float force = 0;
-  for (int step = 0; step < 96; ++step) {
-    const int stage = step / 24;
-    const bool small = step % 3 == 2;
-    force += (stage == 2 ? -1.0F : 1.0F) * (small ? 20.0F : 4000.0F);
+  for (int step = 0; step < steps; ++step) {
+    force += change(step);
     bool second = false;
     taut::for_each_jacked_end(model.cables, [&](int c, std::size_t end) {
       sample.jack[c][end].force = second ? force * 0.97F : force;
@@ -110,6 +119,55 @@ void track() {
 #if BENCH_VERIFY
     say("verify", count([&] { worst = taut::verify(tracker).worst(); }));
 #endif
+  }
+}
+#endif
+
+#if BENCH_ESTIMATE
+using Cap = monitor::FlashScene::Capacity;
+using Model = taut::Condensed<float, Cap>;
+taut::Estimator<Model, monitor::FlashScene::unknowns> estimator;
+taut::Readings<float, Cap> readings;
+volatile float answered = 0;
+
+/// About Gaussian, of standard deviation one.
+float noise() {
+  static std::uint32_t seed = 4711;
+  float sum = 0;
+  for (int i = 0; i < 12; ++i) {
+    seed = seed * 1664525U + 1013904223U;
+    sum += static_cast<float>(seed >> 8) / 16777216.0F;
+  }
+  return sum - 6;
+}
+
+/// The cable is jacked at its end.
+void estimate() {
+  const Model& model = monitor::FlashScene::model();
+  const auto& knowledge = monitor::FlashScene::knowledge();
+  const auto& sd = knowledge.sensor_sd[0];
+  estimator.start(model, knowledge).status.ok();
+  float force = 0;
+  for (int step = 0; step < steps; ++step) {
+    force += change(step);
+    const float far = estimator.force(0);
+    readings.ends[0][1] = {true, false, force + sd[1] * noise(), 0};
+    const bool measured = step % 3 == 0;
+    readings.ends[0][0] = {measured, false, 0.99F * far + sd[0] * noise(), 0};
+    int events = 0;
+    bool good = false;
+    const std::uint32_t used = count([&] {
+      const auto progress = estimator.advance(readings);
+      events = progress.events;
+      good = progress.status.ok() && progress.fraction >= 1;
+    });
+    say(!good ? "refused" : measured ? "measured" : "sample");
+    say(static_cast<std::uint32_t>(events));
+    say(used);
+    say('\n');
+    say("answer", count([&] {
+          for (int i = 0; i < model.segments; ++i) answered = estimator.force(i) + estimator.deviation(i);
+        }));
   }
 }
 #endif
@@ -186,6 +244,9 @@ void run() {
   say("nothing", count([] {}));
 #if BENCH_TRACK
   track();
+#endif
+#if BENCH_ESTIMATE
+  estimate();
 #endif
 #if BENCH_CONDENSE
   condense();

@@ -82,7 +82,8 @@ TEST_CASE("frames over a noisy line: nothing wrong is shown as right") {
       answered = true;
       ++heard;
       REQUIRE(quality(answer) == 'g');
-      REQUIRE(alarms(answer).has(Alarm::sample_lost) == (lost > 0));
+      // Before the first one that was heard there was none to miss.
+      REQUIRE(alarms(answer).has(Alarm::sample_lost) == (lost > 0 && heard > 1));
       const Fields expected = clean.ask(body);
       REQUIRE(state(answer) == state(expected));
       lost = 0;

@@ -88,10 +88,25 @@ class Rig {
   bool booted_ = false;
 };
 
-inline std::string sample(std::uint32_t sequence, const std::vector<float>& numbers) {
-  std::string body = "S " + number_field(sequence);
-  for (const float each : numbers) body += " " + real_field(each);
+using monitor::host::Reading;
+using Readings = std::vector<Reading>;
+
+/// A second after the one before.
+inline std::string sample_of(std::uint32_t sequence, const Readings& numbers, float dt = 1) {
+  std::string body = "S " + number_field(sequence) + " " + real_field(dt);
+  for (const Reading& each : numbers) body += " " + monitor::host::reading_field(each);
   return body;
+}
+/// The jacks' cells alone: three forces are the recorded experiment, a factor and a force the truss string.
+inline std::string sample(std::uint32_t sequence, const std::vector<float>& numbers) {
+  Readings all;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (numbers.size() == 2 && i == 0)
+      all.emplace_back(numbers[i]);
+    else
+      all.insert(all.end(), {Reading(), Reading(numbers[i]), Reading()});
+  }
+  return sample_of(sequence, all);
 }
 
 /// What an answer says.

@@ -250,4 +250,56 @@ TEST_CASE("more unknowns than there is room for are refused with how many are mi
   CHECK(progress.status.amount == ground.known.mu.size() - 4);
 }
 
+/// Two jacks, or one.
+struct Pulled {
+  Plane scene;
+  taut::Condensed<double, PlaneCapacity> model;
+  taut::Knowledge<double, PlaneCapacity> knowledge;
+  taut::Estimator<taut::Condensed<double, PlaneCapacity>, 8> estimator;
+
+  void make(const std::array<taut::End, 2>& ends, const std::array<double, 2>& sensor_sd) {
+    taut::Cable<double> cable = support::steel_cable(0.2, ends);
+    cable.sensor_sd = sensor_sd;
+    support::rigid_saddles(scene, cable, support::chain_points(7));
+    static taut::Condensation<double, Plane> condensation;
+    REQUIRE(condensation.run(scene, model).ok());
+    taut::find_knowledge(scene, knowledge);
+    REQUIRE(estimator.start(model, knowledge).status.ok());
+  }
+};
+
+TEST_CASE("two jacks that pull alike in coarse steps are followed, whichever cell is noisy") {
+  static Pulled pulled;
+  for (const std::array<double, 2>& sd : {std::array<double, 2>{0, 400}, {400, 0}, {400, 400}, {0, 0}}) {
+    pulled.make(support::two_jacks, sd);
+    for (const double force : {5e4, 1e5, 1e5, 1e5, 3e4, 8e4}) {
+      taut::Readings<double, PlaneCapacity> readings;
+      readings.ends[0][0] = readings.ends[0][1] = {true, false, force, 0};
+      REQUIRE(pulled.estimator.advance(readings).status.ok());
+      CHECK(std::fabs(pulled.estimator.force(0) - force) < 2000);
+      CHECK(std::fabs(pulled.estimator.force(pulled.model.segments - 1) - force) < 2000);
+    }
+  }
+}
+
+TEST_CASE("a released end keeps its wedge until its load cell is read") {
+  static Pulled pulled;
+  pulled.make(support::jacked_end, {0, 0});
+  taut::Readings<double, PlaneCapacity> readings;
+  readings.ends[0][1] = {true, false, full, 0};
+  REQUIRE(pulled.estimator.advance(readings).status.ok());
+  readings.sample.jack[0][1].locked = true;
+  REQUIRE(pulled.estimator.advance(readings).status.ok());
+  const int last = pulled.model.segments - 1;
+  const double held = pulled.estimator.force(last);
+  CHECK(std::fabs(held - full) < 1e-9 * full);
+  readings.sample.jack[0][1].locked = false;
+  readings.ends[0][1].has_force = false;
+  REQUIRE(pulled.estimator.advance(readings).status.ok());
+  CHECK(pulled.estimator.force(last) == held);
+  readings.ends[0][1] = {true, false, 1.1 * full, 0};
+  REQUIRE(pulled.estimator.advance(readings).status.ok());
+  CHECK(std::fabs(pulled.estimator.force(last) - 1.1 * full) < 1e-9 * full);
+}
+
 }  // namespace

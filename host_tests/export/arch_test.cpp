@@ -5,8 +5,10 @@
 namespace arch = scene_2_arches_ber;
 
 TEST_CASE("an elastic scene is exported with every bit, and tracked as the program tracks it") {
-  exported::check<2>("arch", arch::condensed<float>, &arch::struts<float>);
-  exported::check<2>("arch", arch::condensed<double>, &arch::struts<double>);
+  exported::check<2, arch::unknowns>("arch", arch::condensed<float>, arch::knowledge<float>,
+                                     &arch::struts<float>);
+  exported::check<2, arch::unknowns>("arch", arch::condensed<double>, arch::knowledge<double>,
+                                     &arch::struts<double>);
 }
 
 TEST_CASE("names keep their bytes whatever they are") {
@@ -18,4 +20,16 @@ TEST_CASE("names keep their bytes whatever they are") {
 TEST_CASE("a joint that is locked by friction is exported as locked") {
   CHECK(arch::condensed<float>.is_locked(3));
   CHECK_FALSE(arch::condensed<float>.is_locked(0));
+}
+
+TEST_CASE(
+    "unknowns: one mu for all joints of a cable, none of a locked joint, two memories of a noisy jack") {
+  static_assert(arch::unknowns == 1 + 2);
+}
+
+TEST_CASE("deviations of mu and of load cells are those of the scene; without one a jack is exact") {
+  CHECK(arch::knowledge<double>.mu_sd[0] == 0.03);
+  CHECK(arch::knowledge<double>.shared[0]);
+  CHECK(arch::knowledge<double>.sensor_sd[0][0] == 20);
+  CHECK(arch::knowledge<double>.sensor_sd[0][1] == 0);
 }

@@ -1,4 +1,5 @@
-// Compares an exported scene with what the library and the program find for the same file.
+// Compares an exported scene and what is known of it with what the library and the program find for the same
+// file.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -7,16 +8,19 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <numeric>
 #include <sstream>
 #include <string>
 
 #include "files/run_program.hpp"
+#include "lib/alarm_words.hpp"
 #include "lib/log_file.hpp"
 #include "lib/result_file.hpp"
 #include "lib/scene_build.hpp"
 #include "lib/scene_file.hpp"
 #include "lib/solver_values.hpp"
 #include "taut/condensation/condense.hpp"
+#include "taut/estimation/estimator.hpp"
 #include "taut/tracking/tracker.hpp"
 
 namespace exported {
@@ -83,6 +87,39 @@ void check_bits(const std::string& file, const Condensed<Scalar, Cap>& found,
   CHECK(same_bits(rows->elongation, expected_rows.elongation));
 }
 
+/// The scene of a file; where mu has no standard deviation it is half of the mean mu.
+inline SceneDescription described(const std::string& name) {
+  SceneDescription scene = read_scene_file(folder() + "/" + name + ".json");
+  for (CableDescription& cable : scene.cables) {
+    if (cable.has_mu_sd || cable.joints() == 0) continue;
+    cable.mu_sd =
+        0.5 * std::accumulate(cable.mu.begin(), cable.mu.end(), 0.0) / static_cast<double>(cable.joints());
+  }
+  return scene;
+}
+
+template <class Scalar, int N>
+bool same_pairs(const FixedArray<std::array<Scalar, 2>, N>& a,
+                const FixedArray<std::array<Scalar, 2>, N>& b) {
+  return a.items == b.items;
+}
+
+/// Every bit of the constant against collecting it from the scene at run time.
+template <class Scalar, int Dimension, class Cap>
+void check_knowledge(const std::string& name, const Knowledge<Scalar, Cap>& found) {
+  using SceneType = Scene<double, Dimension, Whole<Cap>>;
+  const auto scene = std::make_unique<SceneType>();
+  build(described(name), *scene);
+  Knowledge<Scalar, Whole<Cap>> expected;
+  find_knowledge(*scene, expected);
+  CHECK(same_bits(found.mu, expected.mu));
+  CHECK(same_bits(found.grip, expected.grip));
+  CHECK(same_bits(found.capstan, expected.capstan));
+  CHECK(same_bits(found.mu_sd, expected.mu_sd));
+  CHECK(same_bits(found.shared, expected.shared));
+  CHECK(same_pairs(found.sensor_sd, expected.sensor_sd));
+}
+
 /// The result of a tracker that runs on the constant, as the program would write it with --hex.
 template <class Scalar, class Cap>
 std::string tracked(const std::string& name, const Condensed<Scalar, Cap>& condensed,
@@ -107,17 +144,82 @@ std::string tracked(const std::string& name, const Condensed<Scalar, Cap>& conde
   return text;
 }
 
-/// The constant against condensation at run time, and a tracker on it against the program.
-template <int Dimension, class Scalar, class Cap>
-void check(const std::string& name, const Condensed<Scalar, Cap>& condensed,
-           const CondensedStruts<Scalar, Cap>* rows = nullptr) {
-  check_bits<Scalar, Dimension>(name + ".json", condensed, rows);
+template <class Scalar, class Cap>
+Readings<Scalar, Cap> readings_of(const LogRow& row, const SceneDescription& scene, double dt) {
+  Readings<Scalar, Cap> readings;
+  readings.sample = sample_of<Scalar, Cap>(row, scene);
+  readings.dt = static_cast<Scalar>(dt);
+  for (int c = 0; c < Cap::cables; ++c)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const EndRow& given = row.cables[static_cast<std::size_t>(c)][end];
+      readings.ends[c][end] = {given.reading.has_value(), given.stroke.has_value(),
+                               static_cast<Scalar>(given.reading.value_or(0)),
+                               static_cast<Scalar>(given.stroke.value_or(0))};
+    }
+  return readings;
+}
+
+template <class EstimatorType>
+void read_deviations(const EstimatorType& estimator, Answer& answer) {
+  answer.deviation.clear();
+  answer.mu.clear();
+  answer.mu_deviation.clear();
+  for (int i = 0; i < EstimatorType::Cap::segments; ++i)
+    answer.deviation.push_back(static_cast<double>(estimator.deviation(i)));
+  for (int j = 0; j < EstimatorType::Cap::joints; ++j) {
+    answer.mu.push_back(static_cast<double>(estimator.mu(j)));
+    answer.mu_deviation.push_back(static_cast<double>(estimator.mu_deviation(j)));
+  }
+}
+
+/// The result of an estimator that runs on the constants, as the program would write it with --hex.
+template <int Unknowns, class Scalar, class Cap>
+std::string estimated(const std::string& name, const Condensed<Scalar, Cap>& condensed,
+                      const Knowledge<Scalar, Cap>& knowledge, const CondensedStruts<Scalar, Cap>* rows) {
+  const NumberFormat format{sizeof(Scalar) == sizeof(float) ? ScalarType::float32 : ScalarType::float64,
+                            true};
+  const SceneDescription scene = described(name);
+  std::ifstream stream = open_log(folder() + "/" + name + ".csv");
+  LogReader log(stream, name + ".csv", scene);
+  Estimator<Condensed<Scalar, Cap>, Unknowns> estimator;
+  REQUIRE(estimator.start(condensed, knowledge).status.ok());
+  CHECK(estimator.unknowns() <= Unknowns);
+  CHECK((estimator.unknowns() == Unknowns || Unknowns == 1));
+  std::string text = result_header(scene, ResultColumns::estimate);
+  LogRow row = log.first_row();
+  Response<Scalar, Cap> response;
+  Answer answer;
+  for (double before = 0; log.next(row); before = row.time) {
+    const double dt = row.row == 1 ? 1 : row.time - before;
+    REQUIRE(estimator.advance(readings_of<Scalar, Cap>(row, scene, dt)).status.ok());
+    estimator.respond(response, rows);
+    read_response(response, scene, answer);
+    read_deviations(estimator, answer);
+    answer.alarms = alarm_words(estimator.alarms(), scene);
+    text += result_row(scene, row.time, answer, format, ResultColumns::estimate);
+  }
+  return text;
+}
+
+template <class Scalar>
+std::string program_says(const std::string& command, const std::string& name) {
   const Scratch scratch;
   const std::string files = "'" + folder() + "/" + name + ".json' '" + folder() + "/" + name + ".csv'";
-  const Outcome outcome = run_taut(scratch, "simulate " + files + " --hex --scalar " +
+  const Outcome outcome = run_taut(scratch, command + " " + files + " --hex --scalar " +
                                                 (sizeof(Scalar) == sizeof(float) ? "float" : "double"));
   CHECK_MESSAGE(outcome.status == 0, outcome.err);
-  CHECK(tracked(name, condensed, rows) == outcome.out);
+  return outcome.out;
+}
+
+/// The constants against condensation at run time, and a tracker and an estimator on them against the
+/// program.
+template <int Dimension, int Unknowns, class Scalar, class Cap>
+void check(const std::string& name, const Condensed<Scalar, Cap>& condensed,
+           const Knowledge<Scalar, Cap>& knowledge, const CondensedStruts<Scalar, Cap>* rows = nullptr) {
+  check_bits<Scalar, Dimension>(name + ".json", condensed, rows);
+  check_knowledge<Scalar, Dimension>(name, knowledge);
+  CHECK(tracked(name, condensed, rows) == program_says<Scalar>("simulate", name));
+  CHECK(estimated<Unknowns>(name, condensed, knowledge, rows) == program_says<Scalar>("estimate", name));
 }
 
 }  // namespace exported

@@ -3,6 +3,12 @@
 #include "exported.hpp"
 
 TEST_CASE("a cable of one segment without joints and loads is exported like any other") {
-  exported::check<2>("wire", scene_double::condensed<float>);
-  exported::check<2>("wire", scene_double::condensed<double>);
+  exported::check<2, scene_double::unknowns>("wire", scene_double::condensed<float>,
+                                             scene_double::knowledge<float>);
+  exported::check<2, scene_double::unknowns>("wire", scene_double::condensed<double>,
+                                             scene_double::knowledge<double>);
+}
+
+TEST_CASE("with nothing unknown there is room for one unknown") {
+  static_assert(scene_double::unknowns == 1);
 }

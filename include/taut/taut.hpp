@@ -5,6 +5,7 @@
 #include "taut/elements/elements.hpp"
 #include "taut/estimation/bounds.hpp"
 #include "taut/estimation/estimator.hpp"
+#include "taut/estimation/find_knowledge.hpp"
 #include "taut/scene/capacity.hpp"
 #include "taut/scene/friction.hpp"
 #include "taut/scene/sample.hpp"

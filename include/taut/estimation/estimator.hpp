@@ -65,9 +65,9 @@ class Estimator {
     for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
       const Cell& cell = cells_[c][end];
       const ConditionedLoad<Scalar>& at = cell.at;
-      goal.jack[c][end].force = larger(at.sure, cell.first);
+      goal.jack[c][end] = {larger(at.sure, cell.first), cell.locked};
       turn.jack[c][end] = drive_.jack[c][end];
-      if (readings.sample.jack[c][end].locked || !at.turned) return;
+      if (cell.locked || !at.turned) return;
       turn.jack[c][end].force = at.turn;
       turns = true;
     });
@@ -78,7 +78,13 @@ class Estimator {
     if (turns && progress.status) progress = join(progress, lead(turn, event_budget));
     if (progress.status) remember([](const Cell& cell) { return !cell.locked && cell.at.turned; });
     if (progress.status) progress = join(progress, lead(goal, event_budget));
-    if (!progress.status) return progress;
+    // What is sure of two jacks may differ by more than friction holds, although their loads do not.
+    if (progress.status.code == Code::pulled_through) {
+      for_each_jacked_end(model_->cables,
+                          [&](int c, std::size_t end) { goal.jack[c][end].force = cells_[c][end].at.load; });
+      progress = join(progress, lead(goal, event_budget));
+    }
+    if (!progress.status || progress.fraction < 1) return progress;
     drive_ = goal;
     for (int c = 0; c < model_->cables.size(); ++c) {
       for (std::size_t end = 0; end < 2; ++end) {
@@ -335,7 +341,9 @@ class Estimator {
         cell.locked = true;
         return;
       }
+      // A released end keeps its wedge until a load is read.
       if (cell.locked) {
+        if (!given.has_force) return;
         cell.filter.start(knowledge_->sensor_sd[c][end]);
         cell.at = {};
         cell.way = 1;
@@ -354,11 +362,13 @@ class Estimator {
     });
     return locks;
   }
+  /// A path that was not followed to its end is followed by the next call with the same readings.
   Progress<Scalar> lead(const Sample<Scalar, Cap>& sample, int event_budget) {
     return tracker_.advance(sample, event_budget);
   }
   static Progress<Scalar> join(const Progress<Scalar>& first, Progress<Scalar> then) {
     then.events += first.events;
+    then.fraction *= first.status ? first.fraction : Scalar(1);
     return then;
   }
   /// From the load that is sure to the best estimate, along the present piece.
