@@ -21,6 +21,7 @@
 #include "lib/solver_values.hpp"
 #include "taut/condensation/condense.hpp"
 #include "taut/estimation/estimator.hpp"
+#include "taut/estimation/find_knowledge.hpp"
 #include "taut/tracking/tracker.hpp"
 
 namespace exported {
