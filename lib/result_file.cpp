@@ -24,20 +24,6 @@ void append_shortest(std::string& text, Float value) {
   text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
 }
 
-const char* word(JointState state) {
-  switch (state) {
-    case JointState::stick:
-      return "stick";
-    case JointState::forward:
-      return "forward";
-    case JointState::backward:
-      return "backward";
-    case JointState::open:
-      return "open";
-  }
-  return "unknown";
-}
-
 // Grows one line of a result, field by field.
 class Line {
  public:
@@ -69,6 +55,20 @@ class Line {
 };
 
 }  // namespace
+
+const char* state_word(JointState state) {
+  switch (state) {
+    case JointState::stick:
+      return "stick";
+    case JointState::forward:
+      return "forward";
+    case JointState::backward:
+      return "backward";
+    case JointState::open:
+      return "open";
+  }
+  return "unknown";
+}
 
 void append_number(std::string& text, double value, const NumberFormat& format) {
   const bool single = format.scalar == ScalarType::float32;
@@ -119,7 +119,7 @@ std::string result_row(const SceneDescription& scene, double time, const Answer&
     const std::size_t joints = cable.joints();
     line.number(answer.tension, segment, cable.segments());
     line.number(answer.slip, joint, joints);
-    for (std::size_t j = 0; j < joints; ++j) line.field(word(answer.state[joint + j]));
+    for (std::size_t j = 0; j < joints; ++j) line.field(state_word(answer.state[joint + j]));
     line.number(answer.contact, joint, joints);
     line.number(answer.friction, joint, joints);
     for (std::size_t end = 0; end < 2; ++end) {

@@ -21,6 +21,9 @@ struct NumberFormat {
 /// Appends a number in the format; a value of a float computation is rounded to float first.
 void append_number(std::string& text, double value, const NumberFormat& format);
 
+/// The word for a state.
+const char* state_word(JointState state);
+
 /// The columns of a result: what every method finds, or also what `estimate` says of its certainty.
 enum class ResultColumns { state, estimate };
 

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "lib/scene_description.hpp"
-#include "taut/scene/sample.hpp"
 
 namespace taut::host {
 
@@ -26,12 +25,6 @@ inline std::string segment_name(const SceneDescription& scene, const CableDescri
   const auto nodes = segment_nodes(cable, i);
   return "segment " + std::to_string(i + 1) + " (" + node_name(scene, nodes[0]) + "\u2013" +
          node_name(scene, nodes[1]) + ")";
-}
-
-/// The words of the result, which are also classes of the page.
-inline const char* state_word(JointState state) {
-  constexpr std::array<const char*, 4> words = {"stick", "forward", "backward", "open"};
-  return words.at(static_cast<std::size_t>(state));
 }
 
 }  // namespace taut::host

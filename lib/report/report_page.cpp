@@ -9,6 +9,7 @@
 #include "lib/report/report_tables.hpp"
 #include "lib/report/state_strip.hpp"
 #include "lib/report/structure_drawing.hpp"
+#include "lib/result_file.hpp"
 
 namespace taut::host {
 namespace {

@@ -7,6 +7,7 @@
 #include "lib/report/html.hpp"
 #include "lib/report/names.hpp"
 #include "lib/report/number_text.hpp"
+#include "lib/result_file.hpp"
 
 namespace taut::host {
 namespace {

@@ -8,6 +8,7 @@
 #include "lib/report/html.hpp"
 #include "lib/report/names.hpp"
 #include "lib/report/projection.hpp"
+#include "lib/result_file.hpp"
 
 namespace taut::host {
 namespace {
