@@ -1,8 +1,6 @@
 // Collects what a scene says of friction and load cells.
 #pragma once
 
-#include <cmath>
-
 #include "taut/elements/friction_element.hpp"
 #include "taut/estimation/knowledge.hpp"
 
@@ -30,9 +28,9 @@ void find_knowledge(const SceneType& scene, Knowledge<Scalar, typename SceneType
             Line<Real, SceneType::dimension>::between(scene.nodes[from], scene.nodes[to]).length / 2);
       };
       knowledge.mu[j] = static_cast<Real>(scene.mu[j]);
-      knowledge.grip[j] = knowledge.capstan[c] ? Real(2) * std::atan2(frame.cos_alpha, frame.sin_alpha) +
-                                                     static_cast<Real>(cable.wobble) *
-                                                         (half(at.before, at.at) + half(at.at, at.after))
+      knowledge.grip[j] = knowledge.capstan[c] ? capstan_angle(frame.cos_alpha, frame.sin_alpha,
+                                                               static_cast<Real>(cable.wobble),
+                                                               half(at.before, at.at) + half(at.at, at.after))
                                                : frame.cos_alpha / frame.sin_alpha;
     }
   }

@@ -27,13 +27,18 @@ constexpr Grip<Scalar> point_grip(Scalar mu, Scalar cos_alpha, Scalar sin_alpha)
   return {mu * cos_alpha / sin_alpha};
 }
 
-/// Saddle or duct with turning angle beta = pi - 2 alpha [rad]: rho = exp(-mu (beta + k s)), EN 1992-1-1
-/// (5.45), so kappa = tanh(mu (beta + k s) / 2). `wobble` is k [rad/m], `length` is s [m]: half of each
-/// adjacent segment.
+/// beta + k s of a saddle or duct with turning angle beta = pi - 2 alpha [rad]. `wobble` is k [rad/m],
+/// `length` is s [m]: half of each adjacent segment.
+template <class Scalar>
+Scalar capstan_angle(Scalar cos_alpha, Scalar sin_alpha, Scalar wobble, Scalar length) {
+  return Scalar(2) * std::atan2(cos_alpha, sin_alpha) + wobble * length;
+}
+
+/// Saddle or duct: rho = exp(-mu (beta + k s)), EN 1992-1-1 (5.45), so kappa = tanh(mu (beta + k s) / 2),
+/// with the lengths of capstan_angle().
 template <class Scalar>
 Grip<Scalar> capstan_grip(Scalar mu, Scalar cos_alpha, Scalar sin_alpha, Scalar wobble, Scalar length) {
-  const Scalar beta = Scalar(2) * std::atan2(cos_alpha, sin_alpha);
-  return {std::tanh(mu * (beta + wobble * length) / Scalar(2))};
+  return {std::tanh(mu * capstan_angle(cos_alpha, sin_alpha, wobble, length) / Scalar(2))};
 }
 
 /// The grip of a joint under the law of its cable.
