@@ -16,7 +16,7 @@ namespace {
 // quadratic function of the counts. It is known from the sizes at a few capacities; with multiples of eight
 // nothing there is padding.
 constexpr int unit = 8;
-constexpr std::size_t variables = 5;     // cables, segments, joints, loads, struts
+constexpr std::size_t variables = 6;     // cables, segments, joints, loads, jacks, struts
 constexpr std::size_t none = variables;  // of the variables
 using Grid = std::array<double, (variables + 1) * (variables + 1)>;
 
@@ -27,7 +27,7 @@ struct Sampled : Capacity {
     return unit * (1 + (A == variable ? 1 : 0) + (B == variable ? 1 : 0));
   }
   static constexpr int cables = count(0), segments = count(1), joints = count(2), loads = count(3);
-  static constexpr int struts = IsRigid ? 0 : count(4), substructures = IsRigid ? 0 : 1;
+  static constexpr int jacks = count(4), struts = IsRigid ? 0 : count(5), substructures = IsRigid ? 0 : 1;
 };
 
 template <template <class> class SizeOf, bool IsRigid, std::size_t... I>
@@ -41,8 +41,8 @@ std::size_t interpolated(const CondensedCounts& counts) {
   static const Grid sizes =
       sampled_sizes<SizeOf, IsRigid>(std::make_index_sequence<std::tuple_size<Grid>::value>());
   const auto at = [](std::size_t a, std::size_t b) { return sizes[a * (variables + 1) + b]; };
-  const std::array<int, variables> given = {counts.cables, counts.segments, counts.joints, counts.loads,
-                                            counts.struts};
+  const std::array<int, variables> given = {counts.cables, counts.segments, counts.joints,
+                                            counts.loads,  counts.jacks,    counts.struts};
   const auto steps = [&](std::size_t a) { return static_cast<double>(given[a]) / unit - 1; };
   const double base = at(none, none);
   double bytes = base;
@@ -105,6 +105,7 @@ CondensedCounts condensed_counts(const SceneDescription& scene) {
   for (const CableDescription& cable : scene.cables) {
     counts.segments += static_cast<int>(cable.segments());
     counts.joints += static_cast<int>(cable.joints());
+    for (std::size_t end = 0; end < 2; ++end) counts.jacks += cable.is_jacked(end) ? 1 : 0;
   }
   return counts;
 }

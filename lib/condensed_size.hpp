@@ -10,7 +10,7 @@ namespace taut::host {
 
 /// The counts of a capacity that fits a condensed scene exactly. Nodes are not needed any more.
 struct CondensedCounts {
-  int cables = 0, segments = 0, joints = 0, loads = 0, struts = 0;
+  int cables = 0, jacks = 0, segments = 0, joints = 0, loads = 0, struts = 0;
   /// Zero means rigid saddles: no coupling between segments is stored. A structure that consists of cables
   /// alone counts as one substructure.
   int substructures = 0;

@@ -339,8 +339,9 @@ std::string capacity(const CondensedCounts& counts) {
          "struct Capacity : ::taut::Capacity {\n"
          "  static constexpr int " +
          is("nodes", 0) + ", " + is("struts", counts.struts) + ", " + is("cables", counts.cables) + ", " +
-         is("segments", counts.segments) + ", " + is("joints", counts.joints) + ", " +
-         is("substructures", counts.substructures) + ", " + is("loads", counts.loads) + ";\n};\n";
+         is("jacks", counts.jacks) + ", " + is("segments", counts.segments) + ", " +
+         is("joints", counts.joints) + ", " + is("substructures", counts.substructures) + ", " +
+         is("loads", counts.loads) + ";\n};\n";
 }
 
 // A list of names that costs nothing unless it is used.

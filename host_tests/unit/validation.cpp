@@ -54,7 +54,8 @@ Status after(Change change) {
 
 /// Room for a cable with one joint and for hardly anything else.
 struct Tiny : taut::Capacity {
-  static constexpr int nodes = 5, struts = 1, cables = 1, segments = 4, joints = 1, loads = 1, forces = 1;
+  static constexpr int nodes = 5, struts = 1, cables = 1, jacks = 1, segments = 4, joints = 1, loads = 1,
+                       forces = 1;
   static constexpr int substructures = 1, substructure_nodes = 2, substructure_entries = 4, temperatures = 1;
 };
 using TinyScene = taut::Scene<double, 2, Tiny>;
@@ -243,6 +244,12 @@ TEST_CASE("every list that overflows is named with its capacity and with what is
                  s.add_cable(steel_cable(0), zigzag, 2);
                }),
                Code::capacity_exceeded, Place::cable, 1, -1, 1);
+  CHECK_STATUS(tiny([&](TinyScene& s) {
+                 auto cable = steel_cable(0);
+                 cable.ends = {taut::End::jacked, taut::End::jacked};
+                 s.add_cable(cable, zigzag, 2);
+               }),
+               Code::capacity_exceeded, Place::cable_end, 1, -1, 1);
   CHECK_STATUS(tiny([&](TinyScene& s) { s.add_cable(steel_cable(0), zigzag, 7); }), Code::capacity_exceeded,
                Place::segment, 4, -1, 2);
   CHECK_STATUS(tiny([&](TinyScene& s) { s.add_cable(steel_cable(0), zigzag, 5); }), Code::capacity_exceeded,

@@ -73,6 +73,19 @@ struct Condensed {
   FixedArray<Scalar, Cap::joints> sin_alpha;
 
   constexpr bool is_locked(int joint) const { return !(rho[joint] > 0); }
+
+  /// Contact and friction forces of all joints from the tensions of the response:
+  /// N = (T1 + T2) cos(alpha), f = (T2 - T1) sin(alpha) [N].
+  constexpr void resolve_joints(Response<Scalar, Cap>& response) const {
+    for (int c = 0; c < cables.size(); ++c)
+      for (int k = 0; k < cables[c].joints(); ++k) {
+        const int j = cables[c].first_joint + k;
+        const auto sides = cables[c].joint_segments(k);
+        const Scalar T1 = response.tension[sides[0]], T2 = response.tension[sides[1]];
+        response.contact[j] = (T1 + T2) * cos_alpha[j];
+        response.friction[j] = (T2 - T1) * sin_alpha[j];
+      }
+  }
 };
 
 /// Rows that give `Count` numbers of the state: load x factors + prestrain + elongation x e, with e as in

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "taut/numerics/larger.hpp"
@@ -41,7 +42,7 @@ class BandLu {
       int pivot = k;
       for (int i = k + 1; i <= below; ++i)
         if (std::fabs(at(i, k)) > std::fabs(at(pivot, k))) pivot = i;
-      pivot_[index(k)] = pivot;
+      pivot_[index(k)] = static_cast<std::int16_t>(pivot);
       if (!(std::fabs(at(pivot, k)) > singular_below)) return k;
       const int right = last(k, 2 * band_);
       if (pivot != k)
@@ -131,7 +132,7 @@ class BandLu {
   std::array<Scalar, static_cast<std::size_t>(Max) * static_cast<std::size_t>(Max)> entries_;
   std::array<Scalar, static_cast<std::size_t>(Max)> row_scale_;
   std::array<Scalar, static_cast<std::size_t>(Max)> column_scale_;
-  std::array<int, static_cast<std::size_t>(Max)> pivot_;
+  std::array<std::int16_t, static_cast<std::size_t>(Max)> pivot_;
   int n_ = 0;
   int band_ = 0;
 };

@@ -15,6 +15,7 @@ struct Capacity {
   static constexpr int nodes = 16;
   static constexpr int struts = 0;
   static constexpr int cables = 1;
+  static constexpr int jacks = -1;    ///< jacked ends of all cables together; -1: both ends of every cable
   static constexpr int segments = 8;  ///< of all cables together
   static constexpr int joints = 8;    ///< of all cables together
   static constexpr int substructures = 0;
@@ -26,5 +27,9 @@ struct Capacity {
   static constexpr int displacements = 0;  ///< that a condensed scene gives, see CondensedDisplacements
   static constexpr int profile = 0;        ///< entries of the structure's factor; 0: enough for any structure
 };
+
+/// Jacked ends that there can be.
+template <class Cap>
+constexpr int max_jacks = Cap::jacks < 0 ? 2 * Cap::cables : Cap::jacks;
 
 }  // namespace taut

@@ -8,6 +8,7 @@
 
 #include "taut/elements/friction_element.hpp"
 #include "taut/elements/substructure.hpp"
+#include "taut/scene/path.hpp"
 #include "taut/scene/scene.hpp"
 #include "taut/status.hpp"
 
@@ -34,6 +35,7 @@ class SceneCheck {
  private:
   using Real = typename SceneType::Scalar;
   static constexpr int dimension = SceneType::dimension;
+  static constexpr int jacks = max_jacks<typename SceneType::Capacity>;
   static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
 
   Status capacities() const {
@@ -51,6 +53,7 @@ class SceneCheck {
         {scene_.substructure_nodes.excess(), scene_.substructure_nodes.capacity(), Place::substructure_node},
         {scene_.substructure_entries.excess(), scene_.substructure_entries.capacity(),
          Place::substructure_entry},
+        {jacked_ends() - jacks, jacks, Place::cable_end},
         {scene_.excess_loads, SceneType::Capacity::loads, Place::load},
         {scene_.forces.excess(), scene_.forces.capacity(), Place::force},
         {scene_.temperatures.excess(), scene_.temperatures.capacity(), Place::temperature},
@@ -58,6 +61,12 @@ class SceneCheck {
     for (const auto& list : lists)
       if (list.excess > 0) return Status::at(Code::capacity_exceeded, list.place, list.capacity, list.excess);
     return Status::success();
+  }
+
+  int jacked_ends() const {
+    int count = 0;
+    for_each_jacked_end(scene_.cables, [&count](int, std::size_t) { ++count; });
+    return count;
   }
 
   Status nodes() const {

@@ -249,12 +249,12 @@ class Stepwise {
     return !cable.closed && cable.ends[end] == End::jacked && !loads.jack[c][end].locked;
   }
 
-  bool is_prescribed(const Run<Scalar>& run, const Loads& loads) const {
+  bool is_prescribed(const Run& run, const Loads& loads) const {
     return system_.is_prescribed(run.segment(0), loads) ||
            system_.is_prescribed(run.segment(run.count - 1), loads);
   }
   /// Nothing but friction holds the run along its path.
-  bool is_floating(const Run<Scalar>& run, const Loads& loads) const {
+  bool is_floating(const Run& run, const Loads& loads) const {
     return run.ring || (run.count > 1 && system_.is_prescribed(run.segment(0), loads) &&
                         system_.is_prescribed(run.segment(run.count - 1), loads));
   }
@@ -264,7 +264,7 @@ class Stepwise {
     const Assumed solved = trial;
     int changed = -1;
     for (int r = 0; r < runs_.size(); ++r)
-      if (review_run(trial, runs_[r], loads)) changed = joint_near(runs_[r]);
+      if (review_run(trial, runs_[r], loads)) changed = larger(0, runs_[r].joint_near());
     Scalar most = 0;
     for (int j = 0; j < joints(); ++j) {
       if (solved.contact[j] == Contact::separated || trial.contact[j] == Contact::separated) continue;
@@ -276,13 +276,6 @@ class Stepwise {
     }
     for (int r = 0; r < runs_.size(); ++r) keep_one_fixed(solved, trial, runs_[r], loads);
     return changed;
-  }
-
-  int joint_near(const Run<Scalar>& run) const {
-    const auto& cable = run.layout;
-    if (cable.joints() == 0) return 0;
-    const int inside = run.joint(0);
-    return inside >= 0 ? inside : cable.first_joint + cable.joints() - 1;
   }
 
   /// How much a joint's assumption is contradicted [N]; 0 if it holds. Table 2.
@@ -316,8 +309,7 @@ class Stepwise {
   }
 
   /// A floating run in which every joint slides has no place of its own; the joint that slides least rests.
-  void keep_one_fixed(const Assumed& solved, Assumed& trial, const Run<Scalar>& run,
-                      const Loads& loads) const {
+  void keep_one_fixed(const Assumed& solved, Assumed& trial, const Run& run, const Loads& loads) const {
     if (!is_floating(run, loads) || run.joints() == 0) return;
     int least = -1;
     Scalar smallest = std::numeric_limits<Scalar>::max();
@@ -337,7 +329,7 @@ class Stepwise {
   }
 
   /// Taut runs must be stretched, slack ones too long.
-  bool review_run(Assumed& trial, const Run<Scalar>& run, const Loads& loads) {
+  bool review_run(Assumed& trial, const Run& run, const Loads& loads) {
     if (is_prescribed(run, loads)) return false;
     Scalar excess = 0, flexibility = 0;
     for (int i = 0; i < run.count; ++i) {
@@ -353,7 +345,7 @@ class Stepwise {
     return true;
   }
 
-  void set_slack(Assumed& trial, const Run<Scalar>& run, bool slack) const {
+  void set_slack(Assumed& trial, const Run& run, bool slack) const {
     for (int i = 0; i < run.count; ++i) trial.slack[run.segment(i)] = slack;
     const auto& cable = scene_->cables[run.cable];
     for (int k = 0; k < cable.joints(); ++k) {
@@ -368,7 +360,7 @@ class Stepwise {
 
   /// Table 1, separated to fixed: the cable comes to rest where it was at the part of the step at which the
   /// run had its unstressed length; then no segment is strained, which gives the slip of every joint.
-  void rest_where_it_closed(Assumed& trial, const Run<Scalar>& run, const Loads& loads) {
+  void rest_where_it_closed(Assumed& trial, const Run& run, const Loads& loads) {
     const bool was_slack = rest_.assumed.slack[run.segment(0)];
     if (!was_slack) {
       for (int i = 0; i < run.joints(); ++i) trial.v_s[run.joint(i)] = rest_.assumed.v_s[run.joint(i)];
@@ -392,7 +384,7 @@ class Stepwise {
   /// A jack that takes hold of a slack run draws it straight.
   void tauten_jacked(Assumed& trial, const Loads& loads) {
     for (int r = 0; r < runs_.size(); ++r) {
-      const Run<Scalar>& run = runs_[r];
+      const Run& run = runs_[r];
       if (!trial.slack[run.segment(0)] || !is_prescribed(run, loads)) continue;
       set_slack(trial, run, false);
       lay_unstrained(trial, run, loads, [&](int i) {
@@ -405,7 +397,7 @@ class Stepwise {
   /// Slips that leave no segment strained, given the elongation of each without slip [m]; from the end that
   /// is not a jack.
   template <class Lengths>
-  void lay_unstrained(Assumed& trial, const Run<Scalar>& run, const Loads& loads, Lengths elongation) {
+  void lay_unstrained(Assumed& trial, const Run& run, const Loads& loads, Lengths elongation) {
     const int last = run.count - 1;
     Scalar slip = 0;
     if (!run.ring && system_.is_prescribed(run.segment(0), loads)) {
@@ -472,7 +464,7 @@ class Stepwise {
 
   const SceneType* scene_ = nullptr;
   System<Scalar, SceneType> system_;
-  Runs<Scalar, Cap> runs_;
+  Runs<Cap> runs_;
   Slides slides_;
   Loads now_, goal_;
   Rest rest_;

@@ -22,7 +22,7 @@ class AffineMap {
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
   static constexpr int max_active = max_active_moves<Cap>;
-  static constexpr int max_inputs = Cap::loads + 2 * Cap::cables + 1;
+  static constexpr int max_inputs = Cap::loads + max_jacks<Cap> + 1;
   using Tensions = FixedArray<Real, Cap::segments>;
   using Moves = FixedArray<Real, max_active>;
   using Inputs = FixedArray<Real, max_inputs>;
@@ -35,7 +35,7 @@ class AffineMap {
     inputs_.clear();
     has_slack_ = false;
   }
-  void add(const Active<Real>& active) {
+  void add(const Active& active) {
     active_.add(active);
     has_slack_ = has_slack_ || active.move.kind == Move::Kind::excess;
   }
@@ -43,24 +43,25 @@ class AffineMap {
 
   int active() const { return active_.size(); }
   const Move& move(int i) const { return active_[i].move; }
-  const FixedList<Active<Real>, max_active>& actives() const { return active_; }
+  const FixedList<Active, max_active>& actives() const { return active_; }
   int inputs() const { return inputs_.size(); }
   const Input& input(int k) const { return inputs_[k]; }
   bool has_slack() const { return has_slack_; }
 
-  /// Makes the map. `T` are the tensions of all moves as they are at the anchor, `moves` the active ones,
-  /// `anchor` the inputs. Returns -1, or an active move that changes no law: nothing resists it.
-  /// differentiate(settle) is called last: settle(due, T, moves) lets the active moves follow until their
-  /// laws are what is due.
-  template <class Differentiate>
-  int make(const Tensions& T, const Moves& moves, const Inputs& anchor, Differentiate differentiate) {
+  /// Makes the map. `laws` are those of the joints, `T` the tensions of all moves as they are at the anchor,
+  /// `moves` the active ones, `anchor` the inputs. Returns -1, or an active move that changes no law: nothing
+  /// resists it. differentiate(settle) is called last: settle(due, T, moves) lets the active moves follow
+  /// until their laws are what is due.
+  template <class Laws, class Differentiate>
+  int make(const Laws& laws, const Tensions& T, const Moves& moves, const Inputs& anchor,
+           Differentiate differentiate) {
     const int n = active();
-    BandLu<Real, max_active> laws_times_moves;
+    Factors laws_times_moves;
     laws_times_moves.reset(n, n > 0 ? n - 1 : 0);
-    for (int k = 0; k < n; ++k) {
-      for (int i = 0; i < n; ++i)
-        laws_times_moves.add(i, k, resistance(*model_, active_[i].law, active_[k].move));
-      laws_times_moves.set_column_scale(k, Real(1) / stiffness(k));
+    for (int i = 0; i < n; ++i) {
+      const Law<Real> law = laws.of(active_[i]);
+      for (int k = 0; k < n; ++k) laws_times_moves.add(i, k, resistance(*model_, law, active_[k].move));
+      laws_times_moves.set_column_scale(i, Real(1) / stiffness(i));
     }
     const int loose = laws_times_moves.factor();
     if (loose >= 0) return loose;
@@ -72,11 +73,11 @@ class AffineMap {
     due.fill(Real(0));
     for (int k = 0; k < inputs(); ++k)
       if (inputs_[k].kind == Input::Kind::jack_force) due[row_of_jack(inputs_[k].index)] = anchor[k];
-    settle(laws_times_moves, due, base_, base_moves_);
-    for (int k = 0; k < inputs(); ++k) make_column(laws_times_moves, k);
+    settle(laws, laws_times_moves, due, base_, base_moves_);
+    for (int k = 0; k < inputs(); ++k) make_column(laws, laws_times_moves, k);
     round();
     differentiate([&](const Moves& given, Tensions& follow, Moves& by) {
-      settle(laws_times_moves, given, follow, by);
+      settle(laws, laws_times_moves, given, follow, by);
     });
     return -1;
   }
@@ -102,6 +103,8 @@ class AffineMap {
     for (int k = 0; k < inputs(); ++k) at += (x[k] - anchor_[k]) * column_moves_[k][i];
     return at;
   }
+  /// What a unit of input `k` moves active move `i` by.
+  Real column_move(int k, int i) const { return column_moves_[k][i]; }
   /// Rate along a direction `dx` of the inputs.
   Real move_rate(int i, const Inputs& dx) const {
     Real rate = 0;
@@ -127,9 +130,10 @@ class AffineMap {
   }
   /// By how much tensions at `x` miss the laws of the active moves [N]: more than rounding if Real has too
   /// few digits.
-  Real law_violation(const Tensions& T, const Inputs& x) const {
+  template <class Laws>
+  Real law_violation(const Laws& laws, const Tensions& T, const Inputs& x) const {
     Moves off;
-    for (int i = 0; i < active(); ++i) off[i] = active_[i].law.of(T);
+    for (int i = 0; i < active(); ++i) off[i] = laws.of(active_[i]).of(T);
     for (int k = 0; k < inputs(); ++k)
       if (inputs_[k].kind == Input::Kind::jack_force) off[row_of_jack(inputs_[k].index)] -= x[k];
     Real most = 0;
@@ -145,17 +149,12 @@ class AffineMap {
 
   // In the scene's scalar, for samples without an event.
 
-  const Rounded& rounded_base() const {
-    if constexpr (is_wide)
-      return base_;
-    else
-      return rounded_.base;
-  }
+  Scalar rounded_base(int i) const { return static_cast<Scalar>(base_[i]); }
   const Rounded& rounded_column(int k) const {
     if constexpr (is_wide)
       return column_[k];
     else
-      return rounded_.column[k];
+      return rounded_[k];
   }
 
   static Move payout_move(const CondensedType& model, int index) {
@@ -165,24 +164,19 @@ class AffineMap {
 
  private:
   static constexpr bool is_wide = std::is_same<Real, Scalar>::value;
-  struct None {};
-  struct Copies {
-    Rounded base;
-    FixedArray<Rounded, max_inputs> column;
-  };
-  using Factors = BandLu<Real, max_active>;
+  // One more than there are moves: the size that finding what slides needs, so that there is one kind.
+  using Factors = BandLu<Real, max_active + 1>;
 
   void round() {
     if constexpr (!is_wide) {
-      for (int i = 0; i < model_->segments; ++i) {
-        rounded_.base[i] = static_cast<Scalar>(base_[i]);
-        for (int k = 0; k < inputs(); ++k) rounded_.column[k][i] = static_cast<Scalar>(column_[k][i]);
-      }
+      for (int k = 0; k < inputs(); ++k)
+        for (int i = 0; i < model_->segments; ++i) rounded_[k][i] = static_cast<Scalar>(column_[k][i]);
     }
   }
 
   /// Tensions that a unit of an input makes.
-  void make_column(const Factors& laws_times_moves, int k) {
+  template <class Laws>
+  void make_column(const Laws& laws, const Factors& laws_times_moves, int k) {
     Tensions& column = column_[k];
     column.fill(Real(0));
     const Input& input = inputs_[k];
@@ -198,7 +192,7 @@ class AffineMap {
     }
     if (input.kind == Input::Kind::jack_force) due[row_of_jack(input.index)] = 1;
     column_moves_[k].fill(Real(0));
-    settle(laws_times_moves, due, column, column_moves_[k]);
+    settle(laws, laws_times_moves, due, column, column_moves_[k]);
     keeps_if_up_[k] = keeps_if_down_[k] = true;
     for (int i = 0; i < active(); ++i) {
       const Real along = static_cast<Real>(active_[i].sense) * column_moves_[k][i];
@@ -208,11 +202,13 @@ class AffineMap {
   }
 
   /// Lets the active moves follow until their laws are what is due.
-  void settle(const Factors& laws_times_moves, const Moves& due, Tensions& T, Moves& moves) const {
+  template <class Laws>
+  void settle(const Laws& laws, const Factors& laws_times_moves, const Moves& due, Tensions& T,
+              Moves& moves) const {
     // The second pass takes out what the first one's rounding left.
     for (int pass = 0; pass < 2 && active() > 0; ++pass) {
-      Moves change;
-      for (int i = 0; i < active(); ++i) change[i] = due[i] - active_[i].law.of(T);
+      FixedArray<Real, max_active + 1> change;
+      for (int i = 0; i < active(); ++i) change[i] = due[i] - laws.of(active_[i]).of(T);
       laws_times_moves.solve(change);
       Tensions e;
       e.fill(Real(0));
@@ -224,7 +220,7 @@ class AffineMap {
     }
     // What a law gives outright has no rounding.
     for (int i = 0; i < active(); ++i)
-      if (active_[i].law.second < 0) T[active_[i].law.first] = due[i];
+      if (!active_[i].slides()) T[active_[i].on] = due[i];
   }
   int row_of_jack(int index) const {
     for (int i = 0; i < active(); ++i)
@@ -233,7 +229,7 @@ class AffineMap {
   }
 
   const CondensedType* model_ = nullptr;
-  FixedList<Active<Real>, max_active> active_;
+  FixedList<Active, max_active> active_;
   FixedList<Input, max_inputs> inputs_;
   Inputs anchor_;
   Tensions base_;
@@ -243,7 +239,7 @@ class AffineMap {
   FixedArray<bool, max_inputs> keeps_if_up_;
   FixedArray<bool, max_inputs> keeps_if_down_;
   bool has_slack_ = false;
-  std::conditional_t<is_wide, None, Copies> rounded_;
+  FixedArray<Rounded, is_wide ? 0 : max_inputs> rounded_;  // columns
 };
 
 }  // namespace taut

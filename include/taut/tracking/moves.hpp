@@ -13,9 +13,9 @@ namespace taut {
 /// before it and shortens the one after, a payout or an excess length lengthens one segment.
 struct Move {
   enum class Kind : std::uint8_t { slip, payout, excess } kind = Kind::slip;
-  std::int16_t index = 0;        ///< joint; 2 x cable + end; run
-  std::int16_t lengthened = -1;  ///< segment
-  std::int16_t shortened = -1;   ///< segment, slip only
+  std::int16_t index = 0;       ///< joint; 2 x cable + end; run
+  std::int16_t lengthened = 0;  ///< segment
+  std::int16_t shortened = 0;   ///< segment, slip only; else -1
 
   static Move of(Kind kind, int index, int lengthened, int shortened = -1) {
     return {kind, static_cast<std::int16_t>(index), static_cast<std::int16_t>(lengthened),
@@ -44,12 +44,16 @@ struct Law {
   }
 };
 
-/// A move that is not frozen.
-template <class Real>
+/// A move that is not frozen. Its law: the tension of segment `on` is zero or given; or a joint slides and
+/// keeps T_small = rho T_big.
 struct Active {
   Move move;
-  Law<Real> law;
-  std::int8_t sense = 0;  ///< sign that the move's rate must have, 0 for any
+  std::int16_t on = 0;    ///< -1: a joint that slides
+  std::int8_t sense = 0;  ///< of sliding: the sign that its rate must have; else 0
+
+  bool slides() const { return on < 0; }
+  /// T_big of a joint that slides.
+  int big() const { return sense > 0 ? move.shortened : move.lengthened; }
 };
 
 /// Everything that has moved along the cables; or derivatives of it.
@@ -70,7 +74,7 @@ struct Moving {
 
 /// As many as there can be: all slips and excess lengths of slack runs, and the jacks.
 template <class Cap>
-constexpr int max_active_moves = Cap::segments + 2 * Cap::cables;
+constexpr int max_active_moves = Cap::segments + max_jacks<Cap>;
 
 /// Something outside that changes along a path.
 struct Input {
@@ -132,9 +136,13 @@ class JointLaws {
       return model_->rho[joint];
   }
   void set_rho(int joint, Real rho) { rho_[joint] = rho; }
-  Active<Real> sliding(const Candidate& candidate) const {
-    return {slip(candidate.joint), limit(candidate),
+  Active sliding(const Candidate& candidate) const {
+    return {slip(candidate.joint), -1,
             static_cast<std::int8_t>(candidate.way == JointState::forward ? 1 : -1)};
+  }
+  Law<Real> of(const Active& active) const {
+    if (!active.slides()) return Law<Real>::on(active.on);
+    return limit({active.move.index, active.sense > 0 ? JointState::forward : JointState::backward});
   }
 
  private:

@@ -81,6 +81,14 @@ class Sensitivity {
     return at;
   }
 
+  /// Derivatives of everything that has moved, at inputs `x`.
+  Moving<Scalar, Cap> moves(const Map& map, int p, const Inputs& x) const {
+    if (p >= frozen_.used) return {};
+    Moving<Scalar, Cap> moving = frozen_.derivative[p];
+    for (int i = 0; i < map.active(); ++i) moving.of(map.move(i)) = static_cast<Scalar>(move(map, p, i, x));
+    return moving;
+  }
+
   /// At inputs `x` a law that falls at the rate `falling` along `direction` reached its limit. `joint` is
   /// whose limit it is, or -1.
   void meet(const Map& map, const Inputs& x, const Tensions& T, const Law<Real>& law, int joint,
@@ -101,7 +109,8 @@ class Sensitivity {
   void turn(const Map& map, int p, int k) {
     use(p);
     frozen_.derivative[p] = {};
-    for (int i = 0; i < map.active(); ++i) of_move(map.move(i), p) = column_move(map, k, i);
+    for (int i = 0; i < map.active(); ++i)
+      of_move(map.move(i), p) = static_cast<Scalar>(map.column_move(k, i));
   }
   /// What comes next is not at an event.
   void pass() { later_.fill(Real(0)); }
@@ -118,12 +127,6 @@ class Sensitivity {
   void use(int parameter) {
     if (parameter >= frozen_.used) frozen_.used = parameter + 1;
   }
-  static Scalar column_move(const Map& map, int k, int i) {
-    Inputs along;
-    along.fill(Real(0));
-    along[k] = 1;
-    return static_cast<Scalar>(map.move_rate(i, along));
-  }
   Scalar& of_move(const Move& move, int p) { return frozen_.derivative[p].of(move); }
 
   /// dm/dp of an active move.
@@ -139,9 +142,9 @@ class Sensitivity {
     values.fill(Real(0));
     if constexpr (Cap::joints > 0) {
       for (int i = 0; i < map.active(); ++i) {
-        const Active<Real>& active = map.actives()[i];
-        if (active.move.kind != Move::Kind::slip || active.law.second < 0) continue;
-        if (parameter_[active.move.index] == p) values[i] = slope_[active.move.index] * T[active.law.second];
+        const Active& active = map.actives()[i];
+        if (!active.slides()) continue;
+        if (parameter_[active.move.index] == p) values[i] = slope_[active.move.index] * T[active.big()];
       }
     }
     return values;

@@ -25,7 +25,7 @@ class Sliding {
   static constexpr int max_active = max_active_moves<Cap>;
   static constexpr int max_candidates = 2 * Cap::joints;
   using Tensions = FixedArray<Real, Cap::segments>;
-  using Actives = FixedList<Active<Real>, max_active>;
+  using Actives = FixedList<Active, max_active>;
   using Candidates = FixedList<Candidate, max_candidates>;
 
   enum class Outcome {
@@ -105,7 +105,7 @@ class Sliding {
     for (const int i : of_)
       if ((*candidates_)[i].joint == (*candidates_)[candidate].joint) return false;
     at_[of_.size()] = 0;
-    of_.add(candidate);
+    of_.add(static_cast<std::int16_t>(candidate));
     basis_.add(joints_->sliding((*candidates_)[candidate]));
     return true;
   }
@@ -124,16 +124,19 @@ class Sliding {
     const int n = basis_.size();
     BandLu<Real, max_basis> bordered;
     bordered.reset(n + 1, n);
+    for (int i = 0; i < n; ++i) {
+      const Law<Real> law = joints_->of(basis_[i]);
+      for (int k = 0; k < n; ++k) bordered.add(i, k, resistance(*model_, law, basis_[k].move));
+    }
     for (int k = 0; k < n; ++k) {
       const Move& move = basis_[k].move;
-      for (int i = 0; i < n; ++i) bordered.add(i, k, resistance(*model_, basis_[i].law, move));
       bordered.set_column_scale(k, Real(1) / stiffness(move));
       if (!slips) bordered.add(n, k, resistance(*model_, limit(entering), move));
     }
     for (int i = others_; i < n; ++i) bordered.add(i, n, covering(of_[i - others_]));
     bordered.set_column_scale(n, Real(1));
     if (slips) {
-      const Active<Real>& last = basis_[n - 1];
+      const Active& last = basis_[n - 1];
       bordered.add(n, n - 1, static_cast<Real>(last.sense) * stiffness(last.move));
     } else {
       bordered.add(n, n, covering(entering));
@@ -173,7 +176,7 @@ class Sliding {
     }
     for (int i = 0; i < of_.size(); ++i) {
       if (slips && of_[i] == entering) continue;
-      const Active<Real>& active = basis_[others_ + i];
+      const Active& active = basis_[others_ + i];
       const Real unit = static_cast<Real>(active.sense) * stiffness(active.move);
       consider(unit * at_[i], unit * change_[others_ + i], i, true);
     }
@@ -200,9 +203,9 @@ class Sliding {
   const CondensedType* model_ = nullptr;
   const Laws* joints_ = nullptr;
   const Candidates* candidates_ = nullptr;
-  FixedList<int, Cap::joints> of_;    // candidates whose slip is in the basis
-  FixedArray<Real, Cap::joints> at_;  // their slips
-  Actives basis_;                     // the other moves, then those slips
+  FixedList<std::int16_t, Cap::joints> of_;  // candidates whose slip is in the basis
+  FixedArray<Real, Cap::joints> at_;         // their slips
+  Actives basis_;                            // the other moves, then those slips
   int others_ = 0;
   FixedArray<Real, max_candidates> covering_;
   Real cover_ = 0;

@@ -94,7 +94,7 @@ class Tracker {
     find_spare();
     map_.clear(condensed);
     if constexpr (is_adjustable) derivatives_.begin();
-    map_is_old_ = true;
+    has_map_ = false;
     peak_ = 0;
   }
   Progress<Scalar> bring_on_prestrain(int event_budget = default_budget) {
@@ -121,7 +121,7 @@ class Tracker {
     state.reach = reach_;
     state.tension = tension_;
     state.peak = peak_;
-    state.has_map = !map_is_old_;
+    state.has_map = has_map_;
     state.arrived = arrived_;
     state.has_range = has_range_;
     return state;
@@ -171,7 +171,7 @@ class Tracker {
   /// Fails with `bad_sample` (nothing was done), or at `fraction` of the path with `pulled_through` (names
   /// the cable), `mechanism` (names a joint whose sliding sets its node free) or `state_iterations`.
   Progress<Scalar> advance(const Sample<Scalar, Cap>& sample, int event_budget = default_budget) {
-    if (only_ >= 0 && !map_is_old_ && goes_along(sample)) return {};
+    if (only_ >= 0 && has_map_ && goes_along(sample)) return {};
     return approach(sample, event_budget);
   }
 
@@ -186,10 +186,10 @@ class Tracker {
   /// they been so all along, `change` of each, to first order. Joints that come to lie outside of their cone
   /// are put on its edge. Fails with `mechanism`; then only start() may follow.
   Status adjust(const FixedArray<Scalar, Parameters>& change) {
-    if (map_is_old_) return Status::success();
+    if (!has_map_) return Status::success();
     freeze();
     derivatives_.for_each([&](const auto& derivative, int p) { shift(derivative, change[p]); });
-    map_is_old_ = true;
+    has_map_ = false;
     for (int count = 0; count <= joints(); ++count) {
       if (make_map() >= 0) return at_joint(Code::mechanism, -1);
       find_forces();
@@ -207,11 +207,11 @@ class Tracker {
     find_forces();
     freeze();
     derivatives_.turn(map_, p, k);
-    map_is_old_ = true;
+    has_map_ = false;
   }
   /// Derivative of a tension with respect to unknown `p` [N], at the loads reached.
   Scalar sensitivity(int p, int segment) const {
-    return map_is_old_ ? Scalar(0) : derivatives_.tension(map_, p, segment, at_);
+    return !has_map_ ? Scalar(0) : derivatives_.tension(map_, p, segment, at_);
   }
   /// Derivative of a tension with respect to the force of an unlocked jack, on the present piece [-].
   Scalar slope(int cable, std::size_t end, int segment) const {
@@ -222,13 +222,23 @@ class Tracker {
   Scalar payout_slope(int cable, std::size_t end) const {
     const int k = input_of(cable, end);
     if (k < 0) return 0;
-    Inputs dx;
-    dx.fill(Real(0));
-    dx[k] = 1;
     for (int i = 0; i < map_.active(); ++i)
       if (map_.move(i).kind == Move::Kind::payout && map_.move(i).index == 2 * cable + static_cast<int>(end))
-        return static_cast<Scalar>(map_.move_rate(i, dx));
+        return static_cast<Scalar>(map_.column_move(k, i));
     return 0;
+  }
+  /// Derivatives of moves() with respect to unknown `p`, and to the force of an unlocked jack [m/N].
+  taut::Moving<Scalar, Cap> move_sensitivity(int p) const {
+    if (!has_map_) return {};
+    Inputs x;
+    values(now_, x);
+    return derivatives_.moves(map_, p, x);
+  }
+  Moving move_slope(int cable, std::size_t end) const {
+    Moving moving;
+    const int k = input_of(cable, end);
+    for (int i = 0; k >= 0 && i < map_.active(); ++i) moving.of(map_.move(i)) = map_.column_move(k, i);
+    return moving;
   }
   /// Whether the joint slides, or slid before the load came to rest.
   bool is_at_limit(int joint) const { return slides_[joint] != JointState::stick; }
@@ -241,37 +251,33 @@ class Tracker {
   /// Slips, payouts and excess lengths at the end of the path followed.
   Moving moves() const {
     Moving moving = moved_;
-    if (map_is_old_) return moving;
+    if (!has_map_) return moving;
     Inputs x;
     values(now_, x);
-    for (int i = 0; i < map_.active(); ++i) {
-      const Move& move = map_.move(i);
-      const Real at = map_.active_move(i, x);
-      if (move.kind == Move::Kind::slip) moving.slip[move.index] = at;
-      if (move.kind == Move::Kind::payout)
-        moving.payout[move.index / 2][static_cast<std::size_t>(move.index % 2)] = at;
-      if (move.kind == Move::Kind::excess) moving.excess[move.index] = at;
-    }
+    for (int i = 0; i < map_.active(); ++i) moving.of(map_.move(i)) = map_.active_move(i, x);
     for (const JackedEnd& jack : jacks_)
       if (goal_.jack[jack.cable][jack.end].locked)
         moving.payout[jack.cable][jack.end] = now_.jack[jack.cable][jack.end].payout;
     return moving;
   }
   /// Elongations that the moves impose on the segments [m], for CondensedRows.
-  Tensions elongations() const {
+  Tensions elongations() const { return elongations_by(moves()); }
+  /// The same of derivatives of the moves.
+  template <class Moved>
+  Tensions elongations_by(const Moved& moved) const {
     Tensions e;
     e.fill(Real(0));
-    impose(moves(), e);
+    impose(moved, e);
     return e;
   }
   const CondensedType& model() const { return *model_; }
   /// The loads and jack forces reached.
   const Loads& loads() const { return now_; }
-  const Runs<Scalar, Cap>& runs() const { return runs_; }
-  bool is_slack(const Run<Scalar>& run) const { return is_slack(run.segment(0)); }
+  const Runs<Cap>& runs() const { return runs_; }
+  bool is_slack(const Run& run) const { return is_slack(run.segment(0)); }
   /// What the joint did on the last piece of the path, apart from slack.
   JointState motion(int joint) const {
-    for (int i = 0; !map_is_old_ && i < map_.active(); ++i) {
+    for (int i = 0; has_map_ && i < map_.active(); ++i) {
       if (map_.move(i).kind != Move::Kind::slip || map_.move(i).index != joint) continue;
       const Real rate = map_.move_rate(i, last_);
       if (rate == 0 || slides_[joint] != JointState::stick)
@@ -291,6 +297,7 @@ class Tracker {
   void respond(Response<Scalar, Cap>& response, const CondensedStruts<Scalar, Cap>* struts = nullptr) const {
     const Moving moved = moves();
     for (int i = 0; i < model_->segments; ++i) response.tension[i] = tension(i);
+    model_->resolve_joints(response);
     for (int c = 0; c < model_->cables.size(); ++c) {
       for (std::size_t end = 0; end < 2; ++end)
         response.payout[c][end] = static_cast<Scalar>(moved.payout[c][end]);
@@ -298,18 +305,12 @@ class Tracker {
       for (int k = 0; k < cable.joints(); ++k) {
         const int j = cable.first_joint + k;
         const auto sides = cable.joint_segments(k);
-        const Scalar T1 = tension(sides[0]), T2 = tension(sides[1]);
         response.slip[j] = static_cast<Scalar>(moved.slip[j]);
-        response.contact[j] = (T1 + T2) * model_->cos_alpha[j];
-        response.friction[j] = (T2 - T1) * model_->sin_alpha[j];
         response.state[j] = is_slack(sides[0]) && is_slack(sides[1]) ? JointState::open : motion(j);
       }
     }
     if (struts == nullptr) return;
-    Tensions e;
-    e.fill(Real(0));
-    impose(moved, e);
-    struts->evaluate(*model_, now_, e, response.strut);
+    struts->evaluate(*model_, now_, elongations_by(moved), response.strut);
   }
 
  private:
@@ -330,21 +331,18 @@ class Tracker {
     int cable = 0;
     std::size_t end = 0;
     // For samples without an event.
-    int input = -1;       ///< its force in the map, if it is one
+    int input = 0;        ///< its force in the map, or -1
     bool locked = false;  ///< as in the goal
   };
 
-  struct RunLimit {
-    int segment;
-    Scalar spare;  ///< least tension
-  };
   /// How rounding is allowed for when the states are decided.
   struct Doubt {
-    Real width = 1;            ///< times the tolerance
-    bool nearer_only = false;  ///< a joint under tension is at the nearer of its limits alone
-    bool may_rest = true;      ///< see find_resting()
-    int attempts = 3;          ///< to find what slides
+    Real width;        ///< times the tolerance
+    bool nearer_only;  ///< a joint under tension is at the nearer of its limits alone
+    bool may_rest;     ///< see find_resting()
+    int attempts;      ///< to find what slides
   };
+  static constexpr Doubt no_doubt{1, false, true, 3};
   static constexpr Doubt doubts[] = {{1, false, false, 3}, {1, true, true, 3},    {16, false, true, 3},
                                      {16, true, true, 3},  {256, false, true, 3}, {256, true, true, 3},
                                      {1, false, true, 64}};
@@ -364,11 +362,12 @@ class Tracker {
   /// Of an unlocked jack's force in the present map, or -1.
   int input_of(int cable, std::size_t end) const {
     for (const JackedEnd& jack : jacks_)
-      if (jack.cable == cable && jack.end == end && !map_is_old_) return jack.input;
+      if (jack.cable == cable && jack.end == end && has_map_) return jack.input;
     return -1;
   }
 
-  Progress<Scalar> approach(const Sample<Scalar, Cap>& sample, int event_budget) {
+  /// Not in one frame with the samples that need no more than goes_along().
+  [[gnu::noinline]] Progress<Scalar> approach(const Sample<Scalar, Cap>& sample, int event_budget) {
     if (quick(sample)) return {};
     const Status usable = check_sample(model_->cables, model_->loads, sample);
     if (!usable) return {usable, Scalar(0), 0};
@@ -380,7 +379,7 @@ class Tracker {
       if (has_load_[i] || goal_.factor[i] == now_.factor[i]) continue;
       find_forces();
       freeze();
-      map_is_old_ = true;
+      has_map_ = false;
     }
     return follow(event_budget);
   }
@@ -390,7 +389,7 @@ class Tracker {
   /// Goes to the sample if no state changes on the way; both ends of the straight path within the limits is
   /// enough. Otherwise nothing is changed.
   bool quick(const Sample<Scalar, Cap>& sample) {
-    if (map_is_old_ || !arrived_ || has_spare_) return false;
+    if (!has_map_ || !arrived_ || has_spare_) return false;
     Given x;
     if (!read(sample, x)) return false;
     bool keeps = true, regroups = false, moves = false;
@@ -418,8 +417,7 @@ class Tracker {
     for (int k = 0; k < map_.inputs(); ++k) {
       last_[k] = static_cast<Real>(x[k] - at_[k]);
       if (x[k] == at_[k]) continue;
-      set_value(map_.input(k), static_cast<Real>(x[k]), now_);
-      at_[k] = x[k];
+      go_to(k, x[k]);
     }
     return true;
   }
@@ -436,22 +434,30 @@ class Tracker {
         return false;
     }
     for (int i = 0; i < model_->loads; ++i) {
-      if (load_input_[i] == k)
-        x = sample.factor[i];
-      else if (sample.factor[i] != (load_input_[i] < 0 ? factor_[i] : at_[load_input_[i]]))
-        return false;
+      if (sample.factor[i] == factor_[i]) continue;
+      if (load_input_[i] != k) return false;
+      x = sample.factor[i];
     }
     const Scalar step = x - at_[k];
     if (step != 0) {
       const Scalar dx = x - anchor_[k];
       if (!(dx >= range_[0] && dx <= range_[1]) || !map_.keeps(k, step > 0)) return false;
       const Rounded& column = map_.rounded_column(k);
-      for (int i = 0; i < model_->segments; ++i) tension_[i] = constant_[i] + dx * column[i];
-      set_value(map_.input(k), static_cast<Real>(x), now_);
-      at_[k] = x;
+      // So few are done sooner than counted.
+      const int n = Cap::segments <= 16 ? Cap::segments : model_->segments;
+      for (int i = 0; i < n; ++i) tension_[i] = constant_[i] + dx * column[i];
+      go_to(k, x);
     }
     last_[k] = static_cast<Real>(step);
     return true;
+  }
+  void go_to(int k, Scalar x) {
+    const Input& input = map_.input(k);
+    at_[k] = x;
+    if (input.kind == Input::Kind::load)
+      now_.factor[input.index] = static_cast<Real>(factor_[input.index] = x);
+    if (input.kind == Input::Kind::jack_force)
+      now_.jack[input.index / 2][static_cast<std::size_t>(input.index % 2)].force = static_cast<Real>(x);
   }
   /// What a sample says of the map's inputs; false if it changes anything else.
   bool read(const Sample<Scalar, Cap>& sample, Given& x) const {
@@ -514,7 +520,10 @@ class Tracker {
                column[small] - rho_[j] * column[big]);
       }
     }
-    for (const RunLimit& run : run_limits_) narrow(constant_[run.segment] - run.spare, column[run.segment]);
+    for (int r = 0; r < runs_.size(); ++r) {
+      const int segment = runs_[r].segment(0);
+      narrow(constant_[segment] - least_tension(r), column[segment]);
+    }
   }
   /// To where room + dx slope >= 0.
   void narrow(Scalar room, Scalar slope) {
@@ -523,7 +532,7 @@ class Tracker {
     if (!(slope > 0) && !(slope < 0) && !(room >= 0)) range_ = {1, -1};
   }
   void sum_up_constant() {
-    constant_ = map_.rounded_base();
+    for (int i = 0; i < model_->segments; ++i) constant_[i] = map_.rounded_base(i);
     add_inputs(false, at_, constant_);
   }
   /// Of those that change, or of the others.
@@ -542,8 +551,8 @@ class Tracker {
       for (const auto& cable : model_->cables)
         if (!are_joints_within(cable, T)) return false;
     }
-    for (const RunLimit& run : run_limits_)
-      if (!(T[run.segment] >= run.spare)) return false;
+    for (int r = 0; r < runs_.size(); ++r)
+      if (!(T[runs_[r].segment(0)] >= least_tension(r))) return false;
     return true;
   }
   bool are_joints_within(const CableLayout<Scalar>& cable, const Rounded& T) const {
@@ -562,14 +571,14 @@ class Tracker {
     }
     return bits >= 0;
   }
+  Scalar least_tension(int run) const { return may_be_zero_[run] ? -margin_ : margin_; }
   void set_limits() {
-    const Scalar part = quick_tolerance * static_cast<Scalar>(peak_);
+    margin_ = quick_tolerance * static_cast<Scalar>(peak_);
     for (int j = 0; j < joints(); ++j)
-      spare_[j] = slides_[j] == JointState::stick && can_slide(j) ? part : -part;
-    run_limits_.clear();
+      spare_[j] = slides_[j] == JointState::stick && can_slide(j) ? margin_ : -margin_;
     has_resting_ = false;
     for (int r = 0; r < runs_.size(); ++r) {
-      run_limits_.add({runs_[r].segment(0), slack_[r] || is_jacked(runs_[r]) ? -part : part});
+      may_be_zero_[r] = slack_[r] || is_jacked(runs_[r]);
       has_resting_ = has_resting_ || rests_[r];
     }
   }
@@ -596,12 +605,12 @@ class Tracker {
     // A jack that takes hold of a slack run draws it straight; its payout follows from its force.
     for (int r = 0; r < runs_.size(); ++r)
       if (slack_[r] && is_jacked(runs_[r])) draw_straight(r);
-    map_is_old_ = true;
+    has_map_ = false;
   }
 
   /// Takes the moves where they are, to make another map from.
   void freeze() {
-    if (map_is_old_) return;
+    if (!has_map_) return;
     if constexpr (is_adjustable) {
       Inputs x;
       values(now_, x);
@@ -637,7 +646,7 @@ class Tracker {
   }
   /// What a slack run has too much goes out through the jack: over every joint, if that is at its far end.
   void draw_straight(int r) {
-    const Run<Scalar>& run = runs_[r];
+    const Run& run = runs_[r];
     const auto& cable = model_->cables[run.cable];
     const bool at_start = run.segment(0) == cable.end_segment(0) && cable.ends[0] == End::jacked &&
                           !goal_.jack[run.cable][0].locked;
@@ -656,23 +665,17 @@ class Tracker {
     const auto& jack = loads.jack[input.index / 2][static_cast<std::size_t>(input.index % 2)];
     return input.kind == Input::Kind::jack_force ? jack.force : jack.payout;
   }
-  /// Of a load or a jack force.
-  static void set_value(const Input& input, Real value, Loads& loads) {
-    if (input.kind == Input::Kind::load) loads.factor[input.index] = value;
-    if (input.kind == Input::Kind::jack_force)
-      loads.jack[input.index / 2][static_cast<std::size_t>(input.index % 2)].force = value;
-  }
   void values(const Loads& loads, Inputs& x) const {
     for (int k = 0; k < map_.inputs(); ++k) x[k] = value(map_.input(k), loads);
   }
 
   /// A run that ends in an unlocked jack cannot go slack: the jack draws it straight.
-  bool is_jacked(const Run<Scalar>& run) const {
+  bool is_jacked(const Run& run) const {
     for (const JackedEnd& jack : jacks_)
       if (pulls(jack, run)) return true;
     return false;
   }
-  bool pulls(const JackedEnd& jack, const Run<Scalar>& run) const {
+  bool pulls(const JackedEnd& jack, const Run& run) const {
     if (jack.cable != run.cable || goal_.jack[jack.cable][jack.end].locked) return false;
     const int segment = model_->cables[jack.cable].end_segment(jack.end);
     return segment == run.segment(0) || segment == run.segment(run.count - 1);
@@ -717,8 +720,9 @@ class Tracker {
     for (int i = 0; i < map_.active(); ++i) moves[i] = moved_.of(map_.move(i));
     Inputs x;
     values(now_, x);
-    const int loose = map_.make(totals(), moves, x, [this](const auto& settle) { differentiate(settle); });
-    map_is_old_ = loose >= 0;
+    const int loose =
+        map_.make(laws_, totals(), moves, x, [this](const auto& settle) { differentiate(settle); });
+    has_map_ = loose < 0;
     built_ = now_;
     return loose;
   }
@@ -734,7 +738,8 @@ class Tracker {
     const auto& start = now_.jack[c][end];
     const auto& goal = goal_.jack[c][end];
     if (!goal.locked && !is_spare(c, end)) {
-      map_.add({Map::payout_move(*model_, index), Law<Real>::on(model_->cables[c].end_segment(end)), 0});
+      map_.add({Map::payout_move(*model_, index),
+                static_cast<std::int16_t>(model_->cables[c].end_segment(end)), 0});
       map_.add_input(Input::Kind::jack_force, index);
     }
     if (goal.locked && start.payout != goal.payout) map_.add_input(Input::Kind::payout, index);
@@ -742,24 +747,24 @@ class Tracker {
   /// Its tensions are zero; its slips and its excess length follow. A ring keeps the slip of one joint: it
   /// may turn freely.
   void add_slack_run(int r) {
-    const Run<Scalar>& run = runs_[r];
+    const Run& run = runs_[r];
     for (int i = 0; i < run.count; ++i) {
       const bool last = i == run.count - 1;
       map_.add({last ? Move::of(Move::Kind::excess, r, run.segment(0)) : laws_.slip(run.joint(i)),
-                Law<Real>::on(run.segment(i)), 0});
+                static_cast<std::int16_t>(run.segment(i)), 0});
     }
   }
   /// Its jacks keep the end segments at zero, its slips all others. Between two jacks the cable may move as a
   /// whole; one joint keeps its place.
   void add_resting_run(int r) {
-    const Run<Scalar>& run = runs_[r];
+    const Run& run = runs_[r];
     bool at_start = false, at_end = false;
     for (const JackedEnd& jack : jacks_) {
       at_start = at_start || (pulls(jack, run) && jack.end == 0);
       at_end = at_end || (pulls(jack, run) && jack.end == 1);
     }
     for (int i = at_start && at_end ? 1 : 0; i < run.joints(); ++i)
-      map_.add({laws_.slip(run.joint(i)), Law<Real>::on(run.segment(at_end ? i : i + 1)), 0});
+      map_.add({laws_.slip(run.joint(i)), static_cast<std::int16_t>(run.segment(at_end ? i : i + 1)), 0});
   }
   /// Tensions from the present loads and everything that has moved.
   Tensions totals() const {
@@ -775,10 +780,7 @@ class Tracker {
   /// Adds the tensions that moves make.
   template <class Moved>
   void carry(const Moved& moved, Tensions& T) const {
-    Tensions e;
-    e.fill(Real(0));
-    impose(moved, e);
-    model_->coupling.add(model_->segments, e, T);
+    model_->coupling.add(model_->segments, elongations_by(moved), T);
   }
   template <class Moved>
   void impose(const Moved& moved, Tensions& e) const {
@@ -815,7 +817,7 @@ class Tracker {
       map_.tensions(x, force_);
       for (int i = 0; i < model_->segments; ++i) peak_ = larger(peak_, std::fabs(force_[i]));
       last_ = dx;
-      if (map_.law_violation(force_, x) > Real(8) * force_tolerance())
+      if (map_.law_violation(laws_, force_, x) > Real(8) * force_tolerance())
         progress.status = Status::at(Code::ill_conditioned, Place::none, -1);
       if (!progress.status || done) break;
       stalled = step > 0 ? 0 : stalled + 1;
@@ -861,7 +863,7 @@ class Tracker {
     }
   }
   void find_forces() {
-    if (map_is_old_) return;
+    if (!has_map_) return;
     Inputs x;
     values(now_, x);
     map_.tensions(x, force_);
@@ -978,7 +980,7 @@ class Tracker {
   /// Near zero and near two limits at once rounding has a say: if there is no answer, again with more, or
   /// less, taken for equal.
   Status decide_for_sure(const Candidate& next) {
-    doubt_ = {};
+    doubt_ = no_doubt;
     find_resting();
     const Status status = decide(next);
     if (status) return status;
@@ -1003,12 +1005,12 @@ class Tracker {
       if (rests == rests_[r]) continue;
       freeze();
       rests_[r] = rests;
-      map_is_old_ = true;
+      has_map_ = false;
       for (int i = 0; rests && i < runs_[r].joints(); ++i) slides_[runs_[r].joint(i)] = JointState::stick;
     }
   }
   /// What all joints of a run together hold against a force that is rounding.
-  Real left_behind(const Run<Scalar>& run) const {
+  Real left_behind(const Run& run) const {
     Real carried = 1;
     for (int i = 0; i < run.joints(); ++i) carried *= laws_.rho(run.joint(i));
     const Real most = doubt_.width * doubt_.width * Real(1e-10) * peak_;
@@ -1032,7 +1034,7 @@ class Tracker {
     Status status;
     for (int count = 0; count < tries; ++count) {
       for (int i = 0; few && i < asked.size(); ++i) slack_[asked[i]] = (count >> i & 1) == 0;
-      map_is_old_ = true;
+      has_map_ = false;
       status = decide_slides(next);
       bool agrees = status.ok();
       for (const int r : asked) {
@@ -1045,11 +1047,11 @@ class Tracker {
         if (!slack_[r]) moved_.excess[r] = 0;
       return status;
     }
-    map_is_old_ = true;
-    return status ? at_joint(Code::state_iterations, runs_[asked[0]].joint(0)) : status;
+    has_map_ = false;
+    return status ? at_joint(Code::state_iterations, runs_[asked[0]].joint_near()) : status;
   }
   bool is_without_tension(int r) const {
-    const Run<Scalar>& run = runs_[r];
+    const Run& run = runs_[r];
     if (is_jacked(run)) return false;
     if (slack_[r]) return excess(r) * model_->coupling(run.segment(0), run.segment(0)) <= equal();
     const Real left = left_behind(run);
@@ -1058,7 +1060,7 @@ class Tracker {
     return true;
   }
   Real excess(int r) const {
-    if (map_is_old_) return moved_.excess[r];
+    if (!has_map_) return moved_.excess[r];
     Inputs x;
     values(now_, x);
     const int i = active_excess(r);
@@ -1095,7 +1097,7 @@ class Tracker {
     const States slid = slides_;
     const Candidates candidates = at_limit(slid);
     // Most often all goes on as it was, and the joint that reached its limit slides too.
-    if (!map_is_old_ && next.joint < 0 && is_consistent(candidates)) return Status::success();
+    if (has_map_ && next.joint < 0 && is_consistent(candidates)) return Status::success();
     freeze();
     if (next.joint >= 0) slides_[next.joint] = next.way;
     if (next.joint >= 0 && rebuild() < 0 && is_consistent(candidates)) return Status::success();
@@ -1103,7 +1105,7 @@ class Tracker {
     const Status status = solve_slides(candidates);
     if (!status) {
       slides_ = slid;
-      map_is_old_ = true;
+      has_map_ = false;
     }
     return status;
   }
@@ -1141,7 +1143,7 @@ class Tracker {
   /// Where a run without tension ends in one jack, the cable moves toward it.
   bool guess_toward_jacks() {
     bool any = false;
-    for (const Run<Scalar>& run : runs_) {
+    for (const Run& run : runs_) {
       const JackedEnd* puller = nullptr;
       int pullers = 0;
       for (const JackedEnd& jack : jacks_)
@@ -1167,16 +1169,20 @@ class Tracker {
     Tensions rate;
     map_.tension_rates(dx, rate);
     const auto others = map_.actives();
-    Rates rates;
-    for (int attempt = 0; attempt < doubt_.attempts; ++attempt) {
-      const auto outcome = rates.solve(*model_, laws_, others, candidates, rate, rate_tolerance(), attempt);
-      if (outcome != Rates::Outcome::solved) continue;
-      slides_.fill(JointState::stick);
-      for (int i = 0; i < rates.size(); ++i) slides_[candidates[rates[i]].joint] = candidates[rates[i]].way;
-      if (rebuild() < 0) return Status::success();
-    }
+    for (int attempt = 0; attempt < doubt_.attempts; ++attempt)
+      if (find_slides(others, candidates, rate, attempt) && rebuild() < 0) return Status::success();
     if (change_minds(candidates)) return Status::success();
     return no_answer(laws_.slip(candidates[0].joint));
+  }
+  /// Sets slides_. Its frame is large and must be gone when the map is made.
+  [[gnu::noinline]] bool find_slides(const typename Rates::Actives& others, const Candidates& candidates,
+                                     const Tensions& rate, int attempt) {
+    Rates rates;
+    const auto outcome = rates.solve(*model_, laws_, others, candidates, rate, rate_tolerance(), attempt);
+    if (outcome != Rates::Outcome::solved) return false;
+    slides_.fill(JointState::stick);
+    for (int i = 0; i < rates.size(); ++i) slides_[candidates[rates[i]].joint] = candidates[rates[i]].way;
+    return true;
   }
   /// Beginning with all that slides toward the jacks, the first joint that disagrees changes its state, until
   /// none does: seldom needed, and now and then sure where Lemke's method is not.
@@ -1236,9 +1242,9 @@ class Tracker {
 
   const CondensedType* model_ = nullptr;
   std::conditional_t<(Parameters > 0), Derivatives, Nothing> derivatives_;
-  Runs<Scalar, Cap> runs_;
+  Runs<Cap> runs_;
   Laws laws_;
-  FixedList<JackedEnd, 2 * Cap::cables> jacks_;
+  FixedList<JackedEnd, max_jacks<Cap>> jacks_;
 
   Loads now_, goal_;
   Loads built_;                            // where the map was made
@@ -1248,8 +1254,8 @@ class Tracker {
   FixedArray<bool, Cap::segments> rests_;  // of runs: without tension since its jacks are at zero
   Map map_;
   FixedArray<bool, Cap::loads> has_load_;  // as an input
-  bool map_is_old_ = true;
-  Doubt doubt_;
+  bool has_map_ = false;
+  Doubt doubt_{};
   Tensions force_;  // where the last event, or the last call with events, ended
   Inputs last_;     // direction of the inputs on the last piece
   Real peak_ = 0;
@@ -1257,11 +1263,12 @@ class Tracker {
 
   // For samples without an event.
   Rounded tension_;
-  FixedArray<Scalar, Cap::loads> factor_;  // of the loads that the map has as constants
+  FixedArray<Scalar, Cap::loads> factor_;  // the loads reached
   FixedArray<Scalar, Cap::joints> rho_;
-  Rounded constant_;                       // the map's base and all inputs that do not change
-  FixedArray<Scalar, Cap::joints> spare_;  // least T_small - rho T_big of every joint
-  FixedList<RunLimit, Cap::segments> run_limits_;
+  Rounded constant_;                             // the map's base and all inputs that do not change
+  FixedArray<Scalar, Cap::joints> spare_;        // least T_small - rho T_big of every joint
+  FixedArray<bool, Cap::segments> may_be_zero_;  // of runs
+  Scalar margin_ = 0;                            // what is to be spared where nothing is at its limit
   Given at_, anchor_;
   Given reach_;  // so large forces are still of the order of peak_
   Given least_;  // a jack does not push, and takes a resting run along only in an event
@@ -1269,7 +1276,7 @@ class Tracker {
   FixedArray<bool, Map::max_inputs> live_;  // inputs that do
   // Of the only live input, from its anchor: within all limits.
   std::array<Scalar, 2> range_{};
-  int only_ = -1;
+  int only_ = 0;
   bool has_range_ = false;
   bool arrived_ = false;
   bool has_spare_ = false;
