@@ -3,8 +3,9 @@
 //     speed_against_error [--figure FILE.svg] [Google Benchmark's options]
 //
 // Two logs of 1000 samples: a ramp to the full jack force and a hold; and ramp, hold, release to a third,
-// hold, ramp. The error is the largest deviation of a tension from the independent long double reference,
-// relative to the jack force. Prints a table at the end, and draws the figure of the README.
+// hold, ramp. A third one, the upper half of a ramp, is for samples without an event alone. The error is the
+// largest deviation of a tension from the independent long double reference, relative to the jack force.
+// Prints a table at the end, and draws the figure of the README.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -75,6 +76,12 @@ const Log& cycle() {
   return log;
 }
 
+/// All joints slide throughout.
+const Log& upper_half() {
+  static const Log log{"upper half of a ramp", log_through({0.5, 1})};
+  return log;
+}
+
 template <class Scalar, class Cap>
 taut::Sample<Scalar, Cap> jacked(double force) {
   taut::Sample<Scalar, Cap> sample;
@@ -125,10 +132,26 @@ class Tracking {
   Scalar tension(int segment) const { return tracker_.tension(segment); }
   bool good() const { return good_; }
 
- private:
+ protected:
   taut::Condensed<Scalar, Cap> condensed_;
   taut::Tracker<taut::Condensed<Scalar, Cap>> tracker_;
   bool good_ = true;
+};
+
+/// The tracker from where it has been pulled to half of the full force: what follows on the way up is without
+/// an event.
+template <class Scalar, class Cap>
+class TrackingOn : public Tracking<Scalar, Cap> {
+ public:
+  TrackingOn(const Scene<Cap>& scene, int) : Tracking<Scalar, Cap>(scene, 0) {
+    Tracking<Scalar, Cap>::restart();
+    for (const double part : {0.4, 0.45, 0.5}) this->advance(jacked<Scalar, Cap>(part * full_force));
+    half_ = this->tracker_;
+  }
+  void restart() { this->tracker_ = half_; }
+
+ private:
+  taut::Tracker<taut::Condensed<Scalar, Cap>> half_;
 };
 
 constexpr double noise = 0.005 * full_force;
@@ -309,29 +332,31 @@ void run(benchmark::State& state, const Scene<typename Method::Cap>& scene, cons
   if (has_error) state.counters["error"] = error;
 }
 
+template <class Method>
+benchmark::internal::Benchmark* add(const Scene<typename Method::Cap>& scene, const std::string& name,
+                                    const Log& log, const std::string& method, bool has_error,
+                                    int substeps = 0) {
+  const char* const scalar = sizeof(typename Method::Scalar) == sizeof(float) ? "float" : "double";
+  return benchmark::RegisterBenchmark((name + "/" + log.name + "/" + scalar + "/" + method).c_str(),
+                                      [&scene, &log, has_error, substeps](benchmark::State& state) {
+                                        run<Method>(state, scene, log, substeps, has_error);
+                                      });
+}
+
 template <class Scalar, class Cap>
 void register_methods(const Scene<Cap>& scene, const std::string& name, const Log& log) {
-  const std::string head =
-      name + "/" + log.name + "/" + (sizeof(Scalar) == sizeof(float) ? "float" : "double");
-  benchmark::RegisterBenchmark((head + "/bare map").c_str(), [&](benchmark::State& state) {
-    run<BareMap<Scalar, Cap>>(state, scene, log, 0, false);
-  });
-  benchmark::RegisterBenchmark((head + "/tracker").c_str(), [&](benchmark::State& state) {
-    run<Tracking<Scalar, Cap>>(state, scene, log, 0, true);
-  });
-  benchmark::RegisterBenchmark((head + "/tracker on raw readings").c_str(), [&](benchmark::State& state) {
-    run<TrackingReadings<Scalar, Cap>>(state, scene, log, 0, false);
-  });
-  benchmark::RegisterBenchmark((head + "/estimator").c_str(), [&](benchmark::State& state) {
-    run<Estimating<Scalar, Cap>>(state, scene, log, 0, false);
-  });
-  for (const int substeps : {1, 4, 16, 64, 256}) {
-    benchmark::RegisterBenchmark((head + "/stepwise " + std::to_string(substeps)).c_str(),
-                                 [&scene, &log, substeps](benchmark::State& state) {
-                                   run<Stepping<Scalar, Cap>>(state, scene, log, substeps, true);
-                                 })
+  add<BareMap<Scalar, Cap>>(scene, name, log, "bare map", false);
+  add<Tracking<Scalar, Cap>>(scene, name, log, "tracker", true);
+  add<TrackingReadings<Scalar, Cap>>(scene, name, log, "tracker on raw readings", false);
+  add<Estimating<Scalar, Cap>>(scene, name, log, "estimator", false);
+  for (const int substeps : {1, 4, 16, 64, 256})
+    add<Stepping<Scalar, Cap>>(scene, name, log, "stepwise " + std::to_string(substeps), true, substeps)
         ->Iterations(1);
-  }
+}
+template <class Scalar, class Cap>
+void register_samples_without_event(const Scene<Cap>& scene, const std::string& name) {
+  add<BareMap<Scalar, Cap>>(scene, name, upper_half(), "bare map", false);
+  add<TrackingOn<Scalar, Cap>>(scene, name, upper_half(), "tracker", true);
 }
 
 template <class Cap>
@@ -342,6 +367,8 @@ void register_scene(const std::string& name) {
     register_methods<double>(scene, name, *log);
     register_methods<float>(scene, name, *log);
   }
+  register_samples_without_event<double>(scene, name);
+  register_samples_without_event<float>(scene, name);
 }
 
 /// Prints as usual, and keeps what the table and the figure need.
