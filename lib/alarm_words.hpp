@@ -10,13 +10,16 @@
 namespace taut::host {
 
 /// `outlier:C.end`, `sensor:C.start`, `mu:C`, `mu:C.3`, `stuck:C.3`, `elongation:C.end`, `force-high:C.T3`,
-/// `force-low:C.T3` or `no-information:C.start`; joints and segments are counted from 1, blanks in a name are
-/// `_`.
+/// `force-low:C.T3`, `no-information:C.start`, `gauge:strut3` or `lift-off:C.end`; joints, segments and
+/// struts are counted from 1, blanks in a name are `_`.
 inline std::string alarm_word(const Alarm& alarm, const SceneDescription& scene) {
-  std::string cable = scene.cables[static_cast<std::size_t>(alarm.cable)].name;
-  std::replace(cable.begin(), cable.end(), ' ', '_');
-  const std::string end = cable + "." + end_name(static_cast<std::size_t>(alarm.place == 0 ? 0 : 1));
   const std::string number = std::to_string(alarm.place + 1);
+  const bool is_at_strut = alarm.cable < 0;
+  std::string cable = is_at_strut ? "" : scene.cables[static_cast<std::size_t>(alarm.cable)].name;
+  std::replace(cable.begin(), cable.end(), ' ', '_');
+  const std::string end = is_at_strut
+                              ? "strut" + number
+                              : cable + "." + end_name(static_cast<std::size_t>(alarm.place == 0 ? 0 : 1));
   switch (alarm.kind) {
     case Alarm::Kind::outlier:
       return "outlier:" + end;
@@ -34,6 +37,10 @@ inline std::string alarm_word(const Alarm& alarm, const SceneDescription& scene)
       return "force-low:" + cable + ".T" + number;
     case Alarm::Kind::no_information:
       return "no-information:" + end;
+    case Alarm::Kind::strut:
+      return "gauge:" + end;
+    case Alarm::Kind::lift_off:
+      return "lift-off:" + end;
   }
   return "";
 }

@@ -91,7 +91,7 @@ class AnswerReader {
     std::vector<taut::Alarm> found;
     while (at_ < values_.size()) {
       found.push_back(monitor::alarm_of(monitor::host::number_of(next())));
-      if (static_cast<std::size_t>(found.back().cable) >= scene.cables.size())
+      if (found.back().cable >= static_cast<int>(scene.cables.size()))
         throw std::runtime_error("the device names a cable that the scene does not have");
     }
     return found;

@@ -240,10 +240,14 @@ class Session {
     const bool same = bits_of(given.force) == bits_of(cell.last);
     cell.same = same && !cell.locked ? (cell.same < 0xFFFFFFFF ? cell.same + 1 : cell.same) : 1;
     cell.last = given.force;
-    // While the wedge holds, the jack may be anywhere.
-    if (cell.locked) return true;
     given.force -= cell.zero;
-    if (!(given.force >= limits.least && given.force <= limits.most)) return false;
+    const bool in_range = given.force >= limits.least && given.force <= limits.most;
+    // While the wedge holds, the jack may be anywhere.
+    if (cell.locked) {
+      given.has_force = in_range;
+      return true;
+    }
+    if (!in_range) return false;
     // A cell at rest may well say the same all day.
     if (limits.frozen_after > 0 && given.force > 0 && cell.same >= limits.frozen_after)
       alarms.raise(Alarm::sensor_frozen);

@@ -1,6 +1,7 @@
 // Readings with noise: what is not read, time steps, the far end's cell, and what the estimator finds odd.
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "rig.hpp"
 
@@ -164,11 +165,51 @@ TEST_CASE("what the estimator finds odd is in the answer, by cable and place") {
   CHECK(findings(answer).empty());
 }
 
+TEST_CASE("a jack that is put back on a locked end is told when its wedge is free") {
+  Noisy heard, deaf;
+  Noise noise;
+  std::uint32_t number = 0;
+  const std::string jack = number_field(0) + " " + number_field(1);
+  // The zero of the jack's cell counts while the end is locked, too.
+  constexpr double zero = 900;
+  for (Noisy* each : {&heard, &deaf}) {
+    each->ask(sample_of(1, {none, static_cast<float>(zero), none}));
+    CHECK(each->ask("Z " + jack) == Fields{"K", "Z"});
+  }
+  ++number;
+  const auto both = [&](double force, bool locked) {
+    const float reading = noise(force + zero, 400);
+    const Fields answer = heard.ask(sample_of(++number, {none, reading, none}));
+    const Fields other = deaf.ask(sample_of(number, {none, locked ? none : Reading(reading), none}));
+    CHECK_FALSE(alarms(answer).has(Alarm::sensor_range));
+    const bool is_free = finds(answer, taut::Alarm::Kind::lift_off);
+    // Nothing but what is odd comes after the numbers.
+    CHECK(Fields(answer.begin() + 10, answer.begin() + 28) == Fields(other.begin() + 10, other.begin() + 28));
+    return std::make_pair(is_free, tension(answer, 2));
+  };
+  for (int row = 1; row <= 30; ++row) CHECK_FALSE(both(4000 * row, false).first);
+  for (Noisy* each : {&heard, &deaf}) CHECK(each->ask("L " + jack) == Fields{"K", "L"});
+  for (int row = 0; row < 20; ++row) CHECK_FALSE(both(0, true).first);
+  double free = 0;
+  float held = 0;
+  for (int row = 1; row <= 40 && free == 0; ++row) {
+    const auto [is_free, tension] = both(4000 * row, true);
+    if (is_free) free = 4000 * row;
+    held = tension;
+    // In between, the power fails.
+    if (row == 10) heard.boot();
+  }
+  CHECK(held < 120000);
+  CHECK(free > static_cast<double>(held) - 4000);
+  CHECK(free < static_cast<double>(held) + 8000);
+}
+
 TEST_CASE("an alarm keeps its kind, cable and place in a code") {
   using taut::Alarm;
   for (const Alarm& alarm :
-       {Alarm::of(Alarm::Kind::outlier, 0, 0), Alarm::of(Alarm::Kind::mu_band, 255, -1),
-        Alarm::of(Alarm::Kind::no_information, 3, 127), Alarm::of(Alarm::Kind::force_low, 63, 32767)}) {
+       {Alarm::of(Alarm::Kind::outlier, 0, 0), Alarm::of(Alarm::Kind::mu_band, 254, -1),
+        Alarm::of(Alarm::Kind::no_information, 3, 127), Alarm::of(Alarm::Kind::force_low, 63, 32767),
+        Alarm::of(Alarm::Kind::strut, -1, 2000), Alarm::of(Alarm::Kind::lift_off, 254, 1)}) {
     const Alarm back = monitor::alarm_of(monitor::code_of(alarm));
     CHECK(back.kind == alarm.kind);
     CHECK(back.cable == alarm.cable);

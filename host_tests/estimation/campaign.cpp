@@ -3,7 +3,10 @@
 //     estimation_campaign [--count N] [--one SEED]
 //
 // Prints how many of the 95 % intervals of the segment forces hold the truth, segment by segment, with and
-// without a load cell at the anchored end, in float and double; fails unless it is 93 to 97 % everywhere.
+// without a load cell at the anchored end, in float and double; fails unless it is 93 to 97 % everywhere. And
+// with what has no column in a log: a strain gauge on a strut of a truss string, the stroke of the jack of
+// rigid saddles. The better mu is known, the more it shows that the load is not at once known where a ramp
+// ends: here 93 to 97 % are asked of all segments together.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -59,8 +62,11 @@ std::vector<Row> random_log(Random& random) {
   return rows;
 }
 
+/// What is read besides the jack.
+enum class Reads { nothing, far_end, gauge_or_stroke, everything };
+
 template <class Scalar>
-void run(std::uint64_t seed, bool has_cell, Tally& tally) {
+void run(std::uint64_t seed, Reads reads, Tally& tally) {
   Random random(seed);
   static Ground ground;
   taut::Cable<double> cable = support::steel_cable(random.between(0.08, 0.3));
@@ -70,7 +76,8 @@ void run(std::uint64_t seed, bool has_cell, Tally& tally) {
   cable.seating = random.coin() ? 0.004 : 0;
   cable.law = random.coin() ? taut::FrictionLaw::point : taut::FrictionLaw::capstan;
   const int segments = 3 + random.below(5);
-  if (random.coin())
+  const bool is_elastic = random.coin();
+  if (is_elastic)
     support::truss_string(ground.known, cable, segments > 6 ? 6 : segments);
   else
     support::rigid_saddles(ground.known, cable, support::chain_points(segments));
@@ -80,11 +87,17 @@ void run(std::uint64_t seed, bool has_cell, Tally& tally) {
     each = std::fmax(0, cable.shared_mu ? shared : cable.mu + spread * gaussian(random));
   ground.set_true_mu(mu);
   Instruments instruments;
-  instruments.has_cell = has_cell;
+  instruments.has_cell = reads == Reads::far_end || reads == Reads::everything;
   instruments.jack = random.between(0.001, 0.01);
   instruments.cell = random.between(0.002, 0.01);
   instruments.step = random.coin() ? random.between(0, 0.005) : 0;
   instruments.outliers = random.coin() ? 0.002 : 0;
+  if (reads == Reads::gauge_or_stroke || reads == Reads::everything) {
+    Random further(seed + 7);
+    if (is_elastic) instruments.strut = further.below(ground.known.struts.size());
+    instruments.gauge = further.between(0.001, 0.01);
+    if (!is_elastic || reads == Reads::everything) instruments.stroke = further.between(1e-4, 1e-3);
+  }
   const auto site = std::make_unique<Site<Scalar>>(ground, instruments, full, seed + 1);
   for (const Row& row : random_log(random)) {
     site->advance(row.force, row.locked);
@@ -110,18 +123,19 @@ void run(std::uint64_t seed, bool has_cell, Tally& tally) {
   }
 }
 
-bool report(const char* name, const Tally& tally) {
+bool report(const char* name, const Tally& tally, bool by_segment) {
   long held = 0, all = 0;
   for (std::size_t i = 0; i < tally.all.size(); ++i) {
     held += tally.held[i];
     all += tally.all[i];
   }
-  bool good = tally.failed == 0;
-  std::printf("| %s | %.1f |", name, 100.0 * static_cast<double>(held) / static_cast<double>(all));
+  const double whole = 100.0 * static_cast<double>(held) / static_cast<double>(all);
+  bool good = tally.failed == 0 && whole >= 93 && whole <= 97;
+  std::printf("| %s | %.1f |", name, whole);
   for (int i = 0; i < most_segments; ++i) {
     if (tally.all[static_cast<std::size_t>(i)] == 0) continue;
     std::printf(" %.1f", tally.part(i));
-    good = good && tally.part(i) >= 93 && tally.part(i) <= 97;
+    good = good && (!by_segment || (tally.part(i) >= 93 && tally.part(i) <= 97));
   }
   const auto ends = static_cast<double>(tally.ends);
   std::printf(" | %.2f | %.2f | %ld |\n", 100 * std::sqrt(tally.square / ends),
@@ -143,12 +157,14 @@ int main(int argc, char** argv) {
   }
   std::printf("seeds %llu to %llu\n", static_cast<unsigned long long>(first),
               static_cast<unsigned long long>(first + count - 1));
-  std::array<Tally, 4> tallies;
+  std::array<Tally, 6> tallies;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
-    run<double>(seed, true, tallies[0]);
-    run<double>(seed, false, tallies[1]);
-    run<float>(seed, true, tallies[2]);
-    run<float>(seed, false, tallies[3]);
+    run<double>(seed, Reads::far_end, tallies[0]);
+    run<double>(seed, Reads::nothing, tallies[1]);
+    run<float>(seed, Reads::far_end, tallies[2]);
+    run<float>(seed, Reads::nothing, tallies[3]);
+    run<double>(seed, Reads::gauge_or_stroke, tallies[4]);
+    run<float>(seed, Reads::everything, tallies[5]);
   }
   std::puts(
       "| instruments | truth in the 95 % interval [%] | from the jack inwards | error of inner forces at the "
@@ -156,9 +172,10 @@ int main(int argc, char** argv) {
       "rms [%] | with the nominal mu [%] | no answer |");
   std::puts("| --- | ---: | --- | ---: | ---: | ---: |");
   bool good = true;
-  const char* names[] = {"jack and far end, double", "jack alone, double", "jack and far end, float",
-                         "jack alone, float"};
-  for (std::size_t i = 0; i < tallies.size(); ++i) good = report(names[i], tallies[i]) && good;
+  const char* names[] = {"jack and far end, double",         "jack alone, double",
+                         "jack and far end, float",          "jack alone, float",
+                         "jack and gauge or stroke, double", "jack, far end, gauge and stroke, float"};
+  for (std::size_t i = 0; i < tallies.size(); ++i) good = report(names[i], tallies[i], i < 4) && good;
   if (count == 1) return EXIT_SUCCESS;
   std::puts(good ? "all between 93 and 97 %" : "NOT all between 93 and 97 %");
   return good ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -209,3 +209,38 @@ TEST_CASE("a stroke outside of its tolerance raises an alarm in its row") {
   CHECK(table.at(0, "alarms").empty());
   CHECK(table.at(1, "alarms") == "elongation:C.end");
 }
+
+TEST_CASE("the jack's reading at a locked end changes no number, and says when the wedge is free") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0.05)", both_cells));
+  // Up to 200 kN and locked; the jack goes away, and comes back by 4 kN a row.
+  const auto row = [](int i) { return i <= 100 ? 2000 * i : i <= 120 ? 0 : 4000 * (i - 120); };
+  std::string heard = "time,C.end,C.end.locked\n", deaf = heard;
+  for (int i = 1; i <= 180; ++i) {
+    const std::string time = std::to_string(i), locked = i > 100 ? ",1\n" : ",0\n";
+    const std::string force = std::to_string(row(i) + (i % 2 == 0 ? 300 : -300));
+    heard += time + ',' + force + locked;
+    deaf += time + ',' + (i > 100 ? "" : force) + locked;
+  }
+  write(scratch, "log.csv", heard);
+  const Outcome with = estimate(scratch, " --hex");
+  write(scratch, "log.csv", deaf);
+  const Outcome without = estimate(scratch, " --hex");
+  REQUIRE(with.status == 0);
+  REQUIRE(without.status == 0);
+  Table found(with.out), expected(without.out);
+  std::vector<std::size_t> free;
+  for (std::size_t i = 0; i < 180; ++i) {
+    if (!found.at(i, "alarms").empty()) {
+      CHECK(found.at(i, "alarms") == "lift-off:C.end");
+      free.push_back(i + 1);
+    }
+    CHECK(expected.at(i, "alarms").empty());
+    found.rows[i].back() = expected.rows[i].back();
+    CHECK(found.rows[i] == expected.rows[i]);
+  }
+  // The wedge holds 200 kN, which the jack reaches in row 170.
+  REQUIRE(free.size() == 1);
+  CHECK(free[0] >= 169);
+  CHECK(free[0] <= 171);
+}

@@ -2,8 +2,10 @@
 // and an estimator that knows neither.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -28,9 +30,12 @@ struct Instruments {
   double step = 0;                    ///< of the digits
   double outliers = 0;                ///< part of the jack's readings that are wrong altogether
   bool has_cell = true;               ///< at the anchored end
+  int strut = -1;                     ///< with a strain gauge; -1: none
+  double gauge = 0.005;               ///< standard deviation of its noise
+  double stroke = 0;  ///< standard deviation of strokes that are taken for measurements [m]; 0: none are
 };
 
-/// The scene as it is known and as it is. One cable, anchored at its start and jacked at its end.
+/// The scene as it is known and as it is. One cable, jacked at its end, anchored or jacked at its start.
 struct Ground {
   Plane known, actual;
 
@@ -38,6 +43,13 @@ struct Ground {
     actual = known;
     for (int j = 0; j < actual.mu.size(); ++j) actual.mu[j] = mu[static_cast<std::size_t>(j)];
   }
+};
+
+/// A row of the log: true forces of the jacks [N], their wedges, and the factor of the last load pattern.
+struct Deed {
+  std::array<double, 2> force{};
+  std::array<bool, 2> locked{};
+  double factor = 0;
 };
 
 /// Follows a jacking: the truth in double, the estimate in Scalar.
@@ -51,36 +63,47 @@ class Site {
   Site(const Ground& ground, const Instruments& instruments, double full, std::uint64_t seed)
       : full_(full), instruments_(instruments), random_(seed) {
     known_ = ground.known;
+    jacked_ = known_.cables[0].ends[0] == taut::End::jacked;
     auto& sd = known_.cables[0].sensor_sd;
-    sd[0] = with_digits(instruments.cell);
+    sd[0] = with_digits(jacked_ ? instruments.jack : instruments.cell);
     sd[1] = with_digits(instruments.jack);
     taut::find_knowledge(known_, knowledge_);
     const auto condensing = std::make_unique<taut::Condensation<Scalar, Plane>>();
     const auto condensing_truth = std::make_unique<taut::Condensation<double, Plane>>();
-    good_ = condensing->run(known_, model_).ok() && condensing_truth->run(known_, nominal_model_).ok() &&
-            condensing_truth->run(ground.actual, truth_model_).ok() &&
+    good_ = condensing->run(known_, model_, &rows_).ok() &&
+            condensing_truth->run(known_, nominal_model_).ok() &&
+            condensing_truth->run(ground.actual, truth_model_, &truth_rows_).ok() &&
             truth_.start(truth_model_).status.ok() && nominal_.start(nominal_model_).status.ok() &&
             estimator_.start(model_, knowledge_).status.ok();
   }
   Site(const Site&) = delete;
   Site& operator=(const Site&) = delete;
 
-  /// A row of the log: the true jack force, or the end is locked.
-  void advance(double force, bool locked = false) {
+  /// A row of the log: the true force of the jack at the end, and whether that is locked.
+  void advance(double force, bool locked = false) { advance(Deed{{0, force}, {false, locked}, 0}); }
+  void advance(const Deed& deed) {
     taut::Sample<double, PlaneCapacity> sample;
-    sample.jack[0][1] = {force, locked};
-    good_ = good_ && truth_.advance(sample).status.ok() && nominal_.advance(sample).status.ok();
     taut::Readings<Scalar, PlaneCapacity> readings;
-    readings.sample.jack[0][1].locked = locked;
-    jack_reading_ = read(force, instruments_.jack);
+    for (std::size_t end = 0; end < 2; ++end) {
+      sample.jack[0][end] = {deed.force[end], deed.locked[end]};
+      readings.sample.jack[0][end].locked = deed.locked[end];
+    }
+    if (known_.loads > 0) {
+      sample.factor[known_.loads - 1] = deed.factor;
+      readings.sample.factor[known_.loads - 1] = static_cast<Scalar>(deed.factor);
+    }
+    good_ = good_ && truth_.advance(sample).status.ok() && nominal_.advance(sample).status.ok();
+    jack_reading_ = read(deed.force[1], instruments_.jack);
     if (random_.between(0, 1) < instruments_.outliers) jack_reading_ += random_.between(-0.5, 0.5) * full_;
-    cell_reading_ = read(truth_.tension(0), instruments_.cell);
+    cell_reading_ =
+        jacked_ ? read(deed.force[0], instruments_.jack) : read(truth_.tension(0), instruments_.cell);
     auto& ends = readings.ends[0];
     ends[1].has_force = true;
     ends[1].force = static_cast<Scalar>(jack_reading_);
-    ends[0].has_force = instruments_.has_cell;
+    ends[0].has_force = jacked_ || instruments_.has_cell;
     ends[0].force = static_cast<Scalar>(cell_reading_);
     good_ = good_ && estimator_.advance(readings).status.ok();
+    if (good_) measure();
   }
 
   /// Puts another estimator in the place of the present one, from its saved state.
@@ -108,8 +131,27 @@ class Site {
   double jack_reading() const { return jack_reading_; }
   double cell_reading() const { return cell_reading_; }
   const Estimator& estimator() const { return estimator_; }
+  const Model& model() const { return model_; }
+  const taut::CondensedStruts<Scalar, PlaneCapacity>& rows() const { return rows_; }
+  double true_strut(int strut) const {
+    taut::Response<double, PlaneCapacity> response;
+    truth_.respond(response, &truth_rows_);
+    return response.strut[strut];
+  }
+  double true_payout() const { return truth_.moves().payout[0][1]; }
 
  private:
+  /// What has no column in the readings.
+  void measure() {
+    if (instruments_.strut >= 0)
+      estimator_.take_strut(rows_, instruments_.strut,
+                            static_cast<Scalar>(read(true_strut(instruments_.strut), instruments_.gauge)),
+                            static_cast<Scalar>(with_digits(instruments_.gauge)));
+    if (instruments_.stroke > 0)
+      estimator_.take_stroke(0, 1,
+                             static_cast<Scalar>(true_payout() + instruments_.stroke * gaussian(random_)),
+                             static_cast<Scalar>(instruments_.stroke));
+  }
   double with_digits(double noise) const {
     return full_ * std::sqrt(noise * noise + instruments_.step * instruments_.step / 12);
   }
@@ -125,10 +167,17 @@ class Site {
   taut::Knowledge<Scalar, PlaneCapacity> knowledge_;
   Model model_;
   Truth truth_model_, nominal_model_;
+  taut::CondensedStruts<Scalar, PlaneCapacity> rows_;
+  taut::CondensedStruts<double, PlaneCapacity> truth_rows_;
+  bool jacked_ = false;  // at its start too
   taut::Tracker<Truth> truth_, nominal_;
   Estimator estimator_;
   double jack_reading_ = 0, cell_reading_ = 0;
   bool good_ = true;
 };
+
+// Compiled once for all tests.
+extern template class Site<float>;
+extern template class Site<double>;
 
 }  // namespace estimation

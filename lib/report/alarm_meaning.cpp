@@ -6,7 +6,7 @@
 namespace taut::host {
 namespace {
 
-constexpr std::array<std::pair<const char*, AlarmMeaning>, 8> meanings = {{
+constexpr std::array<std::pair<const char*, AlarmMeaning>, 10> meanings = {{
     {"outlier",
      {"A reading of the load cell at this jack does not belong to the others. It was left out.",
       "Nothing, if it is rare. If it comes again and again, check the cell, its cable and its sd in the "
@@ -37,6 +37,13 @@ constexpr std::array<std::pair<const char*, AlarmMeaning>, 8> meanings = {{
       "says "
       "nothing about mu.",
       "Nothing. Readings taken while the cable slides over all joints are worth more."}},
+    {"gauge",
+     {"The strain gauge on this strut contradicts the model by more than five standard deviations.",
+      "Check the gauge (zero, temperature, bending of the strut), then the scene: loads, areas, mu and its "
+      "sd."}},
+    {"lift-off",
+     {"The jack pulls what this locked end holds: its wedge comes free.",
+      "Unlock the end in the log from here on (locked 0), so that the jack drives it again."}},
 }};
 
 }  // namespace

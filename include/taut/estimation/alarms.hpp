@@ -13,13 +13,15 @@ struct Alarm {
     sensor,       ///< a load cell at an anchored end contradicts the model by more than five sigma
     mu_band,      ///< mu is surely outside of what was known of it: `place` is a joint, or -1 for all
     stuck_joint,  ///< a joint holds back more than its mu allows: it does not slide though it should
-    elongation,   ///< the measured payout is outside of the tolerance on the predicted one
+    elongation,   ///< the measured payout is outside of the tolerance on the predicted one; as a measurement,
+                  ///< it contradicts the model by more than five sigma
     force_high,   ///< a segment is above its limit
     force_low,    ///< a segment is below its limit
-    no_information,  ///< a load cell at an anchored end was read, but joints stick: nothing is learned about
-                     ///< mu
+    no_information,  ///< something that tells of mu was read, but joints stick: nothing is learned
+    strut,           ///< a strain gauge contradicts the model by more than five sigma: `place` is the strut
+    lift_off,        ///< the jack pulls what a locked end holds: the wedge is free, the end can be unlocked
   } kind = Kind::outlier;
-  std::int16_t cable = -1;
+  std::int16_t cable = -1;  ///< -1: `place` is a strut
   std::int16_t place = -1;  ///< joint or segment of the cable; end 0 or 1
 
   static constexpr Alarm of(Kind kind, int cable, int place) {

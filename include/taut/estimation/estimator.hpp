@@ -3,11 +3,14 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "taut/estimation/alarms.hpp"
 #include "taut/estimation/knowledge.hpp"
 #include "taut/estimation/load_filter.hpp"
 #include "taut/estimation/readings.hpp"
+#include "taut/numerics/larger.hpp"
 #include "taut/tracking/tracker.hpp"
 
 namespace taut {
@@ -19,9 +22,13 @@ namespace taut {
 /// end is a measurement
 ///     y = T(sure) + dT/dF (raw - sure) + dT/dmu (mu - mu_0) + noise,
 /// where the noise is that of the cell and, through dT/dF, of the raw jack readings: both independent from
-/// sample to sample. When mu has moved so far from where the tracker is linearized that it shows, the
-/// tracker is adjusted to it and the measurement is taken again (iterated update; Gelb, Applied Optimal
+/// sample to sample. What several measurements of one row have in common, the errors of the jacks' readings,
+/// is an unknown of that row. When mu has moved so far from where the tracker is linearized that it shows,
+/// the tracker is adjusted to it and the measurement is taken again (iterated update; Gelb, Applied Optimal
 /// Estimation, 1974, 6.1). Where nothing measures mu, the answer is the prior carried through.
+///
+/// Strain gauges on struts and the strokes of jacks are measurements of the same kind for whoever has them:
+/// take_strut(), take_stroke().
 ///
 /// `Parameters` bounds the number of unknowns: one a cable with a shared mu, one a joint otherwise; and
 /// `memories` of every jack whose load cell has noise. If there is no room for these, turning points are
@@ -38,6 +45,11 @@ class Estimator {
   /// The tracker is adjusted to the estimate when the measured force is off its linearization by half of this
   /// part of its standard deviation.
   static constexpr Scalar bent = Scalar(0.2);
+  /// Friction of a cable whose prior moves a measured number by less than this part of the standard deviation
+  /// of its reading is of no account for the reading.
+  static constexpr Scalar unseen = Scalar(0.2);
+  /// Readings in a row that show that the jack of a locked end pulls less than its wedge holds.
+  static constexpr std::uint8_t surely_below = 3;
   /// Turning points of every jack that friction is taken to remember.
   static constexpr int memories = 2;
   using Alarms = FixedList<Alarm, 8 + 4 * Cap::cables + Cap::joints>;
@@ -53,75 +65,112 @@ class Estimator {
   }
 
   /// Follows the readings of one row. Fails as Tracker::advance() does; then the state is where the path
-  /// ended; with `bad_sample` nothing was done. A reading that is not finite is refused with an alarm.
+  /// ended, and the next call goes on from there; with `bad_sample` nothing was done. A reading that is not
+  /// finite is refused with an alarm.
   Progress<Scalar> advance(const ReadingsType& readings, int event_budget = TrackerType::default_budget) {
     alarms_.clear();
     for (int i = 0; i < model_->loads; ++i)
       if (!std::isfinite(readings.sample.factor[i]))
         return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
-    Sample<Scalar, Cap> before = drive_, turn = readings.sample, goal = readings.sample;
-    const bool locks = take_loads(readings, before);
-    bool turns = false;
-    for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
-      const Cell& cell = cells_[c][end];
-      const ConditionedLoad<Scalar>& at = cell.at;
-      goal.jack[c][end] = {larger(at.sure, cell.first), cell.locked};
-      turn.jack[c][end] = drive_.jack[c][end];
-      if (cell.locked || !at.turned) return;
-      turn.jack[c][end].force = at.turn;
-      turns = true;
-    });
-    turn.factor = drive_.factor;
-    Progress<Scalar> progress;
-    if (locks) progress = lead(before, event_budget);
-    if (progress.status) remember([](const Cell& cell) { return cell.has_locked; });
-    if (turns && progress.status) progress = join(progress, lead(turn, event_budget));
-    if (progress.status) remember([](const Cell& cell) { return !cell.locked && cell.at.turned; });
-    if (progress.status) progress = join(progress, lead(goal, event_budget));
-    // What is sure of two jacks may differ by more than friction holds, although their loads do not.
-    if (progress.status.code == Code::pulled_through) {
-      for_each_jacked_end(model_->cables,
-                          [&](int c, std::size_t end) { goal.jack[c][end].force = cells_[c][end].at.load; });
-      progress = join(progress, lead(goal, event_budget));
+    has_errors_ = has_news_ = false;
+    const Corners corners = take_loads(readings);
+    Sample<Scalar, Cap> goal = readings.sample;
+    for (const JackedEnd& jack : jacks_) {
+      const Cell& cell = cell_of(jack);
+      goal.jack[jack.cable][jack.end] = {larger(cell.at.sure, cell.first), cell.locked};
     }
-    if (!progress.status || progress.fraction < 1) return progress;
+    Progress<Scalar> progress;
+    if (corners.any()) progress = pass(corners, event_budget);
+    if (progress.status) progress = join(progress, lead(goal, event_budget));
+    if (!progress.status || progress.fraction < 1) {
+      stop_here();
+      return progress;
+    }
     drive_ = goal;
     for (int c = 0; c < model_->cables.size(); ++c) {
-      for (std::size_t end = 0; end < 2; ++end) {
-        const auto& cable = model_->cables[c];
+      const auto& cable = model_->cables[c];
+      for (std::size_t end = 0; end < 2 && !cable.closed; ++end) {
         const EndReading<Scalar>& given = readings.ends[c][end];
-        if (!cable.closed && cable.ends[end] == End::anchored && given.has_force)
-          measure(c, end, given.force);
-        if (!cable.closed && cable.ends[end] == End::jacked && given.has_stroke)
-          compare(c, end, given.stroke);
+        if (cable.ends[end] == End::anchored) {
+          if (given.has_force) measure(c, end, given.force);
+          continue;
+        }
+        if (given.has_stroke) compare(c, end, given.stroke);
+        if (given.has_force && cells_[c][end].locked) watch(c, end, given.force);
       }
     }
     raise_alarms();
     return progress;
   }
 
+  /// A strain gauge on a strut, read together with the last row: its axial force [N], tension positive, with
+  /// the standard deviation `sd` > 0 of the reading. `rows` are those of the condensed scene; a strut has the
+  /// number of the scene. After an advance() that came to its end and before save(); as often as there are
+  /// gauges. alarms() has then what is odd about it too: Alarm::Kind::strut, and nothing has changed, or
+  /// `no_information`.
+  void take_strut(const CondensedStruts<Scalar, Cap>& rows, int strut, Scalar reading, Scalar sd) {
+    const auto carried = [&](const auto& elongations) {
+      Real sum = 0;
+      for (int i = 0; i < model_->segments; ++i) sum += rows.elongation[i][strut] * elongations[i];
+      return sum;
+    };
+    const auto expect = [&](Expected& expected) {
+      const auto& loads = tracker_.loads();
+      Real at = loads.prestrain * rows.prestrain[strut] + carried(tracker_.elongations());
+      for (int k = 0; k < model_->loads; ++k) at += loads.factor[k] * rows.load[k][strut];
+      expected.at = static_cast<Scalar>(at);
+      for (int p = 0; p < in_use_; ++p)
+        expected.by_unknown[p] =
+            static_cast<Scalar>(carried(tracker_.elongations_by(tracker_.move_sensitivity(p))));
+      for (int k = 0; k < jacks_.size(); ++k)
+        expected.by_jack[k] = static_cast<Scalar>(
+            carried(tracker_.elongations_by(tracker_.move_slope(jacks_[k].cable, jacks_[k].end))));
+    };
+    learn(expect, reading, sd, Alarm::of(Alarm::Kind::strut, -1, strut));
+  }
+  /// The stroke of a jack, read together with the last row: its payout since the start [m], with the standard
+  /// deviation `sd` > 0 of the reading and of what the elongation of the cable is uncertain by, that of E A.
+  /// A locked end tells nothing. When and how often as take_strut(); what contradicts raises
+  /// Alarm::Kind::elongation.
+  void take_stroke(int cable, std::size_t end, Scalar reading, Scalar sd) {
+    const auto& layout = model_->cables[cable];
+    if (layout.closed || layout.ends[end] != End::jacked || cells_[cable][end].locked) return;
+    const auto expect = [&](Expected& expected) {
+      const auto of = [&](const auto& moving) { return static_cast<Scalar>(moving.payout[cable][end]); };
+      expected.at = of(tracker_.moves());
+      for (int p = 0; p < in_use_; ++p) expected.by_unknown[p] = of(tracker_.move_sensitivity(p));
+      for (int k = 0; k < jacks_.size(); ++k)
+        expected.by_jack[k] = of(tracker_.move_slope(jacks_[k].cable, jacks_[k].end));
+    };
+    learn(expect, reading, sd, Alarm::of(Alarm::Kind::elongation, cable, static_cast<int>(end)));
+  }
+
   /// Force of a segment [N], >= 0.
   Scalar force(int segment) const {
     Scalar T = tracker_.tension(segment) + ahead(segment);
-    for (int p = 0; p < unknowns_; ++p) T += tracker_.sensitivity(p, segment) * (mean_[p] - at_[p]);
+    for (int p = 0; p < in_use_; ++p)
+      if (mean_[p] != at_[p]) T += tracker_.sensitivity(p, segment) * (mean_[p] - at_[p]);
     return T > 0 ? T : Scalar(0);
   }
   /// Its standard deviation [N].
   Scalar deviation(int segment) const {
     FixedArray<Scalar, Parameters> S;
-    for (int p = 0; p < unknowns_; ++p) S[p] = tracker_.sensitivity(p, segment);
     Scalar variance = 0;
-    for (int p = 0; p < unknowns_; ++p)
-      for (int q = 0; q < unknowns_; ++q) variance += S[p] * covariance_[p][q] * S[q];
-    for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
-      const Cell& cell = cells_[c][end];
-      if (cell.locked) return;
-      const Scalar slope = tracker_.slope(c, end, segment), part = slope * cell.at.sd;
+    for (int p = 0; p < in_use_; ++p) {
+      S[p] = tracker_.sensitivity(p, segment);
+      Scalar sum = S[p] * covariance_[p][p];
+      for (int q = 0; q < p; ++q) sum += 2 * S[q] * covariance_[p][q];
+      variance += S[p] * sum;
+    }
+    for (const JackedEnd& jack : jacks_) {
+      const Cell& cell = cell_of(jack);
+      if (cell.locked || !(cell.at.sd > 0)) continue;
+      const Scalar slope = tracker_.slope(jack.cable, jack.end, segment), part = slope * cell.at.sd;
       variance += part * part;
       // If it has turned, the force did not follow.
-      const Scalar behind = cell.is_behind() ? slope * (cell.at.load - cell.at.sure) : Scalar(0);
+      const Scalar behind = cell.is_behind() ? slope * missing(jack) : Scalar(0);
       variance += behind * behind;
-    });
+    }
     return std::sqrt(variance > 0 ? variance : Scalar(0));
   }
   /// Friction coefficient of a joint, and its standard deviation.
@@ -139,18 +188,9 @@ class Estimator {
   void respond(Response<Scalar, Cap>& response, const CondensedStruts<Scalar, Cap>* struts = nullptr) const {
     tracker_.respond(response, struts);
     for (int i = 0; i < model_->segments; ++i) response.tension[i] = force(i);
-    for (int c = 0; c < model_->cables.size(); ++c) {
-      const auto& cable = model_->cables[c];
-      for (int k = 0; k < cable.joints(); ++k) {
-        const int j = cable.first_joint + k;
-        const auto sides = cable.joint_segments(k);
-        const Scalar T1 = response.tension[sides[0]], T2 = response.tension[sides[1]];
-        response.contact[j] = (T1 + T2) * model_->cos_alpha[j];
-        response.friction[j] = (T2 - T1) * model_->sin_alpha[j];
-      }
-    }
-    for_each_jacked_end(model_->cables,
-                        [&](int c, std::size_t end) { response.payout[c][end] = payout(c, end); });
+    model_->resolve_joints(response);
+    for (const JackedEnd& jack : jacks_)
+      response.payout[jack.cable][jack.end] = payout(jack, response.payout[jack.cable][jack.end]);
   }
   /// What is odd about the last row.
   const Alarms& alarms() const { return alarms_; }
@@ -170,6 +210,7 @@ class Estimator {
     Scalar before = 0;  // standard deviation of the load a sample ago
     bool is_new = false;
     bool locked = false, has_locked = false;
+    std::uint8_t below = 0;  // locked: readings in a row that were surely below what the wedge holds
     // Unknown errors of where its load last turned or was locked; the oldest is forgotten next.
     std::array<std::int16_t, memories> memory{};
     int oldest = 0;
@@ -186,6 +227,7 @@ class Estimator {
     FixedArray<Scalar, Parameters> mean, at;
     FixedArray<FixedArray<Scalar, Parameters>, Parameters> covariance;
   };
+  /// Between two rows.
   State save() const { return {tracker_.save(), drive_, cells_, most_payout_, mean_, at_, covariance_}; }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `bad_sample` if the state
   /// is none of this scene; then only start() or another restore() may follow.
@@ -199,18 +241,32 @@ class Estimator {
     mean_ = state.mean;
     at_ = state.at;
     covariance_ = state.covariance;
+    for (int p = 0; p < unknowns_; ++p)
+      if (covariance_[p][p] > 0) in_use_ = larger(in_use_, p + 1);
     set_frictions();
     return tracker_.resume(state.tracker);
   }
 
  private:
+  static constexpr int most_jacks = 2 * Cap::cables;
+  struct JackedEnd {
+    int cable = 0;
+    std::size_t end = 0;
+  };
+  Cell& cell_of(const JackedEnd& jack) { return cells_[jack.cable][jack.end]; }
+  const Cell& cell_of(const JackedEnd& jack) const { return cells_[jack.cable][jack.end]; }
+
   Status begin(const CondensedType& condensed, const KnowledgeType& knowledge,
                const AlarmLimits<Scalar>& limits) {
     model_ = &condensed;
     knowledge_ = &knowledge;
     limits_ = limits;
     alarms_.clear();
+    jacks_.clear();
+    for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) { jacks_.add({c, end}); });
+    has_errors_ = has_news_ = false;
     tracker_.begin(condensed);
+    for (int j = 0; j < condensed.joints; ++j) can_slide_[j] = !condensed.is_locked(j);
     drive_ = {};
     most_payout_.fill(Scalar(0));
     for (int c = 0; c < Cap::cables; ++c)
@@ -262,12 +318,12 @@ class Estimator {
         depend(c, j, p, static_cast<Scalar>(weight));
       }
     }
-    friction_unknowns_ = unknowns_;
+    friction_unknowns_ = in_use_ = unknowns_;
     for (std::size_t m = 0; m < memories; ++m)
-      for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
-        const bool has = knowledge_->sensor_sd[c][end] > 0 && unknowns_ < Parameters;
-        cells_[c][end].memory[m] = static_cast<std::int16_t>(has ? add(Scalar(0)) : -1);
-      });
+      for (const JackedEnd& jack : jacks_) {
+        const bool has = knowledge_->sensor_sd[jack.cable][jack.end] > 0 && unknowns_ < Parameters;
+        cell_of(jack).memory[m] = static_cast<std::int16_t>(has ? add(Scalar(0)) : -1);
+      }
     if (missing > 0) return Status::at(Code::capacity_exceeded, Place::none, Parameters, missing);
     return Status::success();
   }
@@ -288,12 +344,12 @@ class Estimator {
     const auto limit = knowledge_->limit(c, j, knowledge_->mu[j] + weight * static_cast<Real>(at_[p]));
     tracker_.set_friction(j, at_[p] == 0 ? model_->rho[j] : limit.rho, p, weight * limit.slope);
   }
-  /// Brings the tracker to the present estimate.
-  bool relinearize() {
+  /// Brings the tracker to these values of the unknowns.
+  bool linearize_at(const FixedArray<Scalar, Parameters>& values) {
     FixedArray<Scalar, Parameters> change;
-    for (int p = 0; p < unknowns_; ++p) {
-      change[p] = mean_[p] - at_[p];
-      at_[p] = mean_[p];
+    for (int p = 0; p < in_use_; ++p) {
+      change[p] = values[p] - at_[p];
+      at_[p] = values[p];
     }
     set_frictions();
     return tracker_.adjust(change).ok();
@@ -305,192 +361,370 @@ class Estimator {
         if (unknown_of_[j] >= 0) set_friction(c, j);
     }
   }
-  /// Jacks that turn or are locked now: friction will remember the error of their loads.
-  template <class Which>
-  void remember(Which which) {
-    for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
-      Cell& cell = cells_[c][end];
-      const int p = cell.memory[static_cast<std::size_t>(cell.oldest)];
-      if (p < 0 || !which(cell)) return;
-      cell.oldest = (cell.oldest + 1) % memories;
-      if (mean_[p] != at_[p]) static_cast<void>(relinearize());
-      tracker_.turn(p, c, end);
-      mean_[p] = at_[p] = 0;
-      for (int q = 0; q < unknowns_; ++q) covariance_[p][q] = covariance_[q][p] = 0;
-      covariance_[p][p] = cell.before * cell.before;
-    });
+  /// A jack that turns or is locked now: friction will remember the error of its load.
+  void remember(const JackedEnd& jack) {
+    Cell& cell = cell_of(jack);
+    const int p = cell.memory[static_cast<std::size_t>(cell.oldest)];
+    if (p < 0) return;
+    cell.oldest = (cell.oldest + 1) % memories;
+    if (mean_[p] != at_[p]) static_cast<void>(linearize_at(mean_));
+    tracker_.turn(p, jack.cable, jack.end);
+    in_use_ = larger(in_use_, p + 1);
+    mean_[p] = at_[p] = 0;
+    for (int q = 0; q < unknowns_; ++q) covariance_[p][q] = covariance_[q][p] = 0;
+    covariance_[p][p] = cell.before * cell.before;
   }
 
   // The loads.
 
-  /// Conditions the jacks' readings. Where an end has just been locked, `before` leads to the load it had;
-  /// returns whether there is one.
-  bool take_loads(const ReadingsType& readings, Sample<Scalar, Cap>& before) {
-    bool locks = false;
-    for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
-      Cell& cell = cells_[c][end];
-      const EndReading<Scalar>& given = readings.ends[c][end];
+  /// Where the way to a row is not straight.
+  struct Corners {
+    bool locks = false, turns = false;
+    bool any() const { return locks || turns; }
+  };
+  /// Conditions the jacks' readings.
+  Corners take_loads(const ReadingsType& readings) {
+    Corners corners;
+    for (const JackedEnd& jack : jacks_) {
+      Cell& cell = cell_of(jack);
+      const EndReading<Scalar>& given = readings.ends[jack.cable][jack.end];
+      const Scalar sd = knowledge_->sensor_sd[jack.cable][jack.end];
       cell.is_new = cell.has_locked = false;
       cell.at.turned = false;
       cell.since += readings.dt;
-      if (readings.sample.jack[c][end].locked) {
-        cell.has_locked = !cell.locked;
+      if (readings.sample.jack[jack.cable][jack.end].locked) {
         cell.before = cell.at.sd;
-        if (!cell.locked) before.jack[c][end].force = cell.at.load;
-        locks = locks || !cell.locked;
-        cell.locked = true;
-        return;
+        if (cell.locked) continue;
+        corners.locks = cell.has_locked = cell.locked = true;
+        cell.filter.start(sd);
+        cell.below = 0;
+        continue;
       }
+      if (!given.has_force) continue;
       // A released end keeps its wedge until a load is read.
       if (cell.locked) {
-        if (!given.has_force) return;
-        cell.filter.start(knowledge_->sensor_sd[c][end]);
+        cell.filter.start(sd);
         cell.at = {};
         cell.way = 1;
         cell.locked = false;
       }
-      if (!given.has_force) return;
       cell.before = cell.at.sd;
       const Scalar was_sure = cell.at.sure;
       cell.at = cell.filter.take(given.force, cell.since);
       if (cell.at.sure != was_sure) cell.way = cell.at.sure > was_sure ? Scalar(1) : Scalar(-1);
-      if (cell.at.load > 0) cell.first = Scalar(1e-3) * knowledge_->sensor_sd[c][end];
+      if (cell.at.load > 0) cell.first = Scalar(1e-3) * sd;
       cell.since = 0;
       cell.raw = given.force;
       cell.is_new = !cell.at.refused;
-      if (cell.at.refused) alarms_.add(Alarm::of(Alarm::Kind::outlier, c, static_cast<int>(end)));
-    });
-    return locks;
+      corners.turns = corners.turns || cell.at.turned;
+      if (cell.at.refused)
+        alarms_.add(Alarm::of(Alarm::Kind::outlier, jack.cable, static_cast<int>(jack.end)));
+    }
+    return corners;
   }
-  /// A path that was not followed to its end is followed by the next call with the same readings.
-  Progress<Scalar> lead(const Sample<Scalar, Cap>& sample, int event_budget) {
-    return tracker_.advance(sample, event_budget);
+  /// Leads the tracker to the loads that ends had when they were locked, then to where loads have turned.
+  Progress<Scalar> pass(const Corners& corners, int event_budget) {
+    Sample<Scalar, Cap> corner = drive_;
+    Progress<Scalar> progress;
+    if (corners.locks) {
+      for (const JackedEnd& jack : jacks_)
+        if (cell_of(jack).has_locked) corner.jack[jack.cable][jack.end].force = cell_of(jack).at.load;
+      progress = lead(corner, event_budget);
+      for (const JackedEnd& jack : jacks_)
+        if (progress.status && cell_of(jack).has_locked) remember(jack);
+    }
+    if (corners.turns && progress.status) {
+      const auto turns = [&](const JackedEnd& jack) {
+        return !cell_of(jack).locked && cell_of(jack).at.turned;
+      };
+      for (const JackedEnd& jack : jacks_)
+        if (turns(jack)) corner.jack[jack.cable][jack.end].force = cell_of(jack).at.turn;
+      progress = join(progress, lead(corner, event_budget));
+      for (const JackedEnd& jack : jacks_)
+        if (progress.status && turns(jack)) remember(jack);
+    }
+    return progress;
+  }
+  /// Leads the tracker there, two jacks as far as friction holds them.
+  Progress<Scalar> lead(Sample<Scalar, Cap>& to, int event_budget) {
+    Progress<Scalar> progress = tracker_.advance(to, event_budget);
+    for (int count = 0; count < model_->cables.size() && progress.status.code == Code::pulled_through &&
+                        reconcile(progress.status.index, to);
+         ++count)
+      progress = join(progress, tracker_.advance(to, event_budget));
+    return progress;
+  }
+  /// What is sure of two jacks may differ by more than friction holds, although their loads do not: leads the
+  /// one that pulls more only as far as friction holds it. False if the loads differ, by more than five
+  /// sigma.
+  bool reconcile(int c, Sample<Scalar, Cap>& to) const {
+    const auto& cable = model_->cables[c];
+    auto& jack = to.jack[c];
+    const std::size_t more = jack[0].force < jack[1].force ? 1 : 0, less = 1 - more;
+    // Well inside, but two jacks on one segment pull alike.
+    Scalar carried = cable.joints() == 0 ? Scalar(1) : Scalar(1.02);
+    for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
+      carried *= static_cast<Scalar>(tracker_.rho(j));
+    const ConditionedLoad<Scalar>&larger_load = cells_[c][more].at, &smaller_load = cells_[c][less].at;
+    if (smaller_load.load + 5 * smaller_load.sd < carried * (larger_load.load - 5 * larger_load.sd))
+      return false;
+    jack[more].force = jack[less].force / carried;
+    return true;
+  }
+  /// The tracker came to its end before the row.
+  void stop_here() {
+    const auto& loads = tracker_.loads();
+    for (int i = 0; i < model_->loads; ++i) drive_.factor[i] = static_cast<Scalar>(loads.factor[i]);
+    for (const JackedEnd& jack : jacks_) {
+      const auto& at = loads.jack[jack.cable][jack.end];
+      drive_.jack[jack.cable][jack.end] = {static_cast<Scalar>(at.force), at.locked};
+    }
   }
   static Progress<Scalar> join(const Progress<Scalar>& first, Progress<Scalar> then) {
     then.events += first.events;
     then.fraction *= first.status ? first.fraction : Scalar(1);
     return then;
   }
-  /// From the load that is sure to the best estimate, along the present piece.
+  /// From where the tracker was led to the best estimate of the load [N].
+  Scalar missing(const JackedEnd& jack) const {
+    const Cell& cell = cell_of(jack);
+    return cell.locked ? Scalar(0) : cell.at.load - drive_.jack[jack.cable][jack.end].force;
+  }
+  /// What a segment has at the best estimate beyond what the tracker says, along the present piece.
   Scalar ahead(int segment) const {
     Scalar T = 0;
-    for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
-      const auto& at = cells_[c][end].at;
-      if (!cells_[c][end].locked && at.load != at.sure)
-        T += tracker_.slope(c, end, segment) * (at.load - at.sure);
-    });
+    for (const JackedEnd& jack : jacks_) {
+      const Scalar dF = missing(jack);
+      if (dF != 0) T += tracker_.slope(jack.cable, jack.end, segment) * dF;
+    }
     return T;
   }
-  Scalar payout(int c, std::size_t end) const {
-    const auto moved = static_cast<Scalar>(tracker_.moves().payout[c][end]);
-    const auto& at = cells_[c][end].at;
-    return cells_[c][end].locked ? moved : moved + tracker_.payout_slope(c, end) * (at.load - at.sure);
+  Scalar payout(const JackedEnd& jack, Scalar of_tracker) const {
+    const Scalar dF = missing(jack);
+    return dF != 0 ? of_tracker + tracker_.payout_slope(jack.cable, jack.end) * dF : of_tracker;
   }
 
   // The measurements.
 
+  /// A measured number where the tracker is, and its derivatives.
+  struct Expected {
+    Scalar at = 0;
+    FixedArray<Scalar, Parameters> by_unknown;
+    FixedArray<Scalar, most_jacks> by_jack;  // with respect to the forces of unlocked jacks
+  };
+  /// What a measurement adds to what is known.
+  struct Update {
+    FixedArray<Scalar, Parameters> with_unknown, mean;  // covariance with the number; what follows
+    FixedArray<Scalar, most_jacks> with_error;
+    Scalar precision = 0, innovation = 0;  // 1 / variance of what was expected; how far off that was
+    bool is_bent = false;                  // the mean is so far away that the tracker's line is off
+  };
+  /// Errors of the jacks' readings in this row, which all its measurements share.
+  struct Errors {
+    FixedArray<Scalar, most_jacks> mean;
+    FixedArray<FixedArray<Scalar, Parameters>, most_jacks> with_unknown;  // covariances
+    FixedArray<FixedArray<Scalar, most_jacks>, most_jacks> with_error;
+  };
+
   /// A load cell at an anchored end.
   void measure(int c, std::size_t end, Scalar reading) {
-    const Scalar sd = knowledge_->sensor_sd[c][end];
+    const int segment = model_->cables[c].end_segment(end);
+    const auto expect = [&](Expected& expected) {
+      expected.at = tracker_.tension(segment);
+      for (int p = 0; p < in_use_; ++p) expected.by_unknown[p] = tracker_.sensitivity(p, segment);
+      for (int k = 0; k < jacks_.size(); ++k)
+        expected.by_jack[k] = tracker_.slope(jacks_[k].cable, jacks_[k].end, segment);
+    };
+    learn(expect, reading, knowledge_->sensor_sd[c][end],
+          Alarm::of(Alarm::Kind::sensor, c, static_cast<int>(end)));
+  }
+  /// Takes a reading into account; expect() tells what it should be, `contradiction` where it is and what to
+  /// raise if it is not.
+  template <class Expect>
+  void learn(const Expect& expect, Scalar reading, Scalar sd, const Alarm& contradiction) {
     if (!(sd > 0) || friction_unknowns_ == 0 || may_have_turned()) return;
-    if (!slides_throughout(c)) {
-      alarms_.add(Alarm::of(Alarm::Kind::no_information, c, static_cast<int>(end)));
+    Expected expected;
+    expect(expected);
+    if (!slides_where_it_matters(expected, contradiction.cable, sd)) {
+      alarms_.add(Alarm::of(Alarm::Kind::no_information, contradiction.cable, contradiction.place));
       return;
     }
-    const auto mean = mean_;
-    const auto covariance = covariance_;
-    for (int round = 0; round < 4; ++round) {
-      if (!update(model_->cables[c].end_segment(end), reading, sd)) {
-        alarms_.add(Alarm::of(Alarm::Kind::sensor, c, static_cast<int>(end)));
+    if (has_news_) learn_errors();
+    constexpr int most_rounds = 4;
+    for (int round = 1;; ++round) {
+      if (!weigh(expected, reading, sd)) {
+        alarms_.add(contradiction);
         return;
       }
-      if (!is_bent_ || !relinearize()) return;
-      if (round == 3) return;
-      mean_ = mean;
-      covariance_ = covariance;
+      const bool goes_on = update_.is_bent && linearize_at(update_.mean) && round < most_rounds;
+      if (!goes_on) {
+        apply();
+        return;
+      }
+      expect(expected);
     }
   }
-  /// Whether friction is at its limit at every joint of the cable that can slide. While some stick, what a
-  /// measurement says depends on which ones do, and that on friction: no derivative tells.
+  /// While some joints stick, what a measurement says depends on which ones do, and that on friction: no
+  /// derivative tells. All of `cable` must slide, and of every other one whose friction shows in the number.
+  bool slides_where_it_matters(const Expected& expected, int cable, Scalar sd) const {
+    for (int c = 0; c < model_->cables.size(); ++c)
+      if ((c == cable || shows(c, expected, sd)) && !slides_throughout(c)) return false;
+    return true;
+  }
+  bool shows(int c, const Expected& expected, Scalar sd) const {
+    const auto& cable = model_->cables[c];
+    Scalar square = 0;
+    for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j) {
+      const int p = unknown_of_[j];
+      if (p < 0) continue;
+      const Scalar part = expected.by_unknown[p] * knowledge_->mu_sd[c];
+      square += part * part;
+      if (knowledge_->shared[c]) break;
+    }
+    return square > unseen * sd * (unseen * sd);
+  }
+  /// Whether friction is at its limit at every joint of the cable that can slide.
   bool slides_throughout(int c) const {
     const auto& cable = model_->cables[c];
+    bool sticks = false;
     for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
-      if (!model_->is_locked(j) && !tracker_.is_at_limit(j)) return false;
-    return true;
+      sticks |= can_slide_[j] && !tracker_.is_at_limit(j);
+    return !sticks;
   }
   /// What slides and what sticks is in doubt then.
   bool may_have_turned() const {
-    bool any = false;
-    for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
-      const Cell& cell = cells_[c][end];
-      any = any || cell.is_behind();
-    });
-    return any;
+    for (const JackedEnd& jack : jacks_)
+      if (cell_of(jack).is_behind()) return true;
+    return false;
   }
-  /// False if the reading contradicts everything known by more than five sigma; then nothing is changed.
-  bool update(int segment, Scalar reading, Scalar sd) {
-    Scalar expected = tracker_.tension(segment), noise = sd * sd;
-    for_each_jacked_end(model_->cables, [&](int c, std::size_t end) {
-      const Cell& cell = cells_[c][end];
-      if (cell.locked) return;
-      const Scalar slope = tracker_.slope(c, end, segment);
-      const Scalar of_jack = cell.is_new ? knowledge_->sensor_sd[c][end] : cell.at.sd;
-      expected += slope * ((cell.is_new ? cell.raw : cell.at.load) - cell.at.sure);
-      noise += slope * slope * of_jack * of_jack;
-    });
-    FixedArray<Scalar, Parameters> H, CH;
-    for (int p = 0; p < unknowns_; ++p) {
-      H[p] = tracker_.sensitivity(p, segment);
-      expected += H[p] * (mean_[p] - at_[p]);
+  /// False if the reading contradicts everything known by more than five sigma.
+  bool weigh(const Expected& expected, Scalar reading, Scalar sd) {
+    Update& update = update_;
+    const auto& H = expected.by_unknown;
+    const int jacks = jacks_.size();
+    // A jack pulls less than it reads by the error of the reading.
+    const auto by_error = [&](int k) { return -expected.by_jack[k]; };
+    Scalar number = expected.at, variance = 0;
+    for (int p = 0; p < in_use_; ++p) number += H[p] * (mean_[p] - at_[p]);
+    for (int k = 0; k < jacks; ++k) {
+      const Cell& cell = cell_of(jacks_[k]);
+      if (!cell.locked)
+        number += expected.by_jack[k] * ((cell.is_new ? cell.raw : cell.at.load) -
+                                         drive_.jack[jacks_[k].cable][jacks_[k].end].force);
+      Scalar sum = by_error(k) * error_variance(k);
+      if (has_errors_) {
+        number += by_error(k) * errors_.mean[k];
+        sum = 0;
+        for (int p = 0; p < in_use_; ++p) sum += errors_.with_unknown[k][p] * H[p];
+        for (int l = 0; l < jacks; ++l) sum += errors_.with_error[k][l] * by_error(l);
+      }
+      update.with_error[k] = sum;
+      variance += by_error(k) * sum;
     }
-    Scalar spread = noise;
-    for (int p = 0; p < unknowns_; ++p) {
-      CH[p] = 0;
-      for (int q = 0; q < unknowns_; ++q) CH[p] += covariance_[p][q] * H[q];
-      spread += H[p] * CH[p];
+    Scalar of_friction = 0, through_friction = 0;
+    for (int p = 0; p < in_use_; ++p) {
+      Scalar sum = 0;
+      for (int q = 0; q < friction_unknowns_; ++q) sum += covariance_[p][q] * H[q];
+      if (p < friction_unknowns_) of_friction += H[p] * sum;
+      for (int q = friction_unknowns_; q < in_use_; ++q) sum += covariance_[p][q] * H[q];
+      for (int k = 0; k < jacks && has_errors_; ++k) sum += errors_.with_unknown[k][p] * by_error(k);
+      update.with_unknown[p] = sum;
+      variance += H[p] * sum;
+      if (p < friction_unknowns_) through_friction += H[p] * sum;
     }
-    const Scalar innovation = reading - expected;
-    if (!(innovation * innovation <= Scalar(25) * spread)) return false;
-    for (int p = 0; p < unknowns_; ++p) {
-      mean_[p] += CH[p] / spread * innovation;
-      mean_[p] = larger(least_[p], -larger(-most_[p], -mean_[p]));
-      for (int q = 0; q < unknowns_; ++q) covariance_[p][q] -= CH[p] * CH[q] / spread;
+    const Scalar spread = sd * sd + variance;
+    update.innovation = reading - number;
+    if (!(update.innovation * update.innovation <= Scalar(25) * spread)) return false;
+    update.precision = 1 / spread;
+    const Scalar pull = update.innovation * update.precision;
+    Scalar shift = 0;
+    for (int p = 0; p < in_use_; ++p) {
+      const Scalar mean = mean_[p] + update.with_unknown[p] * pull;
+      update.mean[p] = larger(least_[p], -larger(-most_[p], -mean));
+      if (p < friction_unknowns_) shift += std::fabs(H[p] * (update.mean[p] - at_[p]));
     }
-    // T is about exponential in mu: by shift^2 / 2T it is off the line.
-    Scalar shift = 0, left = 0;
-    for (int p = 0; p < friction_unknowns_; ++p) {
-      shift += std::fabs(H[p] * (mean_[p] - at_[p]));
-      for (int q = 0; q < friction_unknowns_; ++q) left += H[p] * covariance_[p][q] * H[q];
-    }
-    is_bent_ = shift * shift > bent * larger(expected, sd) * std::sqrt(larger(left, Scalar(0)));
+    // A force is about exponential in mu: by shift^2 / 2T it is off the line.
+    const Scalar left = of_friction - through_friction * through_friction * update.precision;
+    const Scalar off = shift * shift, allowed = bent * larger(std::fabs(number), sd);
+    update.is_bent = off * off > allowed * allowed * larger(left, Scalar(0));
     return true;
+  }
+  void apply() {
+    for (int p = 0; p < in_use_; ++p) {
+      mean_[p] = update_.mean[p];
+      const Scalar gain = update_.with_unknown[p] * update_.precision;
+      for (int q = 0; q < p; ++q)
+        covariance_[q][p] = covariance_[p][q] = covariance_[p][q] - gain * update_.with_unknown[q];
+      covariance_[p][p] -= gain * update_.with_unknown[p];
+    }
+    has_news_ = true;
+  }
+  /// Before another measurement of the same row: what the one before said of the errors that they share.
+  void learn_errors() {
+    const int jacks = jacks_.size();
+    for (int k = 0; k < jacks && !has_errors_; ++k) {
+      errors_.mean[k] = 0;
+      for (int p = 0; p < in_use_; ++p) errors_.with_unknown[k][p] = 0;
+      for (int l = 0; l < jacks; ++l) errors_.with_error[k][l] = k == l ? error_variance(k) : Scalar(0);
+    }
+    for (int k = 0; k < jacks; ++k) {
+      const Scalar gain = update_.with_error[k] * update_.precision;
+      errors_.mean[k] += gain * update_.innovation;
+      for (int p = 0; p < in_use_; ++p) errors_.with_unknown[k][p] -= gain * update_.with_unknown[p];
+      for (int l = 0; l < jacks; ++l) errors_.with_error[k][l] -= gain * update_.with_error[l];
+    }
+    has_errors_ = true;
+    has_news_ = false;
+  }
+  /// Of a jack's reading in this row, before anything else has been measured.
+  Scalar error_variance(int k) const {
+    const Cell& cell = cell_of(jacks_[k]);
+    if (cell.locked) return 0;
+    const Scalar sd = cell.is_new ? knowledge_->sensor_sd[jacks_[k].cable][jacks_[k].end] : cell.at.sd;
+    return sd * sd;
   }
 
   // What is odd.
 
   void compare(int c, std::size_t end, Scalar stroke) {
-    const Scalar expected = payout(c, end);
+    const Scalar expected = payout({c, end}, static_cast<Scalar>(tracker_.moves().payout[c][end]));
     Scalar& most = most_payout_[2 * c + static_cast<int>(end)];
     most = larger(most, std::fabs(expected));
     const Scalar allowed = larger(limits_.least_elongation, limits_.elongation * most);
     if (!(std::fabs(stroke - expected) <= allowed))
       alarms_.add(Alarm::of(Alarm::Kind::elongation, c, static_cast<int>(end)));
   }
+  /// A load cell between the jack and a locked end: when the jack, having surely pulled less, comes to pull
+  /// what the end segment has, the wedge is free.
+  void watch(int c, std::size_t end, Scalar reading) {
+    Cell& cell = cells_[c][end];
+    const ConditionedLoad<Scalar> pull = cell.filter.take(reading, cell.since);
+    cell.since = 0;
+    if (pull.refused) return;
+    const int segment = model_->cables[c].end_segment(end);
+    const Scalar held = force(segment);
+    if (cell.below == surely_below) {
+      if (pull.load < held) return;
+      cell.below = 0;
+      alarms_.add(Alarm::of(Alarm::Kind::lift_off, c, static_cast<int>(end)));
+      return;
+    }
+    const Scalar missing = held - pull.load;
+    const bool is_below = missing > Scalar(0.01) * held && missing > 4 * (pull.sd + deviation(segment));
+    cell.below = static_cast<std::uint8_t>(is_below ? cell.below + 1 : 0);
+  }
   void raise_alarms() {
     for (int c = 0; c < model_->cables.size(); ++c) {
       const auto& cable = model_->cables[c];
       const Scalar sd = knowledge_->mu_sd[c];
       for (int k = 0; k < cable.joints() && friction_unknowns_ > 0; ++k) {
-        const int j = cable.first_joint + k;
-        if (unknown_of_[j] < 0) continue;
+        const int j = cable.first_joint + k, p = unknown_of_[j];
+        if (p < 0) continue;
         const bool shared = knowledge_->shared[c];
-        const Scalar off = mu(j) - static_cast<Scalar>(knowledge_->mu[j]), spread = 2 * mu_deviation(j);
-        const Scalar band = 2 * sd * weight_[j];
-        if (off - spread > band)
-          alarms_.add(
-              Alarm::of(shared ? Alarm::Kind::mu_band : Alarm::Kind::stuck_joint, c, shared ? -1 : k));
-        else if (off + spread < -band)
-          alarms_.add(Alarm::of(Alarm::Kind::mu_band, c, shared ? -1 : k));
+        const Scalar off = weight_[j] * mean_[p], beyond = std::fabs(off) - 2 * sd * weight_[j];
+        if (beyond > 0 && beyond > 2 * mu_deviation(j))
+          alarms_.add(Alarm::of(off > 0 && !shared ? Alarm::Kind::stuck_joint : Alarm::Kind::mu_band, c,
+                                shared ? -1 : k));
         if (shared) break;
       }
       for (int i = 0; i < cable.segments() && (limits_.most_force >= 0 || limits_.least_force >= 0); ++i) {
@@ -508,12 +742,17 @@ class Estimator {
   AlarmLimits<Scalar> limits_;
   TrackerType tracker_;
   Sample<Scalar, Cap> drive_;  // where the tracker was led
+  FixedList<JackedEnd, most_jacks> jacks_;
   FixedArray<std::array<Cell, 2>, Cap::cables> cells_;
   FixedArray<Scalar, 2 * Cap::cables> most_payout_;
   Alarms alarms_;
 
-  bool is_bent_ = false;  // the last measurement
   int unknowns_ = 0, friction_unknowns_ = 0;
+  int in_use_ = 0;  // the unknowns beyond have no variance yet
+  Update update_;   // by the last measurement
+  Errors errors_;   // of the jacks' readings in this row, once there is a second measurement
+  bool has_news_ = false, has_errors_ = false;
+  FixedArray<bool, Cap::joints> can_slide_;
   FixedArray<std::int16_t, Cap::joints> unknown_of_;
   FixedArray<Scalar, Cap::joints> weight_;       // of the unknown in mu
   FixedArray<Scalar, Parameters> mean_, at_;     // estimate; where the tracker is linearized

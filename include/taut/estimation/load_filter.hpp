@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "taut/numerics/bits.hpp"
+#include "taut/numerics/larger.hpp"
 
 namespace taut {
 
@@ -55,13 +56,12 @@ class LoadFilter {
     const Scalar step = dt > 0 && std::isfinite(dt) ? dt : Scalar(0);
     const Line parent = line(best_);
     for (int i = 0; i < lines_in_use_; ++i) line(i).advance(step);
-    if (usable) {
-      for (int i = 0; i < lines_in_use_; ++i) line(i).weigh(y);
-      make_room();
-      line(lines_in_use_++) = begin_line(parent, step, y);
-      share_out_weights();
-    }
-    return conclude(usable && line(best_).strays == 0);
+    if (!usable) return conclude(false, 1);
+    for (int i = 0; i < lines_in_use_; ++i) line(i).weigh(y);
+    make_room();
+    line(lines_in_use_++) = begin_line(parent, step, y);
+    const Scalar total = find_best();
+    return conclude(line(best_).strays == 0, total);
   }
 
  private:
@@ -73,8 +73,8 @@ class LoadFilter {
       Scalar(1e9);  ///< what is farther is no reading, and its square overflows
 
   /// A line remembers so many readings, so that slow creep is followed.
-  static constexpr Scalar memory = 2048;
-  static constexpr Scalar mean_memory = 4096;
+  static constexpr int memory = 2048;
+  static constexpr int mean_memory = 4096;
   static constexpr std::uint16_t greatest_age = 65535;
   /// Lines that began longer ago than this are as good as one another.
   static constexpr std::uint16_t old_age = 1024;
@@ -111,6 +111,11 @@ class LoadFilter {
                      f * (Scalar(0.2402265) + f * (Scalar(0.0555041) + f * Scalar(0.0096181)))));
   }
 
+  /// Of a number that is `r` off the mean of a normal distribution.
+  static Scalar density(Scalar r, Scalar precision) {
+    return Scalar(0.39894228) * std::sqrt(precision) * exponential(-r * r * precision / 2);
+  }
+
   /// One way to see the present piece of the path, fitted by recursive least squares.
   struct Line {
     Scalar level = 0, slope = 0;  ///< at the newest sample
@@ -123,7 +128,7 @@ class LoadFilter {
     std::uint8_t strays = 0;  ///< readings in a row that it took for outliers
 
     bool is_new() const { return age == 1 && known == 1; }
-    Scalar averaged() const { return age < mean_memory ? Scalar(age) : mean_memory; }
+    static Scalar averaged(int age) { return age < mean_memory ? Scalar(age) : Scalar(mean_memory); }
     bool has_slope() const { return slope * slope > sure_slope * sure_slope * slope_variance; }
 
     void advance(Scalar dt) {
@@ -135,15 +140,10 @@ class LoadFilter {
       covariance += dt * slope_variance;
     }
     void forget() {
-      constexpr Scalar growth = 1 + 1 / memory;
+      constexpr Scalar growth = 1 + Scalar(1) / memory;
       level_variance *= growth;
       covariance *= growth;
       slope_variance *= growth;
-    }
-    Scalar density(Scalar y) const { return density(y, 1 / (level_variance + 1)); }
-    Scalar density(Scalar y, Scalar precision) const {
-      const Scalar r = y - level;
-      return Scalar(0.39894228) * std::sqrt(precision) * exponential(-r * r * precision / 2);
     }
     Scalar outlier_density() const {
       if (known < established || strays >= most_strays) return 0;
@@ -151,8 +151,10 @@ class LoadFilter {
     }
     /// Takes the reading into account, or for an outlier.
     void weigh(Scalar y) {
-      const Scalar precision = 1 / (level_variance + 1);
-      const Scalar fits = density(y, precision), stray = outlier_density();
+      // One division for two.
+      const Scalar variance = level_variance + 1, readings = averaged(age + 1);
+      const Scalar both = 1 / (variance * readings), precision = both * readings;
+      const Scalar fits = density(y - level, precision), stray = outlier_density();
       weight *= fits + stray;
       if (stray > fits) {
         ++strays;
@@ -161,9 +163,8 @@ class LoadFilter {
       strays = 0;
       learn(y, precision);
       if (age < greatest_age) ++age;
-      mean += (y - mean) / averaged();
+      mean += (y - mean) * (both * variance);
     }
-    void learn(Scalar y) { learn(y, 1 / (level_variance + 1)); }
     void learn(Scalar y, Scalar precision) {
       const Scalar r = y - level;
       level += level_variance * precision * r;
@@ -206,7 +207,7 @@ class LoadFilter {
   ConditionedLoad<Scalar> take_first(Scalar reading) {
     base_ = reading;
     lines_in_use_ = 1;
-    return conclude(true);
+    return conclude(true, 1);
   }
 
   ConditionedLoad<Scalar> refuse() const {
@@ -223,29 +224,35 @@ class LoadFilter {
     Line born;
     born.level = born.mean = y;
     born.weight = odds * jumps * anywhere;
-    if (dt > 0 && !parent.is_new()) {
-      for (const Scalar bend : {gentle_bend, steep_bend}) {
-        Line bent = parent;
-        bent.slope_variance += bend / dt * (bend / dt);
-        bent.advance(dt);
-        bent.weight = odds * bends * bent.density(y);
-        if (bent.weight > born.weight) born = bent;
-        // So near, a steep bend explains it worse.
-        const Scalar r = y - bent.level;
-        if (r * r < 2 * (bent.level_variance + 1)) break;
-      }
-      if (born.known > 1 || born.age > 1) bend_at(born, y);
-    }
     born.corner = corner_after(parent, dt);
+    if (!(dt > 0) || parent.is_new()) return born;
+    const Scalar covariance = parent.covariance + dt * parent.slope_variance;
+    const Scalar level_variance = parent.level_variance + dt * (parent.covariance + covariance);
+    const Scalar r = y - (parent.level + dt * parent.slope);
+    Scalar chosen = 0, chosen_precision = 0;
+    for (const Scalar bend : {gentle_bend, steep_bend}) {
+      const Scalar variance = level_variance + bend * bend + 1, precision = 1 / variance;
+      const Scalar weight = odds * bends * density(r, precision);
+      if (weight > born.weight) {
+        born.weight = weight;
+        chosen = bend;
+        chosen_precision = precision;
+      }
+      // So near, a steep bend explains it worse.
+      if (r * r < 2 * variance) break;
+    }
+    if (chosen > 0) {
+      const Scalar change = chosen / dt;
+      born.level = y - r;
+      born.slope = parent.slope;
+      born.level_variance = level_variance + chosen * chosen;
+      born.covariance = covariance + chosen * change;
+      born.slope_variance = parent.slope_variance + change * change;
+      // Else a jump that bends at once were taken for a new one.
+      born.known = parent.known < 2 ? std::uint8_t(2) : parent.known;
+      born.learn(y, chosen_precision);
+    }
     return born;
-  }
-  static void bend_at(Line& bent, Scalar y) {
-    bent.learn(y);
-    bent.mean = y;
-    bent.age = 1;
-    bent.strays = 0;
-    // Else a jump that bends at once were taken for a new one.
-    if (bent.known < 2) bent.known = 2;
   }
   /// A load that is already on its way back came farthest before that.
   Scalar corner_after(const Line& parent, Scalar dt) const {
@@ -270,10 +277,10 @@ class LoadFilter {
   }
   /// The older one of the pair.
   int most_alike() const {
-    const auto age = [this](int i) { return Scalar(line(i).age < old_age ? line(i).age : old_age); };
+    const auto age = [this](int i) -> int { return line(i).age < old_age ? line(i).age : old_age; };
     int found = 0;
     for (int i = 1; i + 1 < lines_in_use_; ++i)
-      if (age(i) * age(found + 1) <= age(found) * age(i + 1)) found = i;
+      found = age(i) * age(found + 1) <= age(found) * age(i + 1) ? i : found;
     return found;
   }
   void drop(int gone) {
@@ -281,7 +288,8 @@ class LoadFilter {
     for (int i = gone; i < lines_in_use_; ++i) line(i) = line(i + 1);
   }
 
-  void share_out_weights() {
+  /// Returns the sum of the weights.
+  Scalar find_best() {
     Scalar total = 0;
     best_ = 0;
     for (int i = 0; i < lines_in_use_; ++i) {
@@ -289,12 +297,14 @@ class LoadFilter {
       total += line(i).weight;
       if (line(i).weight > line(best_).weight) best_ = static_cast<std::int8_t>(i);
     }
-    const Scalar unit = 1 / total;
-    for (int i = 0; i < lines_in_use_; ++i) line(i).weight *= unit;
+    return total;
   }
 
-  ConditionedLoad<Scalar> conclude(bool accepted) {
-    const Estimate estimate = estimate_load();
+  /// `total` is the sum of the weights; it becomes one.
+  ConditionedLoad<Scalar> conclude(bool accepted, Scalar total) {
+    const Estimate estimate = estimate_load(total);
+    const Scalar unit = 1 / total;
+    for (int i = 0; i < lines_in_use_; ++i) line(i).weight *= unit;
     ConditionedLoad<Scalar> now;
     now.load = force(estimate.level);
     now.sd = estimate.sd * sd_;
@@ -313,31 +323,31 @@ class LoadFilter {
   };
   /// About the best line. A long hold is left only when hardly anything speaks for it any more: among a
   /// million readings there are some that look like a bend.
-  Estimate estimate_load() const {
+  Estimate estimate_load(Scalar all) const {
     const Line& oldest = line(0);
-    if (oldest.age >= old_age && oldest.weight > patience && !oldest.has_slope())
-      return {oldest.level, spread_about(oldest.level, 0)};
-    const Scalar from = line(best_).level, mean = mean_about(from);
-    return {from + mean, spread_about(from, mean)};
-  }
-  Scalar mean_about(Scalar from) const {
-    Scalar total = 0, mean = 0;
+    if (oldest.age >= old_age && oldest.weight > patience * all && !oldest.has_slope())
+      return {oldest.level, spread_about(oldest.level)};
+    const Scalar from = line(best_).level;
+    Scalar total = 0, mean = 0, square = 0;
     for (int i = 0; i < lines_in_use_; ++i) {
-      const Scalar d = line(i).level - from;
+      const Scalar d = line(i).level - from, weight = line(i).weight;
       if (std::fabs(d) > apart) continue;
-      total += line(i).weight;
-      mean += line(i).weight * d;
+      total += weight;
+      mean += weight * d;
+      square += weight * (d * d + line(i).level_variance);
     }
-    return mean / total;
+    const Scalar unit = 1 / total;
+    mean *= unit;
+    return {from + mean, std::sqrt(square * unit - mean * mean)};
   }
-  /// Standard deviation about from + mean, of the lines near `from`.
-  Scalar spread_about(Scalar from, Scalar mean) const {
+  /// Standard deviation about a level, of the lines near it.
+  Scalar spread_about(Scalar level) const {
     Scalar total = 0, square = 0;
     for (int i = 0; i < lines_in_use_; ++i) {
-      const Scalar d = line(i).level - from;
+      const Scalar d = line(i).level - level;
       if (std::fabs(d) > apart) continue;
       total += line(i).weight;
-      square += line(i).weight * ((d - mean) * (d - mean) + line(i).level_variance);
+      square += line(i).weight * (d * d + line(i).level_variance);
     }
     return std::sqrt(square / total);
   }
@@ -351,15 +361,17 @@ class LoadFilter {
     for (; best_ > 0; --best_) drop(0);
   }
   void go_on(const Estimate& estimate) {
-    Scalar mean = -farthest;
     const Scalar way = falls_ ? Scalar(-1) : Scalar(1);
+    const Scalar most = way * estimate.level - sure_load * estimate.sd;
+    if (!(ahead(sure_, force(way * most)) > 0)) return;
+    Scalar mean = -farthest;
     for (int i = 0; i < lines_in_use_; ++i) {
-      if (std::fabs(line(i).level - estimate.level) > apart) continue;
-      const Scalar least = way * line(i).mean - sure_mean / std::sqrt(line(i).averaged());
-      if (least > mean) mean = least;
+      const Scalar least = way * line(i).mean - sure_mean / std::sqrt(Line::averaged(line(i).age));
+      const bool is_near = std::fabs(line(i).level - estimate.level) <= apart;
+      mean = larger(mean, is_near ? least : -farthest);
     }
-    const Scalar least = way * estimate.level - sure_load * estimate.sd;
-    const Scalar come = force(way * (mean < least ? mean : least));
+    mean = -larger(-mean, -most);
+    const Scalar come = force(way * mean);
     if (ahead(sure_, come) > 0) sure_ = come;
   }
   /// Keeps levels small, so that no digits are lost where the load is large and the noise is not.

@@ -12,7 +12,9 @@ template <class Scalar>
 struct EndReading {
   bool has_force = false;   ///< a new reading of the load cell
   bool has_stroke = false;  ///< a new reading of the payout
-  Scalar force = 0;   ///< [N]; at an unlocked jack it drives the model, at an anchored end it is measured
+  /// [N]; at an unlocked jack it drives the model, at an anchored end it is measured. At a locked end it is
+  /// that of a jack put back on it, and tells when the wedge is free.
+  Scalar force = 0;
   Scalar stroke = 0;  ///< payout of a jacked end since the start [m]
 };
 

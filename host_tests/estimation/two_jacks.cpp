@@ -1,0 +1,108 @@
+// A cable between two jacks, each with a noisy load cell, and neither mu nor the loads known.
+#include <doctest/doctest.h>
+
+#include "estimation/site.hpp"
+
+using namespace estimation;
+
+namespace {
+
+constexpr double full = 2e5;
+
+void make_ground(Ground& ground, bool elastic, double mu_sd, double actual_mu) {
+  taut::Cable<double> cable = support::steel_cable(0.2, support::two_jacks);
+  cable.mu_sd = mu_sd;
+  cable.shared_mu = true;
+  cable.seating = 0.003;
+  if (elastic)
+    support::truss_string(ground.known, cable, 6);
+  else
+    support::rigid_saddles(ground.known, cable, support::chain_points(7));
+  ground.set_true_mu(std::vector<double>(16, actual_mu));
+}
+
+struct Tally {
+  long held = 0, all = 0;
+  double square = 0, nominal_square = 0;
+};
+
+/// Both pull alike, hold, are locked one after the other, and the second one pulls again.
+template <class Scalar>
+void tension(Site<Scalar>& site, Random& random, Tally& tally) {
+  Deed deed;
+  const auto go = [&](const std::array<double, 2>& to, int samples) {
+    const Deed from = deed;
+    for (int i = 1; i <= samples; ++i) {
+      for (std::size_t end = 0; end < 2; ++end)
+        deed.force[end] = from.force[end] + (to[end] * full - from.force[end]) * i / samples;
+      site.advance(deed);
+      for (int k = 0; k < site.segments(); ++k) {
+        tally.held += site.holds_truth(k) ? 1 : 0;
+        ++tally.all;
+      }
+    }
+  };
+  const double first = random.between(0.5, 0.9), behind = random.between(0.95, 1);
+  go({first * behind, first}, 100);
+  go({first * behind, first}, 50);
+  deed.locked[0] = true;
+  go({0, first}, 50);
+  go({0, 1}, 80);
+  go({0, 1}, 50);
+  REQUIRE(site.good());
+  for (int k = 1; k + 1 < site.segments(); ++k) {
+    const double truth = site.true_force(k), nominal = site.nominal_force(k) - truth;
+    tally.square += site.error(k) * site.error(k) / (truth * truth);
+    tally.nominal_square += nominal * nominal / (truth * truth);
+  }
+}
+
+TEST_CASE_TEMPLATE("between two noisy jacks 93 to 97 % of the 95 % intervals hold the truth", Scalar, double,
+                   float) {
+  static Ground ground;
+  for (const bool elastic : {false, true}) {
+    CAPTURE(elastic);
+    Tally tally;
+    for (std::uint64_t seed = 1; seed <= 600; ++seed) {
+      Random random(seed);
+      make_ground(ground, elastic, 0.03, std::fmax(0.02, 0.2 + 0.03 * gaussian(random)));
+      const auto site = std::make_unique<Site<Scalar>>(ground, Instruments{}, full, seed);
+      tension(*site, random, tally);
+    }
+    const double share = static_cast<double>(tally.held) / static_cast<double>(tally.all);
+    CAPTURE(share);
+    CHECK(share > 0.93);
+    CHECK(share < 0.97);
+    CHECK(tally.square < 1.1 * tally.nominal_square);
+  }
+}
+
+TEST_CASE(
+    "two jacks that surely differ by more than friction holds are refused, within the noise they are not") {
+  static Ground ground;
+  make_ground(ground, false, 0.03, 0.2);
+  const auto site = std::make_unique<Site<double>>(ground, Instruments{}, full, 1);
+  // A joint over which the cable turns by b keeps (1 - mu tan(b / 2)) / (1 + mu tan(b / 2)).
+  double carried = 1;
+  for (int j = 0; j < ground.known.mu.size(); ++j) {
+    const double kappa = 0.2 * std::tan(support::chain_turn[j] / 2);
+    carried *= (1 - kappa) / (1 + kappa);
+  }
+  const auto code_at = [&](double start) {
+    auto estimator = std::make_unique<Site<double>::Estimator>(site->estimator());
+    taut::Readings<double, PlaneCapacity> readings;
+    for (int i = 1; i <= 20; ++i) {
+      readings.ends[0][0] = {true, false, start * full * i / 20, 0};
+      readings.ends[0][1] = {true, false, full * i / 20, 0};
+      const auto progress = estimator->advance(readings);
+      if (!progress.status) return progress.status.code;
+    }
+    return taut::Code::ok;
+  };
+  CHECK(code_at(1) == taut::Code::ok);
+  CHECK(code_at(carried + 0.02) == taut::Code::ok);
+  CHECK(code_at(0.8 * carried) == taut::Code::pulled_through);
+  CHECK(code_at(0) == taut::Code::pulled_through);
+}
+
+}  // namespace
