@@ -8,7 +8,7 @@ target_compile_options(
   INTERFACE ${board_processor}
             -mthumb
             -mfloat-abi=hard
-            -O2
+            -Os
             -fno-exceptions
             -fno-rtti
             -fno-unwind-tables
