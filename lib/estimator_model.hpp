@@ -15,8 +15,9 @@ namespace taut::host {
 template <class Scalar, class Cap>
 class EstimatorModel : public Model {
  public:
-  explicit EstimatorModel(const SceneDescription& scene)
+  EstimatorModel(const SceneDescription& scene, const AlarmLimits<double>& limits)
       : scene_(scene),
+        limits_(AlarmLimits<Scalar>::of(limits)),
         condensed_(new CondensedType),
         struts_(new StrutRows),
         knowledge_(new KnowledgeType),
@@ -26,7 +27,7 @@ class EstimatorModel : public Model {
   Followed start(int) override {
     const Condensing condensing = scene_.dimension == 2 ? condense<2>() : condense<3>();
     if (!condensing.status) return {condensing.status, 0};
-    const auto progress = estimator_->start(*condensed_, *knowledge_);
+    const auto progress = estimator_->start(*condensed_, *knowledge_, limits_);
     return {progress.status, static_cast<double>(progress.fraction)};
   }
   Followed advance(const LogRow& row, int) override {
@@ -78,6 +79,7 @@ class EstimatorModel : public Model {
   }
 
   const SceneDescription& scene_;
+  AlarmLimits<Scalar> limits_;
   std::unique_ptr<CondensedType> condensed_;
   std::unique_ptr<StrutRows> struts_;
   std::unique_ptr<KnowledgeType> knowledge_;

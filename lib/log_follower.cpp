@@ -46,7 +46,7 @@ std::string reason_to_stop(const Followed& path, const SceneDescription& scene) 
 LogFollower::LogFollower(const RunOptions& options)
     : options_(options),
       scene_(read_scene_file(options.scene)),
-      model_(make_model(scene_, options.method, options.numbers.scalar)),
+      model_(make_model(scene_, options.method, options.numbers.scalar, options.limits)),
       rules_(rules_for(options)),
       rows_(check_log(options.log, scene_, rules_)) {
   keep_inputs(options.output, {options.scene, options.log});

@@ -17,6 +17,7 @@ struct RunOptions {
   Method method = methods.front().second;
   NumberFormat numbers;
   int substeps = 1;  ///< load steps a row, for the method stepwise
+  AlarmLimits<double> limits;
 };
 
 /// Gets every row that has an answer, in order.

@@ -54,7 +54,7 @@ class CommandLine {
     }
     if (check_->parsed()) return check(options_.scene);
     if (export_->parsed()) return export_scene({options_.scene, options_.output});
-    if (report_->parsed()) return report({options_.scene, options_.log, options_.output});
+    if (report_->parsed()) return report({options_.scene, options_.log, options_.output, options_.limits});
     options_.method = estimate_->parsed() ? Method::estimate : method_called(method_);
     options_.numbers.scalar = scalar_ == "float" ? ScalarType::float32 : ScalarType::float64;
     return run_log(options_);
@@ -81,6 +81,7 @@ class CommandLine {
     estimate_ = app_.add_subcommand(
         "estimate", "Estimate the cable forces, and friction, from the readings of a log, with error bars");
     add_run(*estimate_, "Log of readings (CSV)");
+    add_limits(*estimate_);
   }
 
   void add_report() {
@@ -89,6 +90,19 @@ class CommandLine {
     report_->add_option("SCENE", options_.scene, "Scene file (JSON)")->required();
     report_->add_option("LOG", options_.log, "Log of readings (CSV)")->required();
     report_->add_option("-o", options_.output, "The page (HTML)")->required();
+    add_limits(*report_);
+  }
+
+  void add_limits(CLI::App& command) {
+    auto& limits = options_.limits;
+    const auto add = [&](const char* name, double& limit, const char* meaning) {
+      return command.add_option(name, limit, meaning)->check(CLI::NonNegativeNumber);
+    };
+    add("--least-force", limits.least_force, "Alarm when the force of a segment is below this [N]");
+    add("--most-force", limits.most_force, "Alarm when the force of a segment is above this [N]");
+    add("--elongation-tolerance", limits.elongation,
+        "Alarm when a stroke is off by this part of the largest payout")
+        ->capture_default_str();
   }
 
   void add_run(CLI::App& command, const std::string& log) {

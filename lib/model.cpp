@@ -17,12 +17,13 @@ std::unique_ptr<Model> tracker_model(const SceneDescription& scene, ScalarType s
   });
 }
 
-std::unique_ptr<Model> estimator_model(const SceneDescription& scene, ScalarType scalar) {
+std::unique_ptr<Model> estimator_model(const SceneDescription& scene, ScalarType scalar,
+                                       const AlarmLimits<double>& limits) {
   require_valid(scene);
   return with_condensed_capacity(scene, [&](auto kind) -> std::unique_ptr<Model> {
     using Cap = typename decltype(kind)::Capacity;
-    return scalar == ScalarType::float32 ? make_estimator<float, Cap>(scene)
-                                         : make_estimator<double, Cap>(scene);
+    return scalar == ScalarType::float32 ? make_estimator<float, Cap>(scene, limits)
+                                         : make_estimator<double, Cap>(scene, limits);
   });
 }
 
@@ -37,14 +38,15 @@ std::unique_ptr<Model> stepwise_model(const SceneDescription& scene, ScalarType 
 
 }  // namespace
 
-std::unique_ptr<Model> make_model(const SceneDescription& scene, Method method, ScalarType scalar) {
+std::unique_ptr<Model> make_model(const SceneDescription& scene, Method method, ScalarType scalar,
+                                  const AlarmLimits<double>& limits) {
   switch (method) {
     case Method::tracker:
       return tracker_model(scene, scalar);
     case Method::stepwise:
       return stepwise_model(scene, scalar);
     case Method::estimate:
-      return estimator_model(scene, scalar);
+      return estimator_model(scene, scalar, limits);
   }
   return nullptr;
 }

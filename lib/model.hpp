@@ -10,6 +10,7 @@
 #include "lib/log_file.hpp"
 #include "lib/result_file.hpp"
 #include "lib/scene_description.hpp"
+#include "taut/estimation/alarms.hpp"
 #include "taut/status.hpp"
 
 namespace taut::host {
@@ -42,8 +43,9 @@ class Model {
   virtual void read(Answer& answer) const = 0;
 };
 
-/// A model of the scene in the smallest capacity that holds it. Throws InputError if the scene cannot be
-/// used. The description must outlive the model.
-std::unique_ptr<Model> make_model(const SceneDescription& scene, Method method, ScalarType scalar);
+/// A model of the scene in the smallest capacity that holds it; `limits` are for the alarms of `estimate`.
+/// Throws InputError if the scene cannot be used. The description must outlive the model.
+std::unique_ptr<Model> make_model(const SceneDescription& scene, Method method, ScalarType scalar,
+                                  const AlarmLimits<double>& limits = {});
 
 }  // namespace taut::host

@@ -54,6 +54,7 @@ int report(const ReportOptions& options) {
   run.log = options.log;
   run.output = options.output;
   run.method = Method::estimate;
+  run.limits = options.limits;
   LogFollower follower(run);
   OutputFile output(options.output);
   RunRecord record(follower.scene());

@@ -3,10 +3,13 @@
 
 #include <string>
 
+#include "taut/estimation/alarms.hpp"
+
 namespace taut::host {
 
 struct ReportOptions {
   std::string scene, log, output;
+  AlarmLimits<double> limits;
 };
 
 /// Writes the page and returns the exit status as run_log() does: 0, or 1 if there is no answer at some row;

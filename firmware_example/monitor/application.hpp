@@ -94,13 +94,13 @@ class Application {
     bool done = false;
     session_.visit([&](auto& session) {
       using State = typename std::decay_t<decltype(session)>::State;
-      done = session.begin().ok() && header_.maker == session.maker() &&
+      done = session.begin(Settings::alarm_limits).ok() && header_.maker == session.maker() &&
              header_.length == sizeof(Common) + sizeof(State);
       if (!done) return;
       const std::uint32_t raised = common_.latched;
       records_.read(0, &common_, sizeof common_);
       records_.read(sizeof common_, &session.kept(), sizeof(State));
-      done = session.restore();
+      done = session.restore(Settings::alarm_limits);
       common_.latched |= raised;
       ++common_.restarts;
     });
@@ -198,7 +198,7 @@ class Application {
     session_.make(scene);
     common_.has_last = 0;
     session_.visit([&](auto& session) {
-      if (!session.begin()) raise(Alarm::scene_refused);
+      if (!session.begin(Settings::alarm_limits)) raise(Alarm::scene_refused);
     });
     board_.feed_watchdog();
     keep();

@@ -62,13 +62,13 @@ class Session {
       Cap::joints + 2 + 9 * Findings::capacity();
 
   /// Begins without load. The answer says whether the scene can be used.
-  taut::Status begin() {
+  taut::Status begin(const taut::AlarmLimits<float>& limits) {
     cells_ = {};
     findings_.clear();
     waited_ = 0;
     outcome_ = {};
     outcome_.status = source_.prepare();
-    if (outcome_.status) outcome_.status = estimator_.start(model(), knowledge()).status;
+    if (outcome_.status) outcome_.status = estimator_.start(model(), knowledge(), limits).status;
     outcome_.quality = outcome_.status ? Quality::held : Quality::none;
     usable_ = outcome_.status.ok();
     return outcome_.status;
@@ -92,12 +92,12 @@ class Session {
   }
   /// Room for a state that restore() is to take.
   State& kept() { return kept_; }
-  bool restore() {
+  bool restore(const taut::AlarmLimits<float>& limits) {
     cells_ = kept_.cells;
     outcome_ = kept_.outcome;
     waited_ = kept_.waited;
     findings_ = kept_.findings;
-    return estimator_.restore(model(), knowledge(), kept_.estimator).ok();
+    return estimator_.restore(model(), knowledge(), kept_.estimator, limits).ok();
   }
 
   // Commands; `cable` and `end` are checked.

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "taut/estimation/alarms.hpp"
+
 namespace monitor {
 
 /// The load cells: what they can say.
@@ -13,6 +15,8 @@ struct CellLimits {
 };
 
 struct Settings {
+  /// From when on the estimator finds something odd; by itself it has no limit for forces.
+  static constexpr taut::AlarmLimits<float> alarm_limits{};
   /// Events of the tracker in one call, 0: as many as it takes by itself.
   static constexpr int event_budget = 0;
   /// Calls of the tracker a sample; the watchdog is fed in between.

@@ -35,6 +35,9 @@ static_assert(monitor::most_unknowns(noisy) == 3);
 using Board = monitor::host::MemoryBoard;
 using Source = monitor::CondensedAtStartUp<noisy>;
 using Noisy = Rig<monitor::Application<Board, monitor::Settings, Source>>;
+struct Limited : monitor::Settings {
+  static constexpr taut::AlarmLimits<float> alarm_limits{-1, 115e3F};
+};
 
 // The fields of an answer, where its values begin at 10: 3 tensions, 2 slips, one word of states, 2 contact
 // and 2 friction forces, a payout, 3 deviations, 2 mu and their deviations, alarms.
@@ -85,6 +88,18 @@ TEST_CASE("jack and far end tell mu, and with it the forces between") {
   CHECK(mu_deviation(answer) < 0.01F);
   CHECK(mu(answer) == doctest::Approx(0.211).epsilon(0.05));
   CHECK(real(answer.at(24)) == real(answer.at(25)));
+}
+
+TEST_CASE("a force above the site's limit is said, before and after a power failure, and others are not") {
+  Rig<monitor::Application<Board, Limited, Source>> device;
+  const auto is_high = [&](std::uint32_t row, float force) {
+    return finds(device.ask(sample_of(row, {none, force, none})), taut::Alarm::Kind::force_high);
+  };
+  CHECK(!is_high(1, 50e3F));
+  CHECK(!is_high(2, 112e3F));
+  CHECK(is_high(3, 120e3F));
+  device.boot();
+  CHECK(is_high(4, 120e3F));
 }
 
 TEST_CASE("what is not read is neither zero nor the reading before") {

@@ -195,6 +195,23 @@ TEST_CASE("a list of mu with one unknown is a common factor") {
   CHECK(std::fabs(table.number(49, "C.mu3") - 3 * first) < 1e-9);
 }
 
+TEST_CASE("a force beyond a limit given on the command line raises an alarm that names its segment") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0)", ""));
+  write(scratch, "log.csv", "time,C.end\n1,100000\n2,200000\n3,300000\n");
+  // Segment 4 has the jack's force; the far end is the first to lack some.
+  const double far = far_end(2e5, 0.2);
+  const Outcome outcome =
+      estimate(scratch, " --most-force 250000 --least-force " + std::to_string(far + 100));
+  REQUIRE(outcome.status == 0);
+  const Table table(outcome.out);
+  CHECK(table.at(0, "alarms") == "force-low:C.T1 force-low:C.T2 force-low:C.T3 force-low:C.T4");
+  CHECK(table.at(1, "alarms") == "force-low:C.T1");
+  CHECK(table.at(2, "alarms").find("force-high:C.T4") != std::string::npos);
+  CHECK(table.at(2, "alarms").find("force-low") == std::string::npos);
+  CHECK(estimate(scratch, " --most-force -1").status == 2);
+}
+
 TEST_CASE("a stroke outside of its tolerance raises an alarm in its row") {
   const Scratch scratch;
   write(scratch, "scene.json", scene(R"("mu": 0, "mu_sd": 0)", ""));
@@ -208,6 +225,7 @@ TEST_CASE("a stroke outside of its tolerance raises an alarm in its row") {
   const Table table(outcome.out);
   CHECK(table.at(0, "alarms").empty());
   CHECK(table.at(1, "alarms") == "elongation:C.end");
+  CHECK(Table(estimate(scratch, " --elongation-tolerance 0.25").out).at(1, "alarms").empty());
 }
 
 TEST_CASE("the jack's reading at a locked end changes no number, and says when the wedge is free") {

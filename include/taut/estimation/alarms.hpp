@@ -37,6 +37,12 @@ struct AlarmLimits {
   Scalar elongation =
       Scalar(0.05);  ///< part of the largest payout; EN 13670 allows 0.05 for all tendons together
   Scalar least_elongation = Scalar(1e-3);  ///< [m]: differences below this are reading errors
+
+  template <class Other>
+  static constexpr AlarmLimits of(const AlarmLimits<Other>& other) {
+    return {static_cast<Scalar>(other.least_force), static_cast<Scalar>(other.most_force),
+            static_cast<Scalar>(other.elongation), static_cast<Scalar>(other.least_elongation)};
+  }
 };
 
 }  // namespace taut
