@@ -4,7 +4,6 @@
 #include <memory>
 #include <string>
 
-#include "lib/alarm_words.hpp"
 #include "lib/condense_scene.hpp"
 #include "lib/model.hpp"
 #include "lib/solver_values.hpp"
@@ -31,36 +30,17 @@ class EstimatorModel : public Model {
     return {progress.status, static_cast<double>(progress.fraction)};
   }
   Followed advance(const LogRow& row, int) override {
-    ReadingsType& readings = *readings_;
-    readings.sample = sample_of<Scalar, Cap>(row, scene_);
-    readings.dt = has_row_ ? static_cast<Scalar>(row.time - time_) : Scalar(1);
+    read_row(row, scene_, has_row_ ? row.time - time_ : 1, *readings_);
     time_ = row.time;
     has_row_ = true;
-    for (std::size_t c = 0; c < scene_.cables.size(); ++c)
-      for (std::size_t end = 0; end < 2; ++end) {
-        const EndRow& given = row.cables[c][end];
-        auto& reading = readings.ends[static_cast<int>(c)][end];
-        reading = {given.reading.has_value(), given.stroke.has_value(),
-                   static_cast<Scalar>(given.reading.value_or(0)),
-                   static_cast<Scalar>(given.stroke.value_or(0))};
-      }
-    const auto progress = estimator_->advance(readings);
+    const auto progress = estimator_->advance(*readings_);
     return {progress.status, static_cast<double>(progress.fraction)};
   }
   void read(Answer& answer) const override {
     Response<Scalar, Cap> response;
     estimator_->respond(response, struts_.get());
     read_response(response, scene_, answer);
-    answer.deviation.resize(answer.tension.size());
-    for (std::size_t i = 0; i < answer.deviation.size(); ++i)
-      answer.deviation[i] = static_cast<double>(estimator_->deviation(static_cast<int>(i)));
-    answer.mu.resize(answer.slip.size());
-    answer.mu_deviation.resize(answer.slip.size());
-    for (std::size_t j = 0; j < answer.mu.size(); ++j) {
-      answer.mu[j] = static_cast<double>(estimator_->mu(static_cast<int>(j)));
-      answer.mu_deviation[j] = static_cast<double>(estimator_->mu_deviation(static_cast<int>(j)));
-    }
-    answer.alarms = alarm_words(estimator_->alarms(), scene_);
+    read_certainty(*estimator_, scene_, answer);
   }
 
  private:

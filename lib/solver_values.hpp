@@ -3,9 +3,11 @@
 
 #include <cstddef>
 
+#include "lib/alarm_words.hpp"
 #include "lib/answer.hpp"
 #include "lib/log_file.hpp"
 #include "lib/scene_description.hpp"
+#include "taut/estimation/readings.hpp"
 #include "taut/scene/sample.hpp"
 
 namespace taut::host {
@@ -25,6 +27,20 @@ Sample<Scalar, Cap> sample_of(const LogRow& row, const SceneDescription& scene) 
     }
   }
   return sample;
+}
+
+/// The readings of a row; `dt` is the time since the row before [s].
+template <class Scalar, class Cap>
+void read_row(const LogRow& row, const SceneDescription& scene, double dt, Readings<Scalar, Cap>& readings) {
+  readings.sample = sample_of<Scalar, Cap>(row, scene);
+  readings.dt = static_cast<Scalar>(dt);
+  for (std::size_t c = 0; c < scene.cables.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const EndRow& given = row.cables[c][end];
+      readings.ends[static_cast<int>(c)][end] = {given.reading.has_value(), given.stroke.has_value(),
+                                                 static_cast<Scalar>(given.reading.value_or(0)),
+                                                 static_cast<Scalar>(given.stroke.value_or(0))};
+    }
 }
 
 namespace detail {
@@ -61,6 +77,19 @@ void read_response(const Response<Scalar, Cap>& response, const SceneDescription
   detail::copy_numbers(response.strut, scene.struts.size(), answer.strut);
   answer.state.resize(joints);
   for (std::size_t j = 0; j < joints; ++j) answer.state[j] = response.state[static_cast<int>(j)];
+}
+
+/// Copies what an Estimator finds beyond its response.
+template <class EstimatorType>
+void read_certainty(const EstimatorType& estimator, const SceneDescription& scene, Answer& answer) {
+  const auto copy = [](std::vector<double>& to, std::size_t count, auto number) {
+    to.resize(count);
+    for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<double>(number(static_cast<int>(i)));
+  };
+  copy(answer.deviation, answer.tension.size(), [&](int i) { return estimator.deviation(i); });
+  copy(answer.mu, answer.slip.size(), [&](int j) { return estimator.mu(j); });
+  copy(answer.mu_deviation, answer.slip.size(), [&](int j) { return estimator.mu_deviation(j); });
+  answer.alarms = alarm_words(estimator.alarms(), scene);
 }
 
 }  // namespace taut::host

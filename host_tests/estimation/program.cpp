@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "files/result_table.hpp"
 #include "files/run_program.hpp"
 
 namespace {
@@ -26,35 +27,6 @@ std::string scene(const std::string& friction, const std::string& sensors) {
          sensors + " } }";
 }
 const std::string both_cells = R"("C.start": { "sd": 500 }, "C.end": { "sd": 500 })";
-
-std::vector<std::string> fields(const std::string& line) {
-  std::vector<std::string> found;
-  std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) found.push_back(field);
-  if (!line.empty() && line.back() == ',') found.emplace_back();
-  return found;
-}
-/// A result as columns by name.
-struct Table {
-  std::vector<std::string> header;
-  std::vector<std::vector<std::string>> rows;
-
-  explicit Table(const std::string& text) {
-    std::istringstream stream(text);
-    std::string line;
-    std::getline(stream, line);
-    header = fields(line);
-    while (std::getline(stream, line)) rows.push_back(fields(line));
-  }
-  const std::string& at(std::size_t row, const std::string& column) const {
-    const auto found = std::find(header.begin(), header.end(), column);
-    REQUIRE(found != header.end());
-    return rows.at(row).at(static_cast<std::size_t>(found - header.begin()));
-  }
-  double number(std::size_t row, const std::string& column) const {
-    return std::strtod(at(row, column).c_str(), nullptr);
-  }
-};
 
 void write(const Scratch& scratch, const std::string& name, const std::string& text) {
   std::ofstream(scratch.path / name) << text;

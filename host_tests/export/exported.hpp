@@ -13,7 +13,6 @@
 #include <string>
 
 #include "files/run_program.hpp"
-#include "lib/alarm_words.hpp"
 #include "lib/log_file.hpp"
 #include "lib/result_file.hpp"
 #include "lib/scene_build.hpp"
@@ -145,34 +144,6 @@ std::string tracked(const std::string& name, const Condensed<Scalar, Cap>& conde
   return text;
 }
 
-template <class Scalar, class Cap>
-Readings<Scalar, Cap> readings_of(const LogRow& row, const SceneDescription& scene, double dt) {
-  Readings<Scalar, Cap> readings;
-  readings.sample = sample_of<Scalar, Cap>(row, scene);
-  readings.dt = static_cast<Scalar>(dt);
-  for (int c = 0; c < Cap::cables; ++c)
-    for (std::size_t end = 0; end < 2; ++end) {
-      const EndRow& given = row.cables[static_cast<std::size_t>(c)][end];
-      readings.ends[c][end] = {given.reading.has_value(), given.stroke.has_value(),
-                               static_cast<Scalar>(given.reading.value_or(0)),
-                               static_cast<Scalar>(given.stroke.value_or(0))};
-    }
-  return readings;
-}
-
-template <class EstimatorType>
-void read_deviations(const EstimatorType& estimator, Answer& answer) {
-  answer.deviation.clear();
-  answer.mu.clear();
-  answer.mu_deviation.clear();
-  for (int i = 0; i < EstimatorType::Cap::segments; ++i)
-    answer.deviation.push_back(static_cast<double>(estimator.deviation(i)));
-  for (int j = 0; j < EstimatorType::Cap::joints; ++j) {
-    answer.mu.push_back(static_cast<double>(estimator.mu(j)));
-    answer.mu_deviation.push_back(static_cast<double>(estimator.mu_deviation(j)));
-  }
-}
-
 /// The result of an estimator that runs on the constants, as the program would write it with --hex.
 template <int Unknowns, class Scalar, class Cap>
 std::string estimated(const std::string& name, const Condensed<Scalar, Cap>& condensed,
@@ -189,14 +160,15 @@ std::string estimated(const std::string& name, const Condensed<Scalar, Cap>& con
   std::string text = result_header(scene, ResultColumns::estimate);
   LogRow row = log.first_row();
   Response<Scalar, Cap> response;
+  Readings<Scalar, Cap> readings;
   Answer answer;
   for (double before = 0; log.next(row); before = row.time) {
     const double dt = row.row == 1 ? 1 : row.time - before;
-    REQUIRE(estimator.advance(readings_of<Scalar, Cap>(row, scene, dt)).status.ok());
+    read_row(row, scene, dt, readings);
+    REQUIRE(estimator.advance(readings).status.ok());
     estimator.respond(response, rows);
     read_response(response, scene, answer);
-    read_deviations(estimator, answer);
-    answer.alarms = alarm_words(estimator.alarms(), scene);
+    read_certainty(estimator, scene, answer);
     text += result_row(scene, row.time, answer, format, ResultColumns::estimate);
   }
   return text;

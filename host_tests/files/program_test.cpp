@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "files/result_table.hpp"
 #include "files/run_program.hpp"
 
 namespace fs = std::filesystem;
@@ -25,25 +26,6 @@ const std::string vertical_strut = TAUT_FILES "/vertical_strut.json";
 std::string simulation(const Scratch& scratch, const std::string& log, const std::string& of = scene) {
   std::ofstream(scratch.path / "log.csv") << log;
   return "simulate '" + of + "' " + scratch.quoted("log.csv");
-}
-
-std::vector<std::string> fields(const std::string& line) {
-  std::vector<std::string> found;
-  std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) found.push_back(field);
-  return found;
-}
-
-// The fields of a column of a result, row by row.
-std::vector<std::string> column(const std::string& result, const std::string& name) {
-  std::istringstream stream(result);
-  std::string line;
-  std::getline(stream, line);
-  const auto header = fields(line);
-  const auto at = static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
-  std::vector<std::string> found;
-  while (std::getline(stream, line)) found.push_back(fields(line).at(at));
-  return found;
 }
 
 double number(const std::string& field) { return std::strtod(field.c_str(), nullptr); }
@@ -111,7 +93,7 @@ TEST_CASE("tracker and stepwise agree where the answer is one straight piece") {
   const Outcome stepwise = run_taut(scratch, arguments + " --method stepwise");
   CHECK(tracker.status == 0);
   CHECK(stepwise.status == 0);
-  CHECK(column(tracker.out, "C.state1") == std::vector<std::string>(3, "forward"));
+  CHECK(Table(tracker.out).column("C.state1") == std::vector<std::string>(3, "forward"));
   CHECK(difference(tracker.out, stepwise.out) < 1e-9);
 }
 
@@ -130,7 +112,8 @@ TEST_CASE("a locked jack keeps its payout less the seating, and takes hold again
   const std::string log = "time,C.end,C.end.locked\n1,50000,0\n2,,1\n3,,1\n4,70000,0\n";
   const Outcome outcome = run_taut(scratch, simulation(scratch, log, one_jack));
   CHECK(outcome.status == 0);
-  const auto payout = column(outcome.out, "C.end.payout"), T2 = column(outcome.out, "C.T2");
+  const Table table(outcome.out);
+  const auto payout = table.column("C.end.payout"), T2 = table.column("C.T2");
   CHECK(std::fabs(number(payout[1]) - (number(payout[0]) - 0.002)) < 1e-12);
   CHECK(number(T2[1]) < 50000);
   CHECK(payout[2] == payout[1]);
