@@ -9,8 +9,8 @@
 
 #include "host/device.hpp"
 #include "host/memory_link.hpp"
+#include "host/memory_monitor.hpp"
 #include "host/process_link.hpp"
-#include "monitor/scenes.hpp"
 
 namespace {
 
@@ -20,7 +20,7 @@ using monitor::host::framed;
 using monitor::host::MemoryBoard;
 using monitor::host::number_field;
 using monitor::host::Reading;
-using Application = monitor::Monitor<MemoryBoard>;
+using Application = monitor::host::MemoryMonitor;
 
 [[noreturn]] void fail(const std::string& what) { throw std::runtime_error(what); }
 

@@ -11,9 +11,9 @@
 #include "host/device.hpp"
 #include "host/log_reader.hpp"
 #include "host/memory_link.hpp"
+#include "host/memory_monitor.hpp"
 #include "host/process_link.hpp"
 #include "monitor/frame.hpp"
-#include "monitor/scenes.hpp"
 
 namespace {
 
@@ -148,7 +148,7 @@ int replay(const std::string& file, monitor::host::Link& link) {
 }
 
 int replay_here(const std::string& file) {
-  using Application = monitor::Monitor<monitor::host::MemoryBoard>;
+  using Application = monitor::host::MemoryMonitor;
   static monitor::host::MemoryBoard board;
   static Application application(board);
   application.begin();

@@ -11,8 +11,7 @@
 #include <vector>
 
 #include "host/device.hpp"
-#include "host/memory_board.hpp"
-#include "monitor/scenes.hpp"
+#include "host/memory_monitor.hpp"
 
 namespace rig {
 
@@ -122,7 +121,7 @@ inline Fields tensions(const Fields& answer, int segments) {
 /// Forces, slips, states and all: what must not depend on what happened to the line or the power.
 inline Fields state(const Fields& answer) { return Fields(answer.begin() + 10, answer.end()); }
 
-using Plain = Rig<monitor::Monitor<monitor::host::MemoryBoard>>;
+using Plain = Rig<monitor::host::MemoryMonitor>;
 /// The recorded experiment has three jacks, the truss string a load and a jack.
 constexpr std::uint32_t rolling_joint = 0, truss_string = 1;
 inline std::string choose(std::uint32_t scene) { return "C " + number_field(scene); }
