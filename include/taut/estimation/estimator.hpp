@@ -11,6 +11,7 @@
 #include "taut/estimation/load_filter.hpp"
 #include "taut/estimation/readings.hpp"
 #include "taut/numerics/larger.hpp"
+#include "taut/scene/capacity.hpp"
 #include "taut/tracking/tracker.hpp"
 
 namespace taut {
@@ -52,7 +53,7 @@ class Estimator {
   static constexpr std::uint8_t surely_below = 3;
   /// Turning points of every jack that friction is taken to remember.
   static constexpr int memories = 2;
-  using Alarms = FixedList<Alarm, 8 + 4 * Cap::cables + Cap::joints>;
+  using Alarms = FixedList<Alarm, 8 + 4 * Cap::cables + Cap::joints + Cap::segments>;
 
   /// Begins without loads, with friction as it is known beforehand. Fails with `capacity_exceeded` if there
   /// are more unknown mu than Parameters (the amount is what is missing), and as Tracker::start(). Both must
@@ -74,19 +75,20 @@ class Estimator {
         return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
     has_errors_ = has_news_ = false;
     const Corners corners = take_loads(readings);
-    Sample<Scalar, Cap> goal = readings.sample;
-    for (const JackedEnd& jack : jacks_) {
-      const Cell& cell = cell_of(jack);
-      goal.jack[jack.cable][jack.end] = {larger(cell.at.sure, cell.first), cell.locked};
-    }
     Progress<Scalar> progress;
     if (corners.any()) progress = pass(corners, event_budget);
-    if (progress.status) progress = join(progress, lead(goal, event_budget));
+    if (progress.status) {
+      drive_ = readings.sample;
+      for (const JackedEnd& jack : jacks_) {
+        const Cell& cell = cell_of(jack);
+        drive_.jack[jack.cable][jack.end] = {larger(cell.at.sure, cell.first), cell.locked};
+      }
+      progress = join(progress, lead(drive_, event_budget));
+    }
     if (!progress.status || progress.fraction < 1) {
       stop_here();
       return progress;
     }
-    drive_ = goal;
     for (int c = 0; c < model_->cables.size(); ++c) {
       const auto& cable = model_->cables[c];
       for (std::size_t end = 0; end < 2 && !cable.closed; ++end) {
@@ -154,13 +156,15 @@ class Estimator {
   }
   /// Its standard deviation [N].
   Scalar deviation(int segment) const {
-    FixedArray<Scalar, Parameters> S;
+    // Without zeros first; a FixedArray has them.
+    std::array<Scalar, static_cast<std::size_t>(Parameters)> derivatives;
+    const auto S = [&derivatives](int p) -> Scalar& { return derivatives[static_cast<std::size_t>(p)]; };
     Scalar variance = 0;
     for (int p = 0; p < in_use_; ++p) {
-      S[p] = tracker_.sensitivity(p, segment);
-      Scalar sum = S[p] * covariance_[p][p];
-      for (int q = 0; q < p; ++q) sum += 2 * S[q] * covariance_[p][q];
-      variance += S[p] * sum;
+      S(p) = tracker_.sensitivity(p, segment);
+      Scalar sum = S(p) * covariance_[p][p];
+      for (int q = 0; q < p; ++q) sum += 2 * S(q) * covariance_[p][q];
+      variance += S(p) * sum;
     }
     for (const JackedEnd& jack : jacks_) {
       const Cell& cell = cell_of(jack);
@@ -248,7 +252,7 @@ class Estimator {
   }
 
  private:
-  static constexpr int most_jacks = 2 * Cap::cables;
+  static constexpr int most_jacks = max_jacks<Cap>;
   struct JackedEnd {
     int cable = 0;
     std::size_t end = 0;
@@ -266,7 +270,7 @@ class Estimator {
     for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) { jacks_.add({c, end}); });
     has_errors_ = has_news_ = false;
     tracker_.begin(condensed);
-    for (int j = 0; j < condensed.joints; ++j) can_slide_[j] = !condensed.is_locked(j);
+    for (int j = 0; j < Cap::joints; ++j) can_slide_[j] = j < condensed.joints && !condensed.is_locked(j);
     drive_ = {};
     most_payout_.fill(Scalar(0));
     for (int c = 0; c < Cap::cables; ++c)
@@ -543,7 +547,7 @@ class Estimator {
   template <class Expect>
   void learn(const Expect& expect, Scalar reading, Scalar sd, const Alarm& contradiction) {
     if (!(sd > 0) || friction_unknowns_ == 0 || may_have_turned()) return;
-    Expected expected;
+    Expected& expected = expected_;
     expect(expected);
     if (!slides_where_it_matters(expected, contradiction.cable, sd)) {
       alarms_.add(Alarm::of(Alarm::Kind::no_information, contradiction.cable, contradiction.place));
@@ -585,10 +589,12 @@ class Estimator {
   }
   /// Whether friction is at its limit at every joint of the cable that can slide.
   bool slides_throughout(int c) const {
-    const auto& cable = model_->cables[c];
+    // With one cable the compiler knows how many there are.
+    constexpr bool is_alone = Cap::cables == 1;
+    const int first = is_alone ? 0 : model_->cables[c].first_joint;
+    const int joints = is_alone ? Cap::joints : model_->cables[c].joints();
     bool sticks = false;
-    for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
-      sticks |= can_slide_[j] && !tracker_.is_at_limit(j);
+    for (int j = first; j < first + joints; ++j) sticks |= can_slide_[j] & !tracker_.is_at_limit(j);
     return !sticks;
   }
   /// What slides and what sticks is in doubt then.
@@ -749,8 +755,10 @@ class Estimator {
 
   int unknowns_ = 0, friction_unknowns_ = 0;
   int in_use_ = 0;  // the unknowns beyond have no variance yet
-  Update update_;   // by the last measurement
-  Errors errors_;   // of the jacks' readings in this row, once there is a second measurement
+  // Of the last measurement; members, so that what is not in use need not be cleared every time.
+  Expected expected_;
+  Update update_;
+  Errors errors_;  // of the jacks' readings in this row, once there is a second measurement
   bool has_news_ = false, has_errors_ = false;
   FixedArray<bool, Cap::joints> can_slide_;
   FixedArray<std::int16_t, Cap::joints> unknown_of_;

@@ -71,13 +71,13 @@ class Sensitivity {
     }
   }
 
-  /// dT/dp of a segment [N], at inputs `x`.
+  /// dT/dp of a segment [N], at inputs `x`; `anchor` is that of the map.
   template <class Values>
-  Scalar tension(const Map& map, int p, int segment, const Values& x) const {
+  Scalar tension(const Map& map, int p, int segment, const Values& x, const Values& anchor) const {
     if (p >= frozen_.used) return 0;
     Scalar at = base_[p][segment];
     for (int k = 0; k < map.inputs(); ++k)
-      at += static_cast<Scalar>(static_cast<Real>(x[k]) - map.anchor()[k]) * column_[p][k][segment];
+      at += static_cast<Scalar>(x[k] - anchor[k]) * column_[p][k][segment];
     return at;
   }
 
@@ -94,8 +94,9 @@ class Sensitivity {
   void meet(const Map& map, const Inputs& x, const Tensions& T, const Law<Real>& law, int joint,
             Real falling) {
     for (int p = 0; p < frozen_.used; ++p) {
-      Real change = static_cast<Real>(tension(map, p, law.first, x));
-      if (law.second >= 0) change -= law.weight * static_cast<Real>(tension(map, p, law.second, x));
+      Real change = static_cast<Real>(tension(map, p, law.first, x, map.anchor()));
+      if (law.second >= 0)
+        change -= law.weight * static_cast<Real>(tension(map, p, law.second, x, map.anchor()));
       if (joint >= 0 && parameter_[joint] == p) change -= slope_[joint] * T[law.second];
       later_[p] = -change / falling;
     }

@@ -211,7 +211,7 @@ class Tracker {
   }
   /// Derivative of a tension with respect to unknown `p` [N], at the loads reached.
   Scalar sensitivity(int p, int segment) const {
-    return !has_map_ ? Scalar(0) : derivatives_.tension(map_, p, segment, at_);
+    return !has_map_ ? Scalar(0) : derivatives_.tension(map_, p, segment, at_, anchor_);
   }
   /// Derivative of a tension with respect to the force of an unlocked jack, on the present piece [-].
   Scalar slope(int cable, std::size_t end, int segment) const {
