@@ -1,14 +1,16 @@
 # How firmware for a Cortex-M is compiled and linked.
 
 # What every answer rests on: no contraction (of taut::taut), no -ffast-math. What keeps it small: no exceptions, no
-# run-time types, no unwinding. -O0 and -Og leave calls of operator new behind that nobody makes: not for the device.
+# run-time types, no unwinding. -O0 and -Og leave calls of operator new behind that nobody makes: not for the device. So does -Os where
+# a scene in space is condensed on the device: take -O2 there, or export the scene.
+set(MONITOR_OPTIMIZATION -Os CACHE STRING "Optimization of firmware")
 add_library(cortex_m INTERFACE)
 target_compile_options(
   cortex_m
   INTERFACE ${board_processor}
             -mthumb
             -mfloat-abi=hard
-            -Os
+            ${MONITOR_OPTIMIZATION}
             -fno-exceptions
             -fno-rtti
             -fno-unwind-tables
