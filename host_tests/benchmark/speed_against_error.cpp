@@ -395,6 +395,7 @@ int main(int argc, char** argv) {
     if (std::strcmp(argv[i], "--figure") == 0) figure = argv[i + 1];
   register_scene<Elastic<4>>("truss string, 4 joints");
   register_scene<Elastic<15>>("truss string, 15 joints");
+  register_scene<Elastic<16>>("truss string, 16 joints");
   register_scene<Elastic<64>>("truss string, 64 joints");
   register_scene<Rigid<4>>("rigid saddles, 4 joints");
   register_scene<Rigid<16>>("rigid saddles, 16 joints");
