@@ -1,13 +1,11 @@
 // What the estimator makes of jackings whose truth is known, and of the one in the paper.
 #include <doctest/doctest.h>
 
-#include "estimation/site.hpp"
+#include "estimation/ramp.hpp"
 
 using namespace estimation;
 
 namespace {
-
-constexpr double full = 2e5;
 
 /// A chain over rigid saddles, or a truss string.
 void make_ground(Ground& ground, bool elastic, double known_mu, double mu_sd, double actual_mu,
@@ -21,40 +19,12 @@ void make_ground(Ground& ground, bool elastic, double known_mu, double mu_sd, do
     support::rigid_saddles(ground.known, cable, support::chain_points(7));
   ground.set_true_mu(std::vector<double>(16, actual_mu));
 }
+/// The far end is measured.
 template <class Scalar>
-void ramp(Site<Scalar>& site, double from, double to, int samples) {
-  for (int i = 1; i <= samples; ++i) site.advance(full * (from + (to - from) * i / samples));
-}
-template <class Alarms>
-bool raised(const Alarms& alarms, taut::Alarm::Kind kind) {
-  for (const taut::Alarm& alarm : alarms)
-    if (alarm.kind == kind) return true;
-  return false;
-}
-
-struct Errors {
-  double estimated = 0, nominal = 0;  // root mean square, relative to the forces
-};
-template <class Scalar>
-Errors after_one_ramp(bool elastic, double off) {
+Errors after_one_ramp_of(bool elastic, double off) {
   static Ground ground;
   make_ground(ground, elastic, 0.2 * (1 + off), 0.5 * 0.2 * (1 + off), 0.2);
-  Errors errors;
-  int count = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    const auto site = std::make_unique<Site<Scalar>>(ground, Instruments{}, full, seed);
-    ramp(*site, 0, 1, 200);
-    REQUIRE(site->good());
-    for (int i = 1; i + 1 < site->segments(); ++i) {
-      const double truth = site->true_force(i), nominal = site->nominal_force(i) - truth;
-      errors.estimated += site->error(i) * site->error(i) / (truth * truth);
-      errors.nominal += nominal * nominal / (truth * truth);
-      ++count;
-    }
-  }
-  errors.estimated = std::sqrt(errors.estimated / count);
-  errors.nominal = std::sqrt(errors.nominal / count);
-  return errors;
+  return after_one_ramp<Scalar>(ground, {}, 40, 1);
 }
 
 TEST_CASE("a prior half off comes within half a percent after one ramp, and ten times closer than it was") {
@@ -63,7 +33,7 @@ TEST_CASE("a prior half off comes within half a percent after one ramp, and ten 
       CAPTURE(elastic);
       CAPTURE(off);
       for (const Errors& errors :
-           {after_one_ramp<double>(elastic, off), after_one_ramp<float>(elastic, off)}) {
+           {after_one_ramp_of<double>(elastic, off), after_one_ramp_of<float>(elastic, off)}) {
         CHECK(errors.estimated < 0.005);
         CHECK(errors.nominal > 10 * errors.estimated);
       }
