@@ -110,6 +110,16 @@ CondensedCounts condensed_counts(const SceneDescription& scene) {
   return counts;
 }
 
+CondensedCounts larger(const CondensedCounts& a, const CondensedCounts& b) {
+  return {std::max(a.cables, b.cables),
+          std::max(a.jacks, b.jacks),
+          std::max(a.segments, b.segments),
+          std::max(a.joints, b.joints),
+          std::max(a.loads, b.loads),
+          std::max(a.struts, b.struts),
+          std::max(a.substructures, b.substructures)};
+}
+
 CondensedSize condensed_size(const CondensedCounts& counts, ScalarType scalar) {
   return scalar == ScalarType::float32 ? Sizes<float>::of(counts) : Sizes<double>::of(counts);
 }

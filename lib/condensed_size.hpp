@@ -14,8 +14,12 @@ struct CondensedCounts {
   /// Zero means rigid saddles: no coupling between segments is stored. A structure that consists of cables
   /// alone counts as one substructure.
   int substructures = 0;
+
+  bool has_rigid_saddles() const { return struts == 0 && substructures == 0; }
 };
 CondensedCounts condensed_counts(const SceneDescription& scene);
+/// The larger of each count: a capacity that holds either scene.
+CondensedCounts larger(const CondensedCounts& a, const CondensedCounts& b);
 
 /// Bytes, for a capacity that fits exactly, where pointers are as large as here.
 struct CondensedSize {

@@ -1,17 +1,18 @@
-// `taut export`: the condensed scene as a C++ header with constants for flash.
+// `taut export`: condensed scenes as a C++ header with constants for flash.
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace taut::host {
 
 struct ExportOptions {
-  std::string scene;
-  std::string output;  ///< empty: standard output
+  std::vector<std::string> scenes;  ///< at least one
+  std::string output;               ///< empty: standard output
 };
 
-/// Writes the header and returns the exit status: 0, or 1 if the structure cannot be condensed, with the
+/// Writes the header and returns the exit status: 0, or 1 if a structure cannot be condensed, with the
 /// reason on standard error and nothing written. Throws InputError for unusable input.
-int export_scene(const ExportOptions& options);
+int export_scenes(const ExportOptions& options);
 
 }  // namespace taut::host

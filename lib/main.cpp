@@ -53,7 +53,7 @@ class CommandLine {
       return app_.exit(error) == 0 ? 0 : unusable_input;
     }
     if (check_->parsed()) return check(options_.scene);
-    if (export_->parsed()) return export_scene({options_.scene, options_.output});
+    if (export_->parsed()) return export_scenes({scenes_, options_.output});
     if (report_->parsed()) return report({options_.scene, options_.log, options_.output, options_.limits});
     options_.method = estimate_->parsed() ? Method::estimate : method_called(method_);
     options_.numbers.scalar = scalar_ == "float" ? ScalarType::float32 : ScalarType::float64;
@@ -117,7 +117,8 @@ class CommandLine {
 
   void add_export() {
     export_ = app_.add_subcommand("export", "Write a C++ header with the condensed scene, for firmware");
-    export_->add_option("SCENE", options_.scene, "Scene file (JSON)")->required();
+    export_->add_option("SCENE", scenes_, "Scene files (JSON); several share one capacity and so their code")
+        ->required();
     export_->add_option("-o", options_.output, "Header file (C++); standard output if absent");
   }
 
@@ -127,6 +128,7 @@ class CommandLine {
   CLI::App* export_ = nullptr;
   CLI::App* report_ = nullptr;
   RunOptions options_;
+  std::vector<std::string> scenes_;
   std::string method_ = methods.front().first, scalar_ = "double";
 };
 

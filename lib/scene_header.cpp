@@ -189,11 +189,14 @@ std::string layout(const CableLayout<double>& cable, const std::string& seating)
          std::to_string(cable.first_joint) + "}";
 }
 
-// Writes the constants of one floating-point type.
+// Writes the constants of one floating-point type for a capacity that holds the scene.
 class Constants {
  public:
-  Constants(const ExportedArrays& arrays, ScalarType scalar)
-      : arrays_(arrays.condensed), knowledge_(arrays.knowledge), single_(scalar == ScalarType::float32) {}
+  Constants(const ExportedArrays& arrays, const CondensedCounts& capacity, ScalarType scalar)
+      : arrays_(arrays.condensed),
+        knowledge_(arrays.knowledge),
+        capacity_(capacity),
+        single_(scalar == ScalarType::float32) {}
 
   std::string condensed() const {
     const CondensedArrays& a = arrays_;
@@ -264,14 +267,18 @@ class Constants {
       text += (text.empty() ? "{{{\n" : ",\n") + std::string(14, ' ') + numbers(row, 14);
     return text.empty() ? "{}" : text + "}}}";
   }
-  // Between rigid saddles the diagonal is all there is.
+  // Between rigid saddles the diagonal is all there is; otherwise every row is as long as the capacity says.
   std::string coupling() const {
     Row entries;
     for (std::size_t i = 0; i < arrays_.coupling.size(); ++i) {
-      if (arrays_.rigid)
-        entries.push_back(arrays_.coupling[i][i]);
-      else
-        entries.insert(entries.end(), arrays_.coupling[i].begin(), arrays_.coupling[i].end());
+      const Row& row = arrays_.coupling[i];
+      if (capacity_.has_rigid_saddles()) {
+        entries.push_back(row[i]);
+        continue;
+      }
+      entries.insert(entries.end(), row.begin(), row.end());
+      if (i + 1 < arrays_.coupling.size())
+        entries.resize((i + 1) * static_cast<std::size_t>(capacity_.segments));
     }
     return numbers(entries, 10);
   }
@@ -284,6 +291,7 @@ class Constants {
 
   const CondensedArrays& arrays_;
   const KnowledgeArrays& knowledge_;
+  const CondensedCounts& capacity_;
   bool single_;
 };
 
@@ -309,6 +317,8 @@ int unknowns(const ExportedArrays& arrays) {
   return count;
 }
 
+std::string space_of(const ExportedScene& scene) { return identifier(scene.description.name); }
+
 std::string sizes(const CondensedCounts& counts, ScalarType scalar) {
   const CondensedSize size = condensed_size(counts, scalar);
   return std::string(scalar == ScalarType::float32 ? "float" : "double") + ": " + std::to_string(size.scene) +
@@ -317,13 +327,25 @@ std::string sizes(const CondensedCounts& counts, ScalarType scalar) {
          "; the tracker takes " + std::to_string(size.tracker) + " bytes of RAM";
 }
 
-std::string head(const SceneDescription& scene, const CondensedCounts& counts) {
-  return "// The scene " + literal(scene.name) +
-         " after static condensation, written by `taut export`: do not edit.\n"
+std::string head(const std::vector<ExportedScene>& scenes, const CondensedCounts& capacity) {
+  std::string text;
+  if (scenes.size() == 1) {
+    text = "// The scene " + literal(scenes[0].description.name) +
+           " after static condensation, written by `taut export`: do not edit.\n";
+  } else {
+    text =
+        "// Scenes after static condensation with one Capacity, so that one Tracker or Estimator serves them "
+        "all;\n"
+        "// written by `taut export`: do not edit.\n//\n";
+    for (const ExportedScene& scene : scenes)
+      text += "// - " + literal(scene.description.name) + ": namespace " + space_of(scene) + "\n";
+  }
+  const std::string each = scenes.size() == 1 ? "" : ", flash for each scene";
+  return text +
          "//\n"
-         "// What is not used takes no room. About, where pointers have 64 bits:\n"
-         "// " +
-         sizes(counts, ScalarType::float32) + ".\n// " + sizes(counts, ScalarType::float64) +
+         "// What is not used takes no room. About, where pointers have 64 bits" +
+         each + ":\n// " + sizes(capacity, ScalarType::float32) + ".\n// " +
+         sizes(capacity, ScalarType::float64) +
          ".\n"
          "#pragma once\n"
          "\n"
@@ -331,12 +353,11 @@ std::string head(const SceneDescription& scene, const CondensedCounts& counts) {
          "#include \"taut/estimation/knowledge.hpp\"\n";
 }
 
-std::string capacity(const CondensedCounts& counts) {
+std::string capacity_of(const CondensedCounts& counts) {
   const auto is = [](const char* name, int count) {
     return std::string(name) + " = " + std::to_string(count);
   };
-  return "/// Fits the condensed scene exactly.\n"
-         "struct Capacity : ::taut::Capacity {\n"
+  return "struct Capacity : ::taut::Capacity {\n"
          "  static constexpr int " +
          is("nodes", 0) + ", " + is("struts", counts.struts) + ", " + is("cables", counts.cables) + ", " +
          is("jacks", counts.jacks) + ", " + is("segments", counts.segments) + ", " +
@@ -368,6 +389,87 @@ std::string names(const SceneDescription& scene) {
          "\n}  // namespace names\n";
 }
 
+// What all scenes of a header have in common.
+struct Shared {
+  explicit Shared(const std::vector<ExportedScene>& scenes)
+      : is_one(scenes.size() == 1), space(space_of(scenes[0])) {
+    for (const ExportedScene& scene : scenes) {
+      capacity = larger(capacity, condensed_counts(scene.description));
+      most_unknowns = std::max({most_unknowns, unknowns(scene.in_float), unknowns(scene.in_double)});
+    }
+  }
+
+  bool is_one;
+  std::string space;  // of the first scene, where the capacity is
+  CondensedCounts capacity;
+  int most_unknowns = 1;
+};
+
+std::string capacity(const ExportedScene& scene, const Shared& shared) {
+  if (shared.is_one) return "/// Fits the condensed scene exactly.\n" + capacity_of(shared.capacity);
+  if (space_of(scene) == shared.space)
+    return "/// Holds every scene of this header.\n" + capacity_of(shared.capacity);
+  return "/// The same for every scene of this header.\nusing Capacity = ::" + shared.space + "::Capacity;\n";
+}
+
+std::string constants(const ExportedScene& scene, const CondensedCounts& capacity, bool has_struts) {
+  std::string text;
+  for (const ScalarType scalar : {ScalarType::float32, ScalarType::float64}) {
+    const ExportedArrays& arrays = scalar == ScalarType::float32 ? scene.in_float : scene.in_double;
+    if (!arrays.condensed.condensing.status) continue;
+    const Constants written(arrays, capacity, scalar);
+    text += written.condensed() + (has_struts ? written.struts() : "") + written.knowledge() + "\n";
+  }
+  return text;
+}
+
+std::string objects(const Shared& shared) {
+  return "/// The scene for Tracker and Estimator, as condensed<float> or condensed<double>.\n"
+         "template <class Scalar>\n"
+         "inline constexpr ::taut::Condensed<Scalar, Capacity> condensed = "
+         "detail::make_condensed(Scalar());\n\n"
+         "/// What is known of friction and load cells, for Estimator. Where the scene has no mu_sd it is "
+         "half "
+         "of "
+         "the mean mu.\n"
+         "/// A load cell without sd has 0 here: at a jack its readings are exact, at an anchored end they "
+         "are "
+         "not "
+         "used.\n"
+         "template <class Scalar>\n"
+         "inline constexpr ::taut::Knowledge<Scalar, Capacity> knowledge = "
+         "detail::make_knowledge(Scalar());\n\n"
+         "/// The Parameters of an Estimator of " +
+         std::string(shared.is_one ? "this scene" : "every scene of this header") +
+         ".\n"
+         "constexpr int unknowns = " +
+         std::to_string(shared.most_unknowns) + ";\n\n";
+}
+
+std::string strut_objects(std::size_t struts, const Shared& shared) {
+  std::string text;
+  if (!shared.is_one)
+    text +=
+        "/// How many struts this scene has; the capacity may have room for more.\n"
+        "constexpr int strut_count = " +
+        std::to_string(struts) + ";\n\n";
+  if (struts > 0)
+    text +=
+        "/// The rows that give strut forces, for Tracker::respond().\n"
+        "template <class Scalar>\n"
+        "inline constexpr ::taut::CondensedStruts<Scalar, Capacity> struts = "
+        "detail::make_struts(Scalar());\n\n";
+  return text;
+}
+
+std::string namespace_of(const ExportedScene& scene, const Shared& shared) {
+  const std::size_t struts = scene.description.struts.size();
+  return "namespace " + space_of(scene) + " {\n\n" + capacity(scene, shared) + "\nnamespace detail {\n\n" +
+         constants(scene, shared.capacity, struts > 0) + "}  // namespace detail\n\n" + objects(shared) +
+         strut_objects(struts, shared) + names(scene.description) + "\n}  // namespace " + space_of(scene) +
+         "\n";
+}
+
 }  // namespace
 
 std::string identifier(const std::string& name) {
@@ -384,45 +486,11 @@ std::string identifier(const std::string& name) {
   return starts_with_digit || has_a_meaning(word) ? "scene_" + word : word;
 }
 
-std::string scene_header(const SceneDescription& scene, const ExportedArrays& in_float,
-                         const ExportedArrays& in_double) {
-  const CondensedCounts counts = condensed_counts(scene);
-  const std::string space = identifier(scene.name);
-  std::string text =
-      head(scene, counts) + "\nnamespace " + space + " {\n\n" + capacity(counts) + "\nnamespace detail {\n\n";
-  for (const ScalarType scalar : {ScalarType::float32, ScalarType::float64}) {
-    const ExportedArrays& arrays = scalar == ScalarType::float32 ? in_float : in_double;
-    if (!arrays.condensed.condensing.status) continue;
-    const Constants constants(arrays, scalar);
-    text +=
-        constants.condensed() + (counts.struts > 0 ? constants.struts() : "") + constants.knowledge() + "\n";
-  }
-  text +=
-      "}  // namespace detail\n\n"
-      "/// The scene for Tracker and Estimator, as condensed<float> or condensed<double>.\n"
-      "template <class Scalar>\n"
-      "inline constexpr ::taut::Condensed<Scalar, Capacity> condensed = "
-      "detail::make_condensed(Scalar());\n\n"
-      "/// What is known of friction and load cells, for Estimator. Where the scene has no mu_sd it is half "
-      "of "
-      "the mean mu.\n"
-      "/// A load cell without sd has 0 here: at a jack its readings are exact, at an anchored end they are "
-      "not "
-      "used.\n"
-      "template <class Scalar>\n"
-      "inline constexpr ::taut::Knowledge<Scalar, Capacity> knowledge = "
-      "detail::make_knowledge(Scalar());\n\n"
-      "/// The Parameters of an Estimator of this scene.\n"
-      "constexpr int unknowns = " +
-      std::to_string(std::max({1, unknowns(in_float), unknowns(in_double)})) + ";\n\n";
-  if (counts.struts > 0) {
-    text +=
-        "/// The rows that give strut forces, for Tracker::respond().\n"
-        "template <class Scalar>\n"
-        "inline constexpr ::taut::CondensedStruts<Scalar, Capacity> struts = "
-        "detail::make_struts(Scalar());\n\n";
-  }
-  return text + names(scene) + "\n}  // namespace " + space + "\n";
+std::string scene_header(const std::vector<ExportedScene>& scenes) {
+  const Shared shared(scenes);
+  std::string text = head(scenes, shared.capacity);
+  for (const ExportedScene& scene : scenes) text += "\n" + namespace_of(scene, shared);
+  return text;
 }
 
 }  // namespace taut::host

@@ -1,7 +1,8 @@
-// The text of a C++ header with a condensed scene.
+// The text of a C++ header with condensed scenes.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lib/condensed_arrays.hpp"
 #include "lib/scene_description.hpp"
@@ -19,8 +20,15 @@ struct ExportedArrays {
   KnowledgeArrays knowledge;
 };
 
-/// The header. A scene that was condensed with failure in one type is there in the other type only.
-std::string scene_header(const SceneDescription& scene, const ExportedArrays& in_float,
-                         const ExportedArrays& in_double);
+/// A scene with what is written of it.
+struct ExportedScene {
+  SceneDescription description;
+  ExportedArrays in_float, in_double;
+};
+
+/// The header of at least one scene, each in a namespace of its own: their identifiers must differ. Several
+/// scenes have one capacity, the larger of each count. A scene that was condensed with failure in one type is
+/// there in the other type only.
+std::string scene_header(const std::vector<ExportedScene>& scenes);
 
 }  // namespace taut::host
