@@ -152,8 +152,9 @@ class Player {
     }
     if (found.cables != scene_.cables.size() || found.segments != segments || found.joints != joints ||
         found.loads != scene_.loads.size())
-      throw InputError(options_.scene, "", "the device holds another scene",
-                       "build the firmware for this one with firmware_example/run");
+      throw InputError(
+          options_.scene, "", "the device holds another scene",
+          "build the firmware for this one with firmware_example/run, or choose another with --scene");
     // The log is not a load cell: any finite force is a good one.
     constexpr float largest = std::numeric_limits<float>::max();
     device_.set_limits(-largest, largest, 0);
@@ -226,7 +227,7 @@ int run(int argc, char** argv) {
   app.add_option("--device", options.device, "Command whose standard input and output are the serial line")
       ->required();
   app.add_option("--scene", options.number,
-                 "Number of the scene on the device: 0 exported, 1 condensed there");
+                 "Number of the scene on the device: those in flash from 0 on, then the one condensed there");
   app.add_flag("--hex", options.hex, "Write numbers as the bits of their IEEE values");
   app.add_flag("--restart", options.restart, "Restart the device after every row");
   app.add_flag("--stack", options.stack, "Say at the end how much stack the device has used [bytes]");

@@ -18,7 +18,8 @@
 
 namespace monitor {
 
-/// Holds all its storage: make it static. `Sources` are the scenes, by the numbers of the command C.
+/// Holds all its storage: make it static. `Sources` hold the scenes, one after the other by the numbers of
+/// the command C.
 template <class Board, class Settings, class... Sources>
 class Application {
  public:
@@ -79,23 +80,34 @@ class Application {
   static constexpr int slot_size =
       Records<Board>::size_with(sizeof(Common) + std::max({sizeof(typename SessionOf<Sources>::State)...}));
   static_assert(2 * slot_size <= Board::memory_size, "the non-volatile memory is too small for two records");
+  static constexpr int scenes = (Sources::scenes + ...);
 
   void raise(Alarm alarm) {
     pending_.raise(alarm);
     common_.latched |= pending_.bits();
   }
 
+  /// Begins a scene in place of the present one; whether it can be used.
+  bool begin_scene(int scene) {
+    constexpr int counts[] = {Sources::scenes...};
+    scene_ = scene;
+    int source = 0;
+    while (scene >= counts[source]) scene -= counts[source++];
+    session_.make(source);
+    bool usable = false;
+    session_.visit([&](auto& session) { usable = session.begin(scene, Settings::alarm_limits).ok(); });
+    return usable;
+  }
+
   // The record.
 
   /// From the record that was found.
   bool take_up() {
-    if (header_.kind >= sizeof...(Sources)) return false;
-    session_.make(static_cast<int>(header_.kind));
+    if (header_.kind >= scenes || !begin_scene(static_cast<int>(header_.kind))) return false;
     bool done = false;
     session_.visit([&](auto& session) {
       using State = typename std::decay_t<decltype(session)>::State;
-      done = session.begin(Settings::alarm_limits).ok() && header_.maker == session.maker() &&
-             header_.length == sizeof(Common) + sizeof(State);
+      done = header_.maker == session.maker() && header_.length == sizeof(Common) + sizeof(State);
       if (!done) return;
       const std::uint32_t raised = common_.latched;
       records_.read(0, &common_, sizeof common_);
@@ -112,7 +124,7 @@ class Application {
       const auto& state = session.save();
       RecordHeader header;
       header.length = sizeof common_ + sizeof state;
-      header.kind = static_cast<std::uint32_t>(session_.which());
+      header.kind = static_cast<std::uint32_t>(scene_);
       header.maker = session.maker();
       records_.begin(header);
       records_.add(&common_, sizeof common_);
@@ -190,16 +202,13 @@ class Application {
   void take_choice(Fields fields) {
     std::uint32_t scene = 0;
     if (!fields.number(scene) || !fields.done()) return refuse("fields");
-    if (scene >= sizeof...(Sources)) return refuse("scene");
+    if (scene >= scenes) return refuse("scene");
     choose(static_cast<int>(scene));
     answer_information();
   }
   void choose(int scene) {
-    session_.make(scene);
     common_.has_last = 0;
-    session_.visit([&](auto& session) {
-      if (!session.begin(Settings::alarm_limits)) raise(Alarm::scene_refused);
-    });
+    if (!begin_scene(scene)) raise(Alarm::scene_refused);
     board_.feed_watchdog();
     keep();
   }
@@ -264,8 +273,8 @@ class Application {
   void answer_information() {
     writer_.begin('I');
     writer_.number(protocol_version);
-    writer_.number(session_.which());
-    writer_.number(static_cast<std::uint32_t>(sizeof...(Sources)));
+    writer_.number(scene_);
+    writer_.number(scenes);
     session_.visit([&](auto& session) {
       const auto& status = session.outcome().status;
       const bool usable = session.usable();
@@ -312,6 +321,7 @@ class Application {
 
   Board& board_;
   OneOf<Session<Sources>...> session_;
+  int scene_ = 0;
   Records<Board> records_;
   RecordHeader header_;
   Common common_;

@@ -1,40 +1,81 @@
-# Makes flash_scene.hpp, which gives the namespace of an exported header the name that the application knows.
+# Makes flash_scene.hpp, which gives the namespaces of an exported header names that the application knows.
 # cmake -D HEADER=exported.hpp -D OUTPUT=flash_scene.hpp -P flash_scene.cmake
-file(READ ${HEADER} header)
-if(NOT header MATCHES "\nnamespace ([A-Za-z_0-9]+) {\n")
+file(STRINGS ${HEADER} lines
+     REGEX "^namespace [A-Za-z_0-9]+ {$|^(struct|using) Capacity |make_[a-z]+\\(float\\)|^constexpr int strut_count")
+set(names)
+foreach(line IN LISTS lines)
+  if(line MATCHES "^namespace ([A-Za-z_0-9]+) {$")
+    set(namespace ${CMAKE_MATCH_1})
+  elseif(line MATCHES "^(struct|using) Capacity ")
+    # Of all namespaces only that of a scene has one.
+    set(name ${namespace})
+    list(APPEND names ${name})
+    set(held_by_${name} "")
+  else()
+    string(APPEND held_by_${name} "${line}\n")
+  endif()
+endforeach()
+if(NOT names)
   message(FATAL_ERROR "${HEADER} is no header that `taut export` wrote; export the scene again")
 endif()
-set(name ${CMAKE_MATCH_1})
-if(NOT header MATCHES "make_condensed\\(float\\)")
-  message(FATAL_ERROR "The scene in ${HEADER} cannot be condensed in float; `taut check` says what is stiff and soft")
-endif()
-if(NOT header MATCHES "make_knowledge\\(float\\)")
-  message(FATAL_ERROR "${HEADER} is of an older `taut export`; export the scene again")
-endif()
-set(rows "nullptr")
-if(header MATCHES "make_struts\\(float\\)")
-  set(rows "&${name}::struts<float>")
-endif()
-get_filename_component(directory ${HEADER} ABSOLUTE)
-file(
-  CONFIGURE
-  OUTPUT ${OUTPUT}
-  CONTENT
-    [[// The exported scene under the name that the application knows. Made by the build: do not edit.
-#pragma once
 
-#include "@directory@"
-
-namespace monitor {
-
-struct FlashScene {
+get_filename_component(header ${HEADER} ABSOLUTE)
+set(structs "")
+set(types)
+foreach(name IN LISTS names)
+  if(NOT held_by_${name} MATCHES "make_condensed\\(float\\)")
+    message(FATAL_ERROR "The scene ${name} in ${HEADER} cannot be condensed in float; `taut check` says what is stiff and soft")
+  endif()
+  if(NOT held_by_${name} MATCHES "make_knowledge\\(float\\)")
+    message(FATAL_ERROR "${HEADER} is of an older `taut export`; export the scene again")
+  endif()
+  set(rows "nullptr")
+  if(held_by_${name} MATCHES "make_struts\\(float\\)")
+    set(rows "&::${name}::struts<float>")
+  endif()
+  # Alone in a header, a scene fills its capacity.
+  set(strut_count "Capacity::struts")
+  if(held_by_${name} MATCHES "strut_count")
+    set(strut_count "::${name}::strut_count")
+  endif()
+  set(type FlashScene)
+  if(types)
+    list(LENGTH types number)
+    set(type FlashScene${number})
+  endif()
+  list(APPEND types ${type})
+  string(
+    CONFIGURE
+      [[struct @type@ {
   using Capacity = ::@name@::Capacity;
   static constexpr const ::taut::Condensed<float, Capacity>& model() { return ::@name@::condensed<float>; }
   static constexpr const ::taut::CondensedStruts<float, Capacity>* struts() { return @rows@; }
+  static constexpr int strut_count = @strut_count@;
   static constexpr const ::taut::Knowledge<float, Capacity>& knowledge() { return ::@name@::knowledge<float>; }
   static constexpr int unknowns = ::@name@::unknowns;
   static constexpr const auto& cable_names() { return ::@name@::names::cables; }
 };
+
+]]
+      struct
+    @ONLY)
+  string(APPEND structs "${struct}")
+endforeach()
+list(JOIN types ", " types)
+file(
+  CONFIGURE
+  OUTPUT ${OUTPUT}
+  CONTENT
+    [[// The exported scenes under names that the application knows. Made by the build: do not edit.
+#pragma once
+
+#include "@header@"
+
+namespace monitor {
+
+@structs@/// A template with all of them.
+template <template <class...> class Source>
+using OfFlashScenes = Source<@types@>;
 
 }  // namespace monitor
 ]]

@@ -21,7 +21,6 @@ class OneOf {
     int i = 0;
     static_cast<void>(((i++ == which ? (new (bytes_) Types, true) : false) || ...));
   }
-  int which() const { return which_; }
 
   /// Calls `call` with the object. Something must have been made.
   template <class Call>

@@ -1,4 +1,4 @@
-// Where the condensed scene of a session comes from, and what is known of it.
+// Where the condensed scenes of a session come from, and what is known of them.
 #pragma once
 
 #include <cstddef>
@@ -14,18 +14,43 @@
 
 namespace monitor {
 
-/// A scene that `taut export` has condensed: constants in flash. `Exported` has model(), knowledge(),
-/// unknowns and struts().
-template <class Exported>
+/// Scenes that `taut export` has condensed, of one capacity: constants in flash. Each has model(),
+/// knowledge(), struts(), strut_count and, the same for all, unknowns.
+template <class First, class... Others>
 class FromFlash {
  public:
-  using Capacity = typename Exported::Capacity;
-  static constexpr int unknowns = Exported::unknowns;
+  using Capacity = typename First::Capacity;
+  static constexpr int scenes = 1 + sizeof...(Others);
+  static constexpr int unknowns = First::unknowns;
 
-  taut::Status prepare() { return taut::Status::success(); }
-  static constexpr const taut::Condensed<float, Capacity>& model() { return Exported::model(); }
-  static constexpr const taut::Knowledge<float, Capacity>& knowledge() { return Exported::knowledge(); }
-  static constexpr const taut::CondensedStruts<float, Capacity>* struts() { return Exported::struts(); }
+  /// Makes scene `number` the present one.
+  taut::Status prepare(int number) {
+    number_ = number;
+    return taut::Status::success();
+  }
+  const taut::Condensed<float, Capacity>& model() const { return *present().model; }
+  const taut::Knowledge<float, Capacity>& knowledge() const { return *present().knowledge; }
+  const taut::CondensedStruts<float, Capacity>* struts() const { return present().struts; }
+  int strut_count() const { return present().strut_count; }
+
+ private:
+  struct Parts {
+    const taut::Condensed<float, Capacity>* model;
+    const taut::Knowledge<float, Capacity>* knowledge;
+    const taut::CondensedStruts<float, Capacity>* struts;
+    int strut_count;
+  };
+  template <class Exported>
+  static constexpr Parts parts_of() {
+    static_assert(std::is_same_v<typename Exported::Capacity, Capacity> && Exported::unknowns == unknowns,
+                  "scenes that share their memory are exported together");
+    return {&Exported::model(), &Exported::knowledge(), Exported::struts(), Exported::strut_count};
+  }
+  static constexpr Parts parts[scenes] = {parts_of<First>(), parts_of<Others>()...};
+
+  const Parts& present() const { return parts[scenes == 1 ? 0 : number_]; }
+
+  int number_ = 0;
 };
 
 /// Room for what an Estimator of the scene does not know; locked joints have some too, for only condensation
@@ -49,9 +74,10 @@ class CondensedAtStartUp {
  public:
   using SceneType = std::decay_t<decltype(scene)>;
   using Capacity = typename SceneType::Capacity;
+  static constexpr int scenes = 1;
   static constexpr int unknowns = most_unknowns(scene);
 
-  taut::Status prepare() {
+  taut::Status prepare(int) {
     const taut::Status status = condensation_.run(scene, condensed_, &struts_);
     if (status) taut::find_knowledge(scene, knowledge_);
     return status;
@@ -59,6 +85,7 @@ class CondensedAtStartUp {
   const taut::Condensed<float, Capacity>& model() const { return condensed_; }
   const taut::Knowledge<float, Capacity>& knowledge() const { return knowledge_; }
   const taut::CondensedStruts<float, Capacity>* struts() const { return &struts_; }
+  static constexpr int strut_count() { return scene.struts.size(); }
 
  private:
   taut::Condensation<float, SceneType> condensation_;

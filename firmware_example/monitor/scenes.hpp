@@ -14,6 +14,6 @@ namespace monitor {
 
 template <class Board, class SettingsType = Settings>
 using Monitor =
-    Application<Board, SettingsType, FromFlash<FlashScene>, CondensedAtStartUp<scenes::truss_string>>;
+    Application<Board, SettingsType, OfFlashScenes<FromFlash>, CondensedAtStartUp<scenes::truss_string>>;
 
 }  // namespace monitor

@@ -1,4 +1,4 @@
-// One scene at work: readings in, forces with their standard deviations out.
+// A scene at work: readings in, forces with their standard deviations out.
 #pragma once
 
 #include <array>
@@ -61,13 +61,13 @@ class Session {
       1 + 2 + 9 * 8 + 9 * (2 * Cap::segments + 5 * Cap::joints + 2 * Cap::cables + Cap::struts) +
       Cap::joints + 2 + 9 * Findings::capacity();
 
-  /// Begins without load. The answer says whether the scene can be used.
-  taut::Status begin(const taut::AlarmLimits<float>& limits) {
+  /// Begins with one of the source's scenes, without load. The answer says whether the scene can be used.
+  taut::Status begin(int number, const taut::AlarmLimits<float>& limits) {
     cells_ = {};
     findings_.clear();
     waited_ = 0;
     outcome_ = {};
-    outcome_.status = source_.prepare();
+    outcome_.status = source_.prepare(number);
     if (outcome_.status) outcome_.status = estimator_.start(model(), knowledge(), limits).status;
     outcome_.quality = outcome_.status ? Quality::held : Quality::none;
     usable_ = outcome_.status.ok();
@@ -179,7 +179,7 @@ class Session {
     for (int j = 0; j < joints; ++j) frame.real(response_.friction[j]);
     taut::for_each_jacked_end(model().cables,
                               [&](int c, std::size_t end) { frame.real(response_.payout[c][end]); });
-    for (int i = 0; i < Cap::struts; ++i) frame.real(response_.strut[i]);
+    for (int i = 0; i < source_.strut_count(); ++i) frame.real(response_.strut[i]);
     for (int i = 0; i < segments; ++i) frame.real(estimator_.deviation(i));
     for (int j = 0; j < joints; ++j) frame.real(estimator_.mu(j));
     for (int j = 0; j < joints; ++j) frame.real(estimator_.mu_deviation(j));
