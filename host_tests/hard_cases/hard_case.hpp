@@ -10,6 +10,7 @@
 namespace hard {
 
 struct HardCase {
+  const char* word;  ///< for names of files
   const char* name;
   const char* reason;  ///< why it is hard
   Measured (*measure)();
@@ -21,8 +22,8 @@ inline std::vector<HardCase>& hard_cases() {
 }
 
 struct Registered {
-  Registered(const char* name, const char* reason, Measured (*measure)()) {
-    hard_cases().push_back({name, reason, measure});
+  Registered(const char* word, const char* name, const char* reason, Measured (*measure)()) {
+    hard_cases().push_back({word, name, reason, measure});
   }
 };
 
@@ -48,11 +49,11 @@ inline void judge(const Measured& measured) {
 }  // namespace hard
 
 /// A test case whose body returns what was measured; it is also a row of the table.
-#define HARD_CASE(function, name, reason)                                      \
-  static hard::Measured function();                                            \
-  static const hard::Registered registered_##function{name, reason, function}; \
-  TEST_CASE(name) {                                                            \
-    INFO(reason);                                                              \
-    hard::judge(function());                                                   \
-  }                                                                            \
+#define HARD_CASE(function, name, reason)                                                 \
+  static hard::Measured function();                                                       \
+  static const hard::Registered registered_##function{#function, name, reason, function}; \
+  TEST_CASE(name) {                                                                       \
+    INFO(reason);                                                                         \
+    hard::judge(function());                                                              \
+  }                                                                                       \
   static hard::Measured function()

@@ -1,9 +1,11 @@
-// Runs the tests; with --table prints every hard case and its errors as Markdown instead. --samples N is the
-// length of the long run.
+// Runs the tests; with --table prints every hard case and its errors as Markdown instead, with --scenes
+// FOLDER writes the scenes and logs of hard cases there. --samples N is the length of the long run.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
+#include <filesystem>
 
 #include "hard_cases/hard_case.hpp"
 #include "hard_cases/long_run.hpp"
@@ -28,12 +30,27 @@ void print_table() {
   }
 }
 
+int write_scenes(const char* folder) {
+  try {
+    std::filesystem::create_directories(folder);
+    for (const hard::HardCase& hard_case : hard::hard_cases()) {
+      hard::scene_files.emplace(folder, hard_case.word);
+      hard_case.measure();
+    }
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "hard_cases: %s; name a folder that can be written\n", error.what());
+    return 2;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--samples") == 0 && i + 1 < argc)
       hard::long_run_samples = std::atol(argv[i + 1]);
+    if (std::strcmp(argv[i], "--scenes") == 0 && i + 1 < argc) return write_scenes(argv[i + 1]);
     if (std::strcmp(argv[i], "--table") != 0) continue;
     print_table();
     return 0;
