@@ -1,12 +1,11 @@
 // The true load behind the noisy readings of a jack's load cell, fit for a model with friction.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
-#include "taut/numerics/bits.hpp"
+#include "taut/estimation/load_lines.hpp"
 #include "taut/numerics/larger.hpp"
 
 namespace taut {
@@ -28,8 +27,8 @@ struct ConditionedLoad {
 /// The load is taken for a line in time that bends or jumps now and then. Readings scatter about it,
 /// independent and Gaussian; some are outliers. A few lines compete, each begun at another sample; their
 /// weights are the probabilities that the present piece of the path began there, and `load` and `sd` their
-/// mean and spread. A new line is weighed at every sample, and as there is room for few, the young ones are
-/// kept closer together.
+/// mean and spread. A new line is weighed at every third sample, and at every one that surprises; as there is
+/// room for few, the young ones are kept closer together.
 ///
 /// `sure` asks for more than a line, which overshoots where a ramp ends: a load that rises is now at least as
 /// high as the mean of any readings since it turned.
@@ -43,6 +42,7 @@ class LoadFilter {
   /// reading [N], with quantisation (step / sqrt(12)). Zero: readings are exact.
   void start(Scalar sd) {
     *this = LoadFilter();
+    lines_.clear();
     sd_ = sd > 0 ? sd : Scalar(0);
   }
 
@@ -52,32 +52,41 @@ class LoadFilter {
     if (sd_ == 0) return take_exact(reading);
     const Scalar y = (reading - base_) / sd_;
     const bool usable = std::fabs(y) < farthest;
-    if (lines_in_use_ == 0) return usable ? take_first(reading) : refuse();
+    if (lines_.size == 0) return begin_anew(usable, reading);
     const Scalar step = dt > 0 && std::isfinite(dt) ? dt : Scalar(0);
-    const Line parent = line(best_);
-    for (int i = 0; i < lines_in_use_; ++i) line(i).advance(step);
-    if (!usable) return conclude(false, 1);
-    for (int i = 0; i < lines_in_use_; ++i) line(i).weigh(y);
-    make_room();
-    line(lines_in_use_++) = begin_line(parent, step, y);
+    const int newest = lines_.place(lines_.size - 1);
+    const bool has_no_slope = !(step > 0) || (best_ == newest && is_new(newest));
+    // Only now is it known what a sample is in time.
+    if (is_new(newest) && step > 0)
+      at(lines_.slope_variance, newest) = slope_after_jump / step * (slope_after_jump / step);
+    lines_.advance(step);
+    // After so long a time nothing is known any more.
+    if (!(at(lines_.level_variance, best_) < farthest)) return begin_anew(usable, reading);
+    if (!usable) return conclude(false, 1, y);
+    const bool surprises = is_surprise(y);
+    // Where nothing surprises, where exactly a line begins is of no account.
+    if (--pause_ <= 0 || surprises) {
+      begin_line(surprises, has_no_slope, step, y);
+      pause_ = pause;
+    }
+    lines_.weigh(y);
     const Scalar total = find_best();
-    return conclude(line(best_).strays == 0, total);
+    return conclude(at(lines_.strays, best_) == 0, total, y);
   }
 
  private:
   // Forces of lines are in standard deviations of a reading, from `base_`; densities are those of such
   // readings.
 
-  static constexpr std::size_t capacity = 5;
+  using Lines = LoadLines<Scalar, 4>;
   static constexpr Scalar farthest =
       Scalar(1e9);  ///< what is farther is no reading, and its square overflows
 
-  /// A line remembers so many readings, so that slow creep is followed.
-  static constexpr int memory = 2048;
-  static constexpr int mean_memory = 4096;
-  static constexpr std::uint16_t greatest_age = 65535;
   /// Lines that began longer ago than this are as good as one another.
-  static constexpr std::uint16_t old_age = 1024;
+  static constexpr int old_age = 1024;
+  /// Samples from one new line to the next, but for readings that surprise: by so many standard deviations.
+  static constexpr std::int8_t pause = 3;
+  static constexpr Scalar surprise = 2;
 
   /// The odds that a piece ends now are 1 in its age and this: pieces of every length are as likely.
   static constexpr Scalar least_length = 15;
@@ -85,15 +94,16 @@ class LoadFilter {
   /// Changes of slope to be expected, per sample; in between the better of the two will do.
   static constexpr Scalar gentle_bend = Scalar(0.15), steep_bend = 3;
   static constexpr Scalar slope_after_jump = 10;
-  /// Density of readings that know nothing of the line: outliers and where jumps lead.
-  static constexpr Scalar anywhere = Scalar(0.003);
-  static constexpr Scalar outliers = Scalar(0.0005);  ///< makes 5 standard deviations the limit
-  static constexpr Scalar again = Scalar(0.01);       ///< outliers come alone
-  static constexpr int most_strays = 2;               ///< more in a row were a step
-  static constexpr int established = 6;               ///< readings that make a line worth more than a reading
+  /// Squares, in variances of a reading: beyond the one a steep bend explains it better than a gentle one,
+  /// beyond the other, which counts the bend's, a jump better than a bend.
+  static constexpr Scalar gentle = Scalar(2.6), farthest_bend = 20;
+  /// How far a jump is expected to lead, at least: readings that near have the density `anywhere`.
+  static constexpr Scalar least_jump = Scalar(0.4) / Lines::anywhere;
 
   static constexpr Scalar neglected = Scalar(1e-9), least_weight = Scalar(1e-30);
   static constexpr Scalar patience = Scalar(1e-4);  ///< weight of a long hold that is enough
+  /// A long hold among a million samples has a slope by chance now and then.
+  static constexpr Scalar creeps = 5;
   /// Lines farther apart than this tell different stories: their mean tells none.
   static constexpr Scalar apart = 6;
 
@@ -101,89 +111,11 @@ class LoadFilter {
   static constexpr Scalar sure_load = Scalar(3.3), sure_mean = 5, sure_turn = 5;
   static constexpr Scalar sure_slope = 3, left_behind = 3;
 
-  /// exp(x), x <= 0, to a part in ten thousand: a power of two, its fraction by a polynomial.
-  static Scalar exponential(Scalar x) {
-    const Scalar u = (x > -60 ? x : Scalar(-60)) * Scalar(1.44269504);
-    const int whole = static_cast<int>(u);
-    const Scalar f = u - static_cast<Scalar>(whole);
-    return power_of_two<Scalar>(whole) *
-           (1 + f * (Scalar(0.6931472) +
-                     f * (Scalar(0.2402265) + f * (Scalar(0.0555041) + f * Scalar(0.0096181)))));
+  template <class Array>
+  static auto& at(Array& array, int i) {
+    return Lines::at(array, i);
   }
-
-  /// Of a number that is `r` off the mean of a normal distribution.
-  static Scalar density(Scalar r, Scalar precision) {
-    return Scalar(0.39894228) * std::sqrt(precision) * exponential(-r * r * precision / 2);
-  }
-
-  /// One way to see the present piece of the path, fitted by recursive least squares.
-  struct Line {
-    Scalar level = 0, slope = 0;  ///< at the newest sample
-    Scalar level_variance = 1, covariance = 0, slope_variance = 0;
-    Scalar weight = 1;  ///< probability
-    Scalar mean = 0;    ///< of the readings since it began
-    Scalar corner = 0;  ///< the farthest that the load had come when it began
-    std::uint16_t age = 1;
-    std::uint8_t known = 1;   ///< readings since the last jump, at most `established`
-    std::uint8_t strays = 0;  ///< readings in a row that it took for outliers
-
-    bool is_new() const { return age == 1 && known == 1; }
-    static Scalar averaged(int age) { return age < mean_memory ? Scalar(age) : Scalar(mean_memory); }
-    bool has_slope() const { return slope * slope > sure_slope * sure_slope * slope_variance; }
-
-    void advance(Scalar dt) {
-      // Only now is it known what a sample is in time.
-      if (is_new() && dt > 0) slope_variance = slope_after_jump / dt * (slope_after_jump / dt);
-      if (age >= memory) forget();
-      level += dt * slope;
-      level_variance += dt * (2 * covariance + dt * slope_variance);
-      covariance += dt * slope_variance;
-    }
-    void forget() {
-      constexpr Scalar growth = 1 + Scalar(1) / memory;
-      level_variance *= growth;
-      covariance *= growth;
-      slope_variance *= growth;
-    }
-    Scalar outlier_density() const {
-      if (known < established || strays >= most_strays) return 0;
-      return (strays == 0 ? outliers : again * outliers) * anywhere;
-    }
-    /// Takes the reading into account, or for an outlier.
-    void weigh(Scalar y) {
-      // One division for two.
-      const Scalar variance = level_variance + 1, readings = averaged(age + 1);
-      const Scalar both = 1 / (variance * readings), precision = both * readings;
-      const Scalar fits = density(y - level, precision), stray = outlier_density();
-      weight *= fits + stray;
-      if (stray > fits) {
-        ++strays;
-        return;
-      }
-      strays = 0;
-      learn(y, precision);
-      if (age < greatest_age) ++age;
-      mean += (y - mean) * (both * variance);
-    }
-    void learn(Scalar y, Scalar precision) {
-      const Scalar r = y - level;
-      level += level_variance * precision * r;
-      slope += covariance * precision * r;
-      slope_variance -= covariance * covariance * precision;
-      level_variance *= precision;
-      covariance *= precision;
-      if (known < established) ++known;
-    }
-    /// Where the load had come at the last reading that it believed. In a hold its slope is known to be zero,
-    /// which halves the scatter.
-    Scalar reached(Scalar dt) const {
-      if (!has_slope() && slope_variance > 0) return level - covariance / slope_variance * slope;
-      return level - Scalar(strays) * dt * slope;
-    }
-  };
-
-  Line& line(int i) { return lines_[static_cast<std::size_t>(i)]; }
-  const Line& line(int i) const { return lines_[static_cast<std::size_t>(i)]; }
+  bool is_new(int i) const { return at(lines_.age, i) == 1 && at(lines_.known, i) == 1; }
   Scalar force(Scalar level) const {
     const Scalar newtons = base_ + level * sd_;
     return newtons > 0 ? newtons : Scalar(0);
@@ -204,10 +136,15 @@ class LoadFilter {
     return now;
   }
 
-  ConditionedLoad<Scalar> take_first(Scalar reading) {
+  ConditionedLoad<Scalar> begin_anew(bool usable, Scalar reading) {
+    lines_.clear();
+    if (!usable) return refuse();
     base_ = reading;
-    lines_in_use_ = 1;
-    return conclude(true, 1);
+    const int first = lines_.add();
+    at(lines_.level_variance, first) = at(lines_.weight, first) = 1;
+    at(lines_.age, first) = at(lines_.known, first) = 1;
+    best_ = static_cast<std::int8_t>(first);
+    return conclude(true, 1, 0);
   }
 
   ConditionedLoad<Scalar> refuse() const {
@@ -218,93 +155,110 @@ class LoadFilter {
     return now;
   }
 
-  /// The line that begins with this reading: by a bend of what was the best line until then, or by a jump.
-  Line begin_line(const Line& parent, Scalar dt, Scalar y) const {
-    const Scalar odds = parent.weight / (Scalar(parent.age) + least_length);
-    Line born;
-    born.level = born.mean = y;
-    born.weight = odds * jumps * anywhere;
-    born.corner = corner_after(parent, dt);
-    if (!(dt > 0) || parent.is_new()) return born;
-    const Scalar covariance = parent.covariance + dt * parent.slope_variance;
-    const Scalar level_variance = parent.level_variance + dt * (parent.covariance + covariance);
-    const Scalar r = y - (parent.level + dt * parent.slope);
-    Scalar chosen = 0, chosen_precision = 0;
-    for (const Scalar bend : {gentle_bend, steep_bend}) {
-      const Scalar variance = level_variance + bend * bend + 1, precision = 1 / variance;
-      const Scalar weight = odds * bends * density(r, precision);
-      if (weight > born.weight) {
-        born.weight = weight;
-        chosen = bend;
-        chosen_precision = precision;
-      }
-      // So near, a steep bend explains it worse.
-      if (r * r < 2 * variance) break;
-    }
-    if (chosen > 0) {
-      const Scalar change = chosen / dt;
-      born.level = y - r;
-      born.slope = parent.slope;
-      born.level_variance = level_variance + chosen * chosen;
-      born.covariance = covariance + chosen * change;
-      born.slope_variance = parent.slope_variance + change * change;
-      // Else a jump that bends at once were taken for a new one.
-      born.known = parent.known < 2 ? std::uint8_t(2) : parent.known;
-      born.learn(y, chosen_precision);
-    }
-    return born;
+  bool is_surprise(Scalar y) const {
+    const Scalar r = y - at(lines_.level, best_);
+    return r * r > surprise * surprise * (at(lines_.level_variance, best_) + 1);
   }
-  /// A load that is already on its way back came farthest before that.
-  Scalar corner_after(const Line& parent, Scalar dt) const {
-    const Scalar reached = parent.reached(dt);
-    const bool returns = parent.has_slope() && ahead(0, parent.slope) < 0;
-    return returns && ahead(reached, parent.corner) > left_behind ? parent.corner : reached;
+  /// A line that begins with this reading, by a bend of what was the best line until then, or by a jump:
+  /// where the reading is expected from there. The lines are at this sample, but have not taken it yet.
+  void begin_line(bool surprises, bool has_no_slope, Scalar dt, Scalar y) {
+    const Scalar odds = static_cast<Scalar>(pause - pause_) * at(lines_.weight, best_) /
+                        (static_cast<Scalar>(at(lines_.age, best_)) + least_length);
+    const Scalar come = corner(dt), level = at(lines_.level, best_), slope = at(lines_.slope, best_);
+    const Scalar level_variance = at(lines_.level_variance, best_), covariance = at(lines_.covariance, best_);
+    const Scalar slope_variance = at(lines_.slope_variance, best_);
+    const std::int32_t known = at(lines_.known, best_);
+    make_room(surprises, y);
+    const int born = lines_.add();
+    const Scalar square = (y - level) * (y - level), variance = level_variance + 1;
+    const bool is_jump = has_no_slope || square > farthest_bend * (variance + steep_bend * steep_bend);
+    const Scalar jump = larger(square, least_jump * least_jump);
+    const Scalar bend = square > gentle * variance ? steep_bend : gentle_bend, change = bend / dt;
+    at(lines_.level, born) = level;
+    at(lines_.slope, born) = is_jump ? Scalar(0) : slope;
+    at(lines_.level_variance, born) = is_jump ? jump : level_variance + bend * bend;
+    at(lines_.covariance, born) = is_jump ? Scalar(0) : covariance + bend * change;
+    at(lines_.slope_variance, born) = is_jump ? Scalar(0) : slope_variance + change * change;
+    at(lines_.weight, born) = odds * (is_jump ? jumps : bends);
+    at(lines_.corner, born) = come;
+    at(lines_.mean, born) = 0;
+    at(lines_.age, born) = at(lines_.strays, born) = 0;
+    // Else a jump that bends at once were taken for a new one.
+    at(lines_.known, born) = is_jump ? 0 : known < 2 ? 2 : known;
+  }
+  /// The farthest that the load had come before this sample, as the best line has it. A load that is already
+  /// on its way back came farthest before that.
+  Scalar corner(Scalar dt) const {
+    const Scalar last = reached(dt), before = at(lines_.corner, best_);
+    const bool returns = lines_.has_slope(best_, sure_slope) && ahead(0, at(lines_.slope, best_)) < 0;
+    return returns && ahead(last, before) > left_behind ? before : last;
+  }
+  /// Where the load had come at the last reading that the best line believed. In a hold its slope is known to
+  /// be zero, which halves the scatter.
+  Scalar reached(Scalar dt) const {
+    const Scalar level = at(lines_.level, best_), slope = at(lines_.slope, best_);
+    const Scalar slope_variance = at(lines_.slope_variance, best_);
+    if (!lines_.has_slope(best_, sure_slope) && slope_variance > 0)
+      return level - at(lines_.covariance, best_) / slope_variance * slope;
+    return level - static_cast<Scalar>(at(lines_.strays, best_) + 1) * dt * slope;
   }
 
-  /// Lines are in the order of their age, the oldest first. What contributes nothing goes; if there still is
-  /// no room, the less likely of the two whose ages are most alike.
-  void make_room() {
-    Scalar total = 0;
-    for (int i = 0; i < lines_in_use_; ++i) total += line(i).weight;
-    for (int i = lines_in_use_ - 1; i >= 0; --i)
-      if (lines_in_use_ > 1 && line(i).weight < neglected * total) drop(i);
-    if (lines_in_use_ < static_cast<int>(capacity)) return;
-    const int older = most_alike(), younger = older + 1;
-    const bool keeps_older = line(older).weight > line(younger).weight;
+  /// If there is none, what contributes nothing goes, or the less likely of the two lines whose ages are most
+  /// alike, at a surprise with the reading that comes. The other one takes its weight, and its spread: but a
+  /// long hold must not become uncertain by what does not last.
+  void make_room(bool surprises, Scalar y) {
+    if (lines_.size < Lines::capacity) return;
+    int least = 0;
+    for (int k = 1; k < Lines::capacity; ++k)
+      if (lines_.weight_of(k) < lines_.weight_of(least)) least = k;
+    if (lines_.weight_of(least) < neglected) return lines_.drop(least);
+    const int rank = most_alike(), older = lines_.place(rank), younger = lines_.place(rank + 1);
+    const auto likely = [&](int i) {
+      return at(lines_.weight, i) * (surprises ? lines_.density(i, y) : Scalar(1));
+    };
+    const bool keeps_older = likely(older) > likely(younger);
     const int gone = keeps_older ? younger : older, kept = keeps_older ? older : younger;
-    if (std::fabs(line(gone).level - line(kept).level) < apart / 2) line(kept).weight += line(gone).weight;
-    drop(gone);
+    const Scalar d = at(lines_.level, gone) - at(lines_.level, kept);
+    if (std::fabs(d) < apart / 2) {
+      const Scalar more = at(lines_.weight, gone);
+      at(lines_.weight, kept) += more;
+      if (at(lines_.age, kept) < old_age)
+        at(lines_.level_variance, kept) += more / at(lines_.weight, kept) * d * d;
+    }
+    lines_.drop(keeps_older ? rank + 1 : rank);
   }
-  /// The older one of the pair.
+  /// The rank of the older one of the pair, when there is no room.
   int most_alike() const {
-    const auto age = [this](int i) -> int { return line(i).age < old_age ? line(i).age : old_age; };
+    typename Lines::Counts age;
+    for (int k = 0; k < Lines::capacity; ++k) {
+      const std::int32_t samples = at(lines_.age, lines_.place(k));
+      at(age, k) = samples < old_age ? samples : old_age;
+    }
     int found = 0;
-    for (int i = 1; i + 1 < lines_in_use_; ++i)
-      found = age(i) * age(found + 1) <= age(found) * age(i + 1) ? i : found;
+    for (int k = 1; k + 1 < Lines::capacity; ++k)
+      if (at(age, k) * at(age, found + 1) <= at(age, found) * at(age, k + 1)) found = k;
     return found;
   }
-  void drop(int gone) {
-    --lines_in_use_;
-    for (int i = gone; i < lines_in_use_; ++i) line(i) = line(i + 1);
-  }
 
-  /// Returns the sum of the weights.
+  /// Returns the sum of the weights: what surprises the others is explained by the newest line.
   Scalar find_best() {
-    Scalar total = 0;
-    best_ = 0;
-    for (int i = 0; i < lines_in_use_; ++i) {
-      if (!(line(i).weight > least_weight)) line(i).weight = least_weight;
-      total += line(i).weight;
-      if (line(i).weight > line(best_).weight) best_ = static_cast<std::int8_t>(i);
+    Scalar total = 0, most = -1;
+    for (int i = 0; i < Lines::capacity; ++i) {
+      const Scalar weight = at(lines_.weight, i);
+      total += weight;
+      if (weight > most) {
+        most = weight;
+        best_ = static_cast<std::int8_t>(i);
+      }
     }
     return total;
   }
 
   /// `total` is the sum of the weights; it becomes one.
-  ConditionedLoad<Scalar> conclude(bool accepted, Scalar total) {
+  ConditionedLoad<Scalar> conclude(bool accepted, Scalar total, Scalar y) {
     const Estimate estimate = estimate_load(total);
     const Scalar unit = 1 / total;
-    for (int i = 0; i < lines_in_use_; ++i) line(i).weight *= unit;
+    for (Scalar& weight : lines_.weight) weight = larger(least_weight, weight * unit);
     ConditionedLoad<Scalar> now;
     now.load = force(estimate.level);
     now.sd = estimate.sd * sd_;
@@ -312,7 +266,7 @@ class LoadFilter {
     if (accepted) {
       const Scalar past = ahead(estimate.level, (sure_ - base_) / sd_);
       if (past > sure_turn * estimate.sd) turn_round(now);
-      go_on(estimate);
+      go_on(estimate, y);
     }
     now.sure = sure_;
     move_base();
@@ -324,51 +278,45 @@ class LoadFilter {
   /// About the best line. A long hold is left only when hardly anything speaks for it any more: among a
   /// million readings there are some that look like a bend.
   Estimate estimate_load(Scalar all) const {
-    const Line& oldest = line(0);
-    if (oldest.age >= old_age && oldest.weight > patience * all && !oldest.has_slope())
-      return {oldest.level, spread_about(oldest.level)};
-    const Scalar from = line(best_).level;
+    const int oldest = lines_.place(0);
+    const bool is_long_hold = at(lines_.age, oldest) >= old_age &&
+                              at(lines_.weight, oldest) > patience * all && !lines_.has_slope(oldest, creeps);
+    const Scalar from = at(lines_.level, is_long_hold ? oldest : best_);
     Scalar total = 0, mean = 0, square = 0;
-    for (int i = 0; i < lines_in_use_; ++i) {
-      const Scalar d = line(i).level - from, weight = line(i).weight;
-      if (std::fabs(d) > apart) continue;
+    for (int i = 0; i < Lines::capacity; ++i) {
+      const Scalar d = at(lines_.level, i) - from;
+      const Scalar weight = std::fabs(d) > apart ? Scalar(0) : at(lines_.weight, i);
       total += weight;
       mean += weight * d;
-      square += weight * (d * d + line(i).level_variance);
+      square += weight * (d * d + at(lines_.level_variance, i));
     }
     const Scalar unit = 1 / total;
+    if (is_long_hold) return {from, std::sqrt(square * unit)};
     mean *= unit;
     return {from + mean, std::sqrt(square * unit - mean * mean)};
   }
-  /// Standard deviation about a level, of the lines near it.
-  Scalar spread_about(Scalar level) const {
-    Scalar total = 0, square = 0;
-    for (int i = 0; i < lines_in_use_; ++i) {
-      const Scalar d = line(i).level - level;
-      if (std::fabs(d) > apart) continue;
-      total += line(i).weight;
-      square += line(i).weight * (d * d + line(i).level_variance);
-    }
-    return std::sqrt(square / total);
-  }
   void turn_round(ConditionedLoad<Scalar>& now) {
-    const Scalar corner = force(line(best_).corner);
+    const Scalar corner = force(at(lines_.corner, best_));
     if (ahead(sure_, corner) > 0) sure_ = corner;
     now.turned = true;
     now.turn = sure_;
     falls_ = !falls_;
     // The means of older lines are from before the turn.
-    for (; best_ > 0; --best_) drop(0);
+    for (int k = 1; k < Lines::capacity && lines_.place(0) != best_; ++k) lines_.drop(0);
   }
-  void go_on(const Estimate& estimate) {
+  void go_on(const Estimate& estimate, Scalar y) {
     const Scalar way = falls_ ? Scalar(-1) : Scalar(1);
     const Scalar most = way * estimate.level - sure_load * estimate.sd;
     if (!(ahead(sure_, force(way * most)) > 0)) return;
-    Scalar mean = -farthest;
-    for (int i = 0; i < lines_in_use_; ++i) {
-      const Scalar least = way * line(i).mean - sure_mean / std::sqrt(Line::averaged(line(i).age));
-      const bool is_near = std::fabs(line(i).level - estimate.level) <= apart;
-      mean = larger(mean, is_near ? least : -farthest);
+    const auto near = [&](Scalar level, Scalar least) {
+      return std::fabs(level - estimate.level) <= apart ? least : -farthest;
+    };
+    // The reading itself is a mean of one.
+    Scalar mean = near(y, way * y - sure_mean);
+    for (int k = 0; k < lines_.size; ++k) {
+      const int i = lines_.place(k);
+      const Scalar least = way * at(lines_.mean, i) - sure_mean * lines_.mean_deviation(i);
+      mean = larger(mean, near(at(lines_.level, i), least));
     }
     mean = -larger(-mean, -most);
     const Scalar come = force(way * mean);
@@ -376,21 +324,19 @@ class LoadFilter {
   }
   /// Keeps levels small, so that no digits are lost where the load is large and the noise is not.
   void move_base() {
-    if (std::fabs(line(best_).level) < 64) return;
-    const Scalar base = base_ + line(best_).level * sd_;
+    if (std::fabs(at(lines_.level, best_)) < 64) return;
+    const Scalar base = base_ + at(lines_.level, best_) * sd_;
     const Scalar moved = (base - base_) / sd_;
     base_ = base;
-    for (int i = 0; i < lines_in_use_; ++i) {
-      line(i).level -= moved;
-      line(i).mean -= moved;
-      line(i).corner -= moved;
-    }
+    for (auto* const lanes : {&lines_.level, &lines_.mean, &lines_.corner})
+      for (Scalar& each : *lanes) each -= moved;
   }
 
-  std::array<Line, capacity> lines_;
+  Lines lines_;
   Scalar sd_ = 0, base_ = 0;
   Scalar sure_ = 0;
-  std::int8_t lines_in_use_ = 0, best_ = 0;
+  std::int8_t best_ = 0;       // of the lines, the most likely
+  std::int8_t pause_ = pause;  // samples until a new line begins
   bool falls_ = false;
 };
 

@@ -1,0 +1,159 @@
+// A few straight lines in time that compete to explain the same readings.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "taut/numerics/bits.hpp"
+
+namespace taut {
+
+/// Lines fitted by recursive least squares to readings with Gaussian noise of standard deviation one, each
+/// begun at another sample, with the probability that it is the true one.
+///
+/// Every number of all of them is one array, so that a processor which can computes the lines side by side.
+/// `order` has the places of those in use, the oldest line first; the others have no weight.
+template <class Scalar, int Capacity>
+struct LoadLines {
+  static constexpr int capacity = Capacity;
+  using Lanes = std::array<Scalar, static_cast<std::size_t>(Capacity)>;
+  using Counts = std::array<std::int32_t, static_cast<std::size_t>(Capacity)>;
+
+  /// A line remembers so many readings, so that slow creep is followed.
+  static constexpr int memory = 2048;
+  static constexpr Scalar mean_memory = 4096;
+  static constexpr int greatest_age = 65535;
+  /// Density of readings that know nothing of the line.
+  static constexpr Scalar anywhere = Scalar(0.003);
+  static constexpr Scalar outliers = Scalar(0.0005);  ///< makes 5 standard deviations the limit
+  static constexpr Scalar again = Scalar(0.01);       ///< outliers come alone
+  static constexpr int most_strays = 2;               ///< more in a row were a step
+  static constexpr int established = 6;               ///< readings that make a line worth more than a reading
+
+  Lanes level{}, slope{};  ///< at the newest sample
+  Lanes level_variance{}, covariance{}, slope_variance{};
+  Lanes weight{};   ///< probability
+  Lanes mean{};     ///< of the readings since it began
+  Lanes corner{};   ///< the farthest that the load had come when it began
+  Counts age{};     ///< readings that it has taken
+  Counts known{};   ///< readings since the last jump, at most `established`
+  Counts strays{};  ///< readings in a row that it took for outliers
+  std::array<std::int8_t, static_cast<std::size_t>(Capacity)> order{};
+  std::int8_t size = 0;
+
+  template <class Array>
+  static auto& at(Array& array, int i) {
+    return array[static_cast<std::size_t>(i)];
+  }
+  /// Of the lines by age.
+  int place(int rank) const { return at(order, rank); }
+  Scalar weight_of(int rank) const { return at(weight, place(rank)); }
+
+  void clear() {
+    *this = LoadLines();
+    for (int i = 0; i < capacity; ++i) at(order, i) = static_cast<std::int8_t>(i);
+  }
+  /// Returns the place of a new line; there must be room.
+  int add() { return at(order, size++); }
+  void drop(int rank) {
+    const std::int8_t gone = at(order, rank);
+    --size;
+    for (int k = rank; k < size; ++k) at(order, k) = at(order, k + 1);
+    at(order, size) = gone;
+    at(weight, gone) = 0;
+  }
+
+  /// To the next sample.
+  void advance(Scalar dt) {
+    if (at(age, place(0)) >= memory) forget();
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const Scalar covaries = covariance[i] + dt * slope_variance[i];
+      level[i] += dt * slope[i];
+      level_variance[i] += dt * (covariance[i] + covaries);
+      covariance[i] = covaries;
+    }
+  }
+  /// Every line takes the reading into account, or for an outlier.
+  void weigh(Scalar y) {
+    Lanes precision, root, share, square;
+    for (std::size_t i = 0; i < lanes; ++i) {
+      // One division for two.
+      const Scalar older = static_cast<Scalar>(age[i] + 1),
+                   readings = older < mean_memory ? older : mean_memory;
+      const Scalar variance = level_variance[i] + 1, both = 1 / (variance * readings);
+      precision[i] = both * readings;
+      share[i] = both * variance;
+      square[i] = (y - level[i]) * (y - level[i]) * precision[i];
+    }
+    for (std::size_t i = 0; i < lanes; ++i) root[i] = std::sqrt(precision[i]);
+    for (std::size_t i = 0; i < lanes; ++i) square[i] = square[i] < farthest ? square[i] : farthest;
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const Scalar r = y - level[i], fits = density(square[i], root[i]);
+      const Scalar stray = outlier_density(known[i], strays[i]);
+      weight[i] *= fits + stray;
+      // One, or zero for an outlier: a product instead of a branch.
+      const std::int32_t taken = stray > fits ? 0 : 1, older = age[i] + taken, better = known[i] + taken;
+      const Scalar takes = static_cast<Scalar>(taken), p = precision[i] * takes, left = 1 - takes + p;
+      const Scalar level_gain = level_variance[i] * p, slope_gain = covariance[i] * p;
+      level[i] += level_gain * r;
+      slope[i] += slope_gain * r;
+      slope_variance[i] -= covariance[i] * slope_gain;
+      level_variance[i] *= left;
+      covariance[i] *= left;
+      mean[i] += (y - mean[i]) * (share[i] * takes);
+      strays[i] = (strays[i] + 1) * (1 - taken);
+      age[i] = older < greatest_age ? older : greatest_age;
+      known[i] = better < established ? better : established;
+    }
+  }
+
+  /// Of a reading, as the line expects it.
+  Scalar density(int i, Scalar y) const {
+    const Scalar precision = 1 / (at(level_variance, i) + 1), r = y - at(level, i),
+                 square = r * r * precision;
+    return density(square < farthest ? square : farthest, std::sqrt(precision)) +
+           outlier_density(at(known, i), at(strays, i));
+  }
+  /// Whether the slope is beyond so many of its standard deviations.
+  bool has_slope(int i, Scalar deviations) const {
+    return at(slope, i) * at(slope, i) > deviations * deviations * at(slope_variance, i);
+  }
+  /// Standard deviation of mean.
+  Scalar mean_deviation(int i) const {
+    const Scalar readings = static_cast<Scalar>(at(age, i));
+    return 1 / std::sqrt(readings < mean_memory ? readings : mean_memory);
+  }
+
+ private:
+  static constexpr Scalar farthest = 120;
+  static constexpr std::size_t lanes = static_cast<std::size_t>(Capacity);
+
+  /// Of a number whose distance from the mean of a normal distribution has this square, in standard
+  /// deviations, at most `farthest`; `root` is the root of the precision. To a part in ten thousand: exp() is
+  /// a power of two, its fraction by a polynomial.
+  static Scalar density(Scalar square, Scalar root) {
+    const Scalar u = Scalar(-0.72134752) * square;
+    const int whole = static_cast<int>(u);
+    const Scalar f = u - static_cast<Scalar>(whole);
+    return Scalar(0.39894228) * root * power_of_two<Scalar>(whole) *
+           (1 + f * (Scalar(0.6931472) +
+                     f * (Scalar(0.2402265) + f * (Scalar(0.0555041) + f * Scalar(0.0096181)))));
+  }
+  static Scalar outlier_density(std::int32_t known, std::int32_t strays) {
+    const Scalar alone = outliers * anywhere, repeated = strays == 0 ? alone : again * alone;
+    return known < established || strays >= most_strays ? Scalar(0) : repeated;
+  }
+  void forget() {
+    constexpr Scalar growth = 1 + Scalar(1) / memory;
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const Scalar factor = age[i] >= memory ? growth : Scalar(1);
+      level_variance[i] *= factor;
+      covariance[i] *= factor;
+      slope_variance[i] *= factor;
+    }
+  }
+};
+
+}  // namespace taut
