@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "taut/estimation/alarms.hpp"
+#include "taut/estimation/belief.hpp"
 #include "taut/estimation/knowledge.hpp"
 #include "taut/estimation/load_filter.hpp"
 #include "taut/estimation/readings.hpp"
@@ -43,9 +44,7 @@ class Estimator {
   using TrackerType = Tracker<CondensedType, Parameters>;
   using KnowledgeType = Knowledge<Scalar, Cap>;
   using ReadingsType = Readings<Scalar, Cap>;
-  /// The tracker is adjusted to the estimate when the measured force is off its linearization by half of this
-  /// part of its standard deviation.
-  static constexpr Scalar bent = Scalar(0.2);
+  using BeliefType = Belief<Scalar, Parameters, max_jacks<Cap>>;
   /// Friction of a cable whose prior moves a measured number by less than this part of the standard deviation
   /// of its reading is of no account for the reading.
   static constexpr Scalar unseen = Scalar(0.2);
@@ -73,7 +72,7 @@ class Estimator {
     for (int i = 0; i < model_->loads; ++i)
       if (!std::isfinite(readings.sample.factor[i]))
         return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
-    has_errors_ = has_news_ = false;
+    belief_.begin_row();
     const Corners corners = take_loads(readings);
     Progress<Scalar> progress;
     if (corners.any()) progress = pass(corners, event_budget);
@@ -121,7 +120,7 @@ class Estimator {
       Real at = loads.prestrain * rows.prestrain[strut] + carried(tracker_.elongations());
       for (int k = 0; k < model_->loads; ++k) at += loads.factor[k] * rows.load[k][strut];
       expected.at = static_cast<Scalar>(at);
-      for (int p = 0; p < in_use_; ++p)
+      for (int p = 0; p < belief_.in_use(); ++p)
         expected.by_unknown[p] =
             static_cast<Scalar>(carried(tracker_.elongations_by(tracker_.move_sensitivity(p))));
       for (int k = 0; k < jacks_.size(); ++k)
@@ -140,7 +139,7 @@ class Estimator {
     const auto expect = [&](Expected& expected) {
       const auto of = [&](const auto& moving) { return static_cast<Scalar>(moving.payout[cable][end]); };
       expected.at = of(tracker_.moves());
-      for (int p = 0; p < in_use_; ++p) expected.by_unknown[p] = of(tracker_.move_sensitivity(p));
+      for (int p = 0; p < belief_.in_use(); ++p) expected.by_unknown[p] = of(tracker_.move_sensitivity(p));
       for (int k = 0; k < jacks_.size(); ++k)
         expected.by_jack[k] = of(tracker_.move_slope(jacks_[k].cable, jacks_[k].end));
     };
@@ -150,22 +149,13 @@ class Estimator {
   /// Force of a segment [N], >= 0.
   Scalar force(int segment) const {
     Scalar T = tracker_.tension(segment) + ahead(segment);
-    for (int p = 0; p < in_use_; ++p)
-      if (mean_[p] != at_[p]) T += tracker_.sensitivity(p, segment) * (mean_[p] - at_[p]);
+    for (int p = 0; p < belief_.in_use(); ++p)
+      if (belief_.mean(p) != at_[p]) T += tracker_.sensitivity(p, segment) * (belief_.mean(p) - at_[p]);
     return T > 0 ? T : Scalar(0);
   }
   /// Its standard deviation [N].
   Scalar deviation(int segment) const {
-    // Without zeros first; a FixedArray has them.
-    std::array<Scalar, static_cast<std::size_t>(Parameters)> derivatives;
-    const auto S = [&derivatives](int p) -> Scalar& { return derivatives[static_cast<std::size_t>(p)]; };
-    Scalar variance = 0;
-    for (int p = 0; p < in_use_; ++p) {
-      S(p) = tracker_.sensitivity(p, segment);
-      Scalar sum = S(p) * covariance_[p][p];
-      for (int q = 0; q < p; ++q) sum += 2 * S(q) * covariance_[p][q];
-      variance += S(p) * sum;
-    }
+    Scalar variance = belief_.variance_of([&](int p) { return tracker_.sensitivity(p, segment); });
     for (const JackedEnd& jack : jacks_) {
       const Cell& cell = cell_of(jack);
       if (cell.locked || !(cell.at.sd > 0)) continue;
@@ -181,11 +171,11 @@ class Estimator {
   Scalar mu(int joint) const {
     const auto nominal = static_cast<Scalar>(knowledge_->mu[joint]);
     const int p = unknown_of_[joint];
-    return p < 0 ? nominal : nominal + weight_[joint] * mean_[p];
+    return p < 0 ? nominal : nominal + weight_[joint] * belief_.mean(p);
   }
   Scalar mu_deviation(int joint) const {
     const int p = unknown_of_[joint];
-    return p < 0 ? Scalar(0) : weight_[joint] * std::sqrt(covariance_[p][p]);
+    return p < 0 ? Scalar(0) : weight_[joint] * std::sqrt(belief_.variance(p));
   }
   /// Slips, contact and friction forces, payouts, states and, if their rows are given, strut forces: as
   /// Tracker::respond(), at the best estimate.
@@ -201,7 +191,7 @@ class Estimator {
   /// The load of a jack as it was conditioned.
   const ConditionedLoad<Scalar>& load(int cable, std::size_t end) const { return cells_[cable][end].at; }
   const TrackerType& tracker() const { return tracker_; }
-  int unknowns() const { return unknowns_; }
+  int unknowns() const { return belief_.size(); }
 
   /// A jack's load cell.
   struct Cell {
@@ -228,11 +218,13 @@ class Estimator {
     Sample<Scalar, Cap> drive;
     FixedArray<std::array<Cell, 2>, Cap::cables> cells;
     FixedArray<Scalar, 2 * Cap::cables> most_payout;
-    FixedArray<Scalar, Parameters> mean, at;
-    FixedArray<FixedArray<Scalar, Parameters>, Parameters> covariance;
+    typename BeliefType::Values mean, at;
+    typename BeliefType::Covariance covariance;
   };
   /// Between two rows.
-  State save() const { return {tracker_.save(), drive_, cells_, most_payout_, mean_, at_, covariance_}; }
+  State save() const {
+    return {tracker_.save(), drive_, cells_, most_payout_, belief_.mean(), at_, belief_.covariance()};
+  }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `bad_sample` if the state
   /// is none of this scene; then only start() or another restore() may follow.
   Status restore(const CondensedType& condensed, const KnowledgeType& knowledge, const State& state,
@@ -242,11 +234,8 @@ class Estimator {
     drive_ = state.drive;
     cells_ = state.cells;
     most_payout_ = state.most_payout;
-    mean_ = state.mean;
     at_ = state.at;
-    covariance_ = state.covariance;
-    for (int p = 0; p < unknowns_; ++p)
-      if (covariance_[p][p] > 0) in_use_ = larger(in_use_, p + 1);
+    belief_.restore(state.mean, state.covariance);
     set_frictions();
     return tracker_.resume(state.tracker);
   }
@@ -268,7 +257,6 @@ class Estimator {
     alarms_.clear();
     jacks_.clear();
     for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) { jacks_.add({c, end}); });
-    has_errors_ = has_news_ = false;
     tracker_.begin(condensed);
     for (int j = 0; j < Cap::joints; ++j) can_slide_[j] = j < condensed.joints && !condensed.is_locked(j);
     drive_ = {};
@@ -284,22 +272,14 @@ class Estimator {
   // The unknowns.
 
   Status find_unknowns() {
-    unknowns_ = 0;
-    covariance_ = {};
-    mean_.fill(Scalar(0));
+    belief_.clear();
     at_.fill(Scalar(0));
     unknown_of_.fill(-1);
     int missing = 0;
     const auto add = [&](Scalar sd) {
-      if (unknowns_ == Parameters) {
-        ++missing;
-        return -1;
-      }
-      const Scalar far = std::numeric_limits<Scalar>::max();
-      covariance_[unknowns_][unknowns_] = sd * sd;
-      least_[unknowns_] = -far;
-      most_[unknowns_] = far;
-      return unknowns_++;
+      const int p = belief_.add(sd);
+      if (p < 0) ++missing;
+      return p;
     };
     for (int c = 0; c < model_->cables.size(); ++c) {
       const Scalar sd = knowledge_->mu_sd[c];
@@ -322,10 +302,10 @@ class Estimator {
         depend(c, j, p, static_cast<Scalar>(weight));
       }
     }
-    friction_unknowns_ = in_use_ = unknowns_;
+    belief_.end_friction();
     for (std::size_t m = 0; m < memories; ++m)
       for (const JackedEnd& jack : jacks_) {
-        const bool has = knowledge_->sensor_sd[jack.cable][jack.end] > 0 && unknowns_ < Parameters;
+        const bool has = knowledge_->sensor_sd[jack.cable][jack.end] > 0 && belief_.size() < Parameters;
         cell_of(jack).memory[m] = static_cast<std::int16_t>(has ? add(Scalar(0)) : -1);
       }
     if (missing > 0) return Status::at(Code::capacity_exceeded, Place::none, Parameters, missing);
@@ -338,8 +318,7 @@ class Estimator {
     // mu >= 0, and never quite locked.
     const Real most_mu = (knowledge_->capstan[c] ? Real(6) : Real(0.98)) / knowledge_->grip[j];
     const auto nominal = static_cast<Scalar>(knowledge_->mu[j]);
-    least_[p] = larger(least_[p], -nominal / weight);
-    most_[p] = -larger(-most_[p], -(static_cast<Scalar>(most_mu) - nominal) / weight);
+    belief_.bound(p, -nominal / weight, (static_cast<Scalar>(most_mu) - nominal) / weight);
     set_friction(c, j);
   }
   void set_friction(int c, int j) {
@@ -351,7 +330,7 @@ class Estimator {
   /// Brings the tracker to these values of the unknowns.
   bool linearize_at(const FixedArray<Scalar, Parameters>& values) {
     FixedArray<Scalar, Parameters> change;
-    for (int p = 0; p < in_use_; ++p) {
+    for (int p = 0; p < belief_.in_use(); ++p) {
       change[p] = values[p] - at_[p];
       at_[p] = values[p];
     }
@@ -371,12 +350,10 @@ class Estimator {
     const int p = cell.memory[static_cast<std::size_t>(cell.oldest)];
     if (p < 0) return;
     cell.oldest = (cell.oldest + 1) % memories;
-    if (mean_[p] != at_[p]) static_cast<void>(linearize_at(mean_));
+    if (belief_.mean(p) != at_[p]) static_cast<void>(linearize_at(belief_.mean()));
     tracker_.turn(p, jack.cable, jack.end);
-    in_use_ = larger(in_use_, p + 1);
-    mean_[p] = at_[p] = 0;
-    for (int q = 0; q < unknowns_; ++q) covariance_[p][q] = covariance_[q][p] = 0;
-    covariance_[p][p] = cell.before * cell.before;
+    at_[p] = 0;
+    belief_.renew(p, cell.before);
   }
 
   // The loads.
@@ -510,32 +487,14 @@ class Estimator {
 
   // The measurements.
 
-  /// A measured number where the tracker is, and its derivatives.
-  struct Expected {
-    Scalar at = 0;
-    FixedArray<Scalar, Parameters> by_unknown;
-    FixedArray<Scalar, most_jacks> by_jack;  // with respect to the forces of unlocked jacks
-  };
-  /// What a measurement adds to what is known.
-  struct Update {
-    FixedArray<Scalar, Parameters> with_unknown, mean;  // covariance with the number; what follows
-    FixedArray<Scalar, most_jacks> with_error;
-    Scalar precision = 0, innovation = 0;  // 1 / variance of what was expected; how far off that was
-    bool is_bent = false;                  // the mean is so far away that the tracker's line is off
-  };
-  /// Errors of the jacks' readings in this row, which all its measurements share.
-  struct Errors {
-    FixedArray<Scalar, most_jacks> mean;
-    FixedArray<FixedArray<Scalar, Parameters>, most_jacks> with_unknown;  // covariances
-    FixedArray<FixedArray<Scalar, most_jacks>, most_jacks> with_error;
-  };
+  using Expected = typename BeliefType::ExpectedType;
 
   /// A load cell at an anchored end.
   void measure(int c, std::size_t end, Scalar reading) {
     const int segment = model_->cables[c].end_segment(end);
     const auto expect = [&](Expected& expected) {
       expected.at = tracker_.tension(segment);
-      for (int p = 0; p < in_use_; ++p) expected.by_unknown[p] = tracker_.sensitivity(p, segment);
+      for (int p = 0; p < belief_.in_use(); ++p) expected.by_unknown[p] = tracker_.sensitivity(p, segment);
       for (int k = 0; k < jacks_.size(); ++k)
         expected.by_jack[k] = tracker_.slope(jacks_[k].cable, jacks_[k].end, segment);
     };
@@ -546,27 +505,35 @@ class Estimator {
   /// raise if it is not.
   template <class Expect>
   void learn(const Expect& expect, Scalar reading, Scalar sd, const Alarm& contradiction) {
-    if (!(sd > 0) || friction_unknowns_ == 0 || may_have_turned()) return;
+    if (!(sd > 0) || !belief_.has_friction() || may_have_turned()) return;
     Expected& expected = expected_;
     expect(expected);
     if (!slides_where_it_matters(expected, contradiction.cable, sd)) {
       alarms_.add(Alarm::of(Alarm::Kind::no_information, contradiction.cable, contradiction.place));
       return;
     }
-    if (has_news_) learn_errors();
+    typename BeliefType::JackReadings jacks;
+    for (const JackedEnd& jack : jacks_) jacks.add(reading_of(jack));
+    belief_.learn_errors(jacks);
     constexpr int most_rounds = 4;
     for (int round = 1;; ++round) {
-      if (!weigh(expected, reading, sd)) {
+      if (!belief_.weigh(expected, at_, jacks, reading, sd)) {
         alarms_.add(contradiction);
         return;
       }
-      const bool goes_on = update_.is_bent && linearize_at(update_.mean) && round < most_rounds;
+      const bool goes_on = belief_.is_bent() && linearize_at(belief_.mean_to_be()) && round < most_rounds;
       if (!goes_on) {
-        apply();
+        belief_.apply();
         return;
       }
       expect(expected);
     }
+  }
+  typename BeliefType::JackReading reading_of(const JackedEnd& jack) const {
+    const Cell& cell = cell_of(jack);
+    if (cell.locked) return {};
+    const Scalar sd = cell.is_new ? knowledge_->sensor_sd[jack.cable][jack.end] : cell.at.sd;
+    return {(cell.is_new ? cell.raw : cell.at.load) - drive_.jack[jack.cable][jack.end].force, sd * sd};
   }
   /// While some joints stick, what a measurement says depends on which ones do, and that on friction: no
   /// derivative tells. All of `cable` must slide, and of every other one whose friction shows in the number.
@@ -603,93 +570,6 @@ class Estimator {
       if (cell_of(jack).is_behind()) return true;
     return false;
   }
-  /// False if the reading contradicts everything known by more than five sigma.
-  bool weigh(const Expected& expected, Scalar reading, Scalar sd) {
-    Update& update = update_;
-    const auto& H = expected.by_unknown;
-    const int jacks = jacks_.size();
-    // A jack pulls less than it reads by the error of the reading.
-    const auto by_error = [&](int k) { return -expected.by_jack[k]; };
-    Scalar number = expected.at, variance = 0;
-    for (int p = 0; p < in_use_; ++p) number += H[p] * (mean_[p] - at_[p]);
-    for (int k = 0; k < jacks; ++k) {
-      const Cell& cell = cell_of(jacks_[k]);
-      if (!cell.locked)
-        number += expected.by_jack[k] * ((cell.is_new ? cell.raw : cell.at.load) -
-                                         drive_.jack[jacks_[k].cable][jacks_[k].end].force);
-      Scalar sum = by_error(k) * error_variance(k);
-      if (has_errors_) {
-        number += by_error(k) * errors_.mean[k];
-        sum = 0;
-        for (int p = 0; p < in_use_; ++p) sum += errors_.with_unknown[k][p] * H[p];
-        for (int l = 0; l < jacks; ++l) sum += errors_.with_error[k][l] * by_error(l);
-      }
-      update.with_error[k] = sum;
-      variance += by_error(k) * sum;
-    }
-    Scalar of_friction = 0, through_friction = 0;
-    for (int p = 0; p < in_use_; ++p) {
-      Scalar sum = 0;
-      for (int q = 0; q < friction_unknowns_; ++q) sum += covariance_[p][q] * H[q];
-      if (p < friction_unknowns_) of_friction += H[p] * sum;
-      for (int q = friction_unknowns_; q < in_use_; ++q) sum += covariance_[p][q] * H[q];
-      for (int k = 0; k < jacks && has_errors_; ++k) sum += errors_.with_unknown[k][p] * by_error(k);
-      update.with_unknown[p] = sum;
-      variance += H[p] * sum;
-      if (p < friction_unknowns_) through_friction += H[p] * sum;
-    }
-    const Scalar spread = sd * sd + variance;
-    update.innovation = reading - number;
-    if (!(update.innovation * update.innovation <= Scalar(25) * spread)) return false;
-    update.precision = 1 / spread;
-    const Scalar pull = update.innovation * update.precision;
-    Scalar shift = 0;
-    for (int p = 0; p < in_use_; ++p) {
-      const Scalar mean = mean_[p] + update.with_unknown[p] * pull;
-      update.mean[p] = larger(least_[p], -larger(-most_[p], -mean));
-      if (p < friction_unknowns_) shift += std::fabs(H[p] * (update.mean[p] - at_[p]));
-    }
-    // A force is about exponential in mu: by shift^2 / 2T it is off the line.
-    const Scalar left = of_friction - through_friction * through_friction * update.precision;
-    const Scalar off = shift * shift, allowed = bent * larger(std::fabs(number), sd);
-    update.is_bent = off * off > allowed * allowed * larger(left, Scalar(0));
-    return true;
-  }
-  void apply() {
-    for (int p = 0; p < in_use_; ++p) {
-      mean_[p] = update_.mean[p];
-      const Scalar gain = update_.with_unknown[p] * update_.precision;
-      for (int q = 0; q < p; ++q)
-        covariance_[q][p] = covariance_[p][q] = covariance_[p][q] - gain * update_.with_unknown[q];
-      covariance_[p][p] -= gain * update_.with_unknown[p];
-    }
-    has_news_ = true;
-  }
-  /// Before another measurement of the same row: what the one before said of the errors that they share.
-  void learn_errors() {
-    const int jacks = jacks_.size();
-    for (int k = 0; k < jacks && !has_errors_; ++k) {
-      errors_.mean[k] = 0;
-      for (int p = 0; p < in_use_; ++p) errors_.with_unknown[k][p] = 0;
-      for (int l = 0; l < jacks; ++l) errors_.with_error[k][l] = k == l ? error_variance(k) : Scalar(0);
-    }
-    for (int k = 0; k < jacks; ++k) {
-      const Scalar gain = update_.with_error[k] * update_.precision;
-      errors_.mean[k] += gain * update_.innovation;
-      for (int p = 0; p < in_use_; ++p) errors_.with_unknown[k][p] -= gain * update_.with_unknown[p];
-      for (int l = 0; l < jacks; ++l) errors_.with_error[k][l] -= gain * update_.with_error[l];
-    }
-    has_errors_ = true;
-    has_news_ = false;
-  }
-  /// Of a jack's reading in this row, before anything else has been measured.
-  Scalar error_variance(int k) const {
-    const Cell& cell = cell_of(jacks_[k]);
-    if (cell.locked) return 0;
-    const Scalar sd = cell.is_new ? knowledge_->sensor_sd[jacks_[k].cable][jacks_[k].end] : cell.at.sd;
-    return sd * sd;
-  }
-
   // What is odd.
 
   void compare(int c, std::size_t end, Scalar stroke) {
@@ -723,11 +603,11 @@ class Estimator {
     for (int c = 0; c < model_->cables.size(); ++c) {
       const auto& cable = model_->cables[c];
       const Scalar sd = knowledge_->mu_sd[c];
-      for (int k = 0; k < cable.joints() && friction_unknowns_ > 0; ++k) {
+      for (int k = 0; k < cable.joints() && belief_.has_friction(); ++k) {
         const int j = cable.first_joint + k, p = unknown_of_[j];
         if (p < 0) continue;
         const bool shared = knowledge_->shared[c];
-        const Scalar off = weight_[j] * mean_[p], beyond = std::fabs(off) - 2 * sd * weight_[j];
+        const Scalar off = weight_[j] * belief_.mean(p), beyond = std::fabs(off) - 2 * sd * weight_[j];
         if (beyond > 0 && beyond > 2 * mu_deviation(j))
           alarms_.add(Alarm::of(off > 0 && !shared ? Alarm::Kind::stuck_joint : Alarm::Kind::mu_band, c,
                                 shared ? -1 : k));
@@ -753,19 +633,12 @@ class Estimator {
   FixedArray<Scalar, 2 * Cap::cables> most_payout_;
   Alarms alarms_;
 
-  int unknowns_ = 0, friction_unknowns_ = 0;
-  int in_use_ = 0;  // the unknowns beyond have no variance yet
-  // Of the last measurement; members, so that what is not in use need not be cleared every time.
-  Expected expected_;
-  Update update_;
-  Errors errors_;  // of the jacks' readings in this row, once there is a second measurement
-  bool has_news_ = false, has_errors_ = false;
+  BeliefType belief_;
+  Expected expected_;  // of the last measurement; a member, so that what is not in use need not be cleared
   FixedArray<bool, Cap::joints> can_slide_;
   FixedArray<std::int16_t, Cap::joints> unknown_of_;
-  FixedArray<Scalar, Cap::joints> weight_;       // of the unknown in mu
-  FixedArray<Scalar, Parameters> mean_, at_;     // estimate; where the tracker is linearized
-  FixedArray<Scalar, Parameters> least_, most_;  // of the unknowns
-  FixedArray<FixedArray<Scalar, Parameters>, Parameters> covariance_;
+  FixedArray<Scalar, Cap::joints> weight_;  // of the unknown in mu
+  typename BeliefType::Values at_;          // where the tracker is linearized
 };
 
 }  // namespace taut
