@@ -160,9 +160,7 @@ template <class Scalar>
 std::array<Scalar, 2 * samples> scatter() {
   support::Random random(1);
   std::array<Scalar, 2 * samples> numbers{};
-  for (Scalar& each : numbers)
-    each = static_cast<Scalar>(noise * std::sqrt(-2 * std::log(random.between(1e-9, 1))) *
-                               std::cos(2 * support::pi * random.between(0, 1)));
+  for (Scalar& each : numbers) each = static_cast<Scalar>(noise * support::gaussian(random));
   return numbers;
 }
 

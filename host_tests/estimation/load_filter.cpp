@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "support/scenes.hpp"
+#include "support/random.hpp"
 
 using taut::ConditionedLoad;
 using taut::LoadFilter;
@@ -20,14 +20,11 @@ namespace {
 
 constexpr double sigma = 1000;  ///< of a reading [N]
 
-/// Standard normal numbers, Box and Muller 1958.
+/// Standard normal numbers, and others.
 class Noise {
  public:
   explicit Noise(int seed) : random_(static_cast<std::uint64_t>(seed) + 1) {}
-  double operator()() {
-    const double radius = std::sqrt(-2 * std::log(1 - random_.between(0, 1)));
-    return radius * std::cos(2 * 3.14159265358979323846 * random_.between(0, 1));
-  }
+  double operator()() { return support::gaussian(random_); }
   /// Log-uniform in [low, high).
   double of_magnitude(double low, double high) {
     return std::exp(random_.between(std::log(low), std::log(high)));

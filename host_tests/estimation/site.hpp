@@ -14,15 +14,10 @@
 
 namespace estimation {
 
+using support::gaussian;
 using support::Plane;
 using support::PlaneCapacity;
 using support::Random;
-
-/// Standard normal numbers, the same on every platform but for the rounding of log and cos.
-inline double gaussian(Random& random) {
-  const double radius = std::sqrt(-2 * std::log(random.between(1e-300, 1)));
-  return radius * std::cos(2 * support::pi * random.between(0, 1));
-}
 
 /// How well the site's instruments read, as parts of the full jack force.
 struct Instruments {

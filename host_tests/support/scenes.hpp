@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "support/random.hpp"
 #include "taut/scene/scene.hpp"
 
 namespace support {
@@ -22,7 +23,6 @@ struct SpaceCapacity : PlaneCapacity {
 using Plane = taut::Scene<double, 2, PlaneCapacity>;
 using Space = taut::Scene<double, 3, SpaceCapacity>;
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double steel = 2e11;                       ///< E [N/m2]
 constexpr double cable_E = 1.95e11, cable_A = 8e-4;  ///< of steel_cable()
 constexpr std::array<taut::End, 2> anchored{taut::End::anchored, taut::End::anchored};
@@ -38,25 +38,6 @@ inline taut::Cable<double> steel_cable(double mu, std::array<taut::End, 2> ends 
   cable.ends = ends;
   return cable;
 }
-
-/// Random numbers with the same sequence on every platform: xorshift64*, Vigna 2016.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 1) {}
-  /// In [low, high).
-  double between(double low, double high) { return low + (high - low) * unit(); }
-  int below(int bound) { return static_cast<int>(unit() * bound); }
-  bool coin() { return unit() < 0.5; }
-
- private:
-  double unit() {
-    state_ ^= state_ >> 12;
-    state_ ^= state_ << 25;
-    state_ ^= state_ >> 27;
-    return static_cast<double>((state_ * 0x2545F4914F6CDD1Du) >> 11) / 9007199254740992.0;
-  }
-  std::uint64_t state_;
-};
 
 /// A factor for every dimension of a scene: always 1, or from 1/2 to 2 at random.
 class Variation {
