@@ -6,6 +6,7 @@
 #include <string>
 
 #include "arch.hpp"
+#include "export/loose_scene.hpp"
 #include "files/run_program.hpp"
 #include "lib/condensed_size.hpp"
 #include "lib/scene_file.hpp"
@@ -73,9 +74,7 @@ TEST_CASE("a header does not overwrite its scene") {
 
 TEST_CASE("a scene that does not stand is not exported") {
   const Scratch scratch;
-  std::string scene = text_of(TAUT_EXPORT "/arch.json");
-  scene.insert(scene.find("\"p\": [4, -1]"), "\"loose\": [20, 20], ");
-  std::ofstream(scratch.path / "loose.json") << scene;
+  write_loose_scene(scratch.path / "loose.json");
   const Outcome outcome =
       run_taut(scratch, "export " + scratch.quoted("loose.json") + " -o " + scratch.quoted("loose.hpp"));
   CHECK(outcome.status == 1);

@@ -4,6 +4,7 @@
 
 #include <type_traits>
 
+#include "export/loose_scene.hpp"
 #include "exported.hpp"
 #include "together.hpp"
 
@@ -81,9 +82,7 @@ TEST_CASE("two scenes with the same namespace are refused") {
 
 TEST_CASE("if one scene does not stand nothing is written, and the message names its file") {
   const Scratch scratch;
-  std::string scene = text_of(TAUT_EXPORT "/arch.json");
-  scene.insert(scene.find("\"p\": [4, -1]"), "\"loose\": [20, 20], ");
-  std::ofstream(scratch.path / "loose.json") << scene;
+  write_loose_scene(scratch.path / "loose.json");
   const Outcome outcome =
       run_taut(scratch, "export " + here("net.json") + " " + scratch.quoted("loose.json") + " -o " +
                             scratch.quoted("header.hpp"));

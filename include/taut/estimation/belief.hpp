@@ -1,7 +1,9 @@
 // What is known of unknown constants, and what a measurement adds to it.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "taut/numerics/larger.hpp"

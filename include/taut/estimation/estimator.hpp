@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "taut/estimation/alarms.hpp"
 #include "taut/estimation/belief.hpp"

@@ -42,7 +42,6 @@ class LoadFilter {
   /// reading [N], with quantisation (step / sqrt(12)). Zero: readings are exact.
   void start(Scalar sd) {
     *this = LoadFilter();
-    lines_.clear();
     sd_ = sd > 0 ? sd : Scalar(0);
   }
 
