@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "taut/estimation/load_block.hpp"
 #include "taut/estimation/load_lines.hpp"
 #include "taut/numerics/larger.hpp"
 
@@ -30,6 +31,10 @@ struct ConditionedLoad {
 /// mean and spread. A new line is weighed at every third sample, and at every one that surprises; as there is
 /// room for few, the young ones are kept closer together.
 ///
+/// As long as the readings agree with the likeliest line, up to eight of them wait until they are weighed as
+/// one: their mean. Meanwhile that line alone follows them. Where one does not agree, those that wait are
+/// weighed one by one after all.
+///
 /// `sure` asks for more than a line, which overshoots where a ramp ends: a load that rises is now at least as
 /// high as the mean of any readings since it turned.
 ///
@@ -43,16 +48,37 @@ class LoadFilter {
   void start(Scalar sd) {
     *this = LoadFilter();
     sd_ = sd > 0 ? sd : Scalar(0);
+    per_sd_ = sd_ > 0 ? 1 / sd_ : Scalar(0);
   }
 
   /// Takes the next reading [N], `dt` > 0 after the one before, in any unit of time; for the first it is of
   /// no account. What is not finite is refused.
   ConditionedLoad<Scalar> take(Scalar reading, Scalar dt) {
     if (sd_ == 0) return take_exact(reading);
-    const Scalar y = (reading - base_) / sd_;
+    const Scalar step = dt > 0 && std::isfinite(dt) ? dt : Scalar(0);
+    return may_wait() ? wait(reading, step) : take_one(reading, step);
+  }
+
+ private:
+  // Forces of lines are in standard deviations of a reading, from `base_`; densities are those of such
+  // readings.
+
+  using Lines = LoadLines<Scalar, 4>;
+  using Block = LoadBlock<Scalar, 8>;
+  static constexpr Scalar farthest =
+      Scalar(1e9);  ///< what is farther is no reading, and its square overflows
+
+  struct Estimate {
+    Scalar level, sd;
+  };
+
+  /// `step` is the time since the reading before, or zero if that is not known.
+  ConditionedLoad<Scalar> take_one(Scalar reading, Scalar step) {
+    const Scalar y = level_of(reading);
     const bool usable = std::fabs(y) < farthest;
     if (lines_.size == 0) return begin_anew(usable, reading);
-    const Scalar step = dt > 0 && std::isfinite(dt) ? dt : Scalar(0);
+    step_ = step;
+    lines_.forget(1);
     const int newest = lines_.place(lines_.size - 1);
     const bool has_no_slope = !(step > 0) || (best_ == newest && is_new(newest));
     // Only now is it known what a sample is in time.
@@ -63,29 +89,95 @@ class LoadFilter {
     if (!(at(lines_.level_variance, best_) < farthest)) return begin_anew(usable, reading);
     if (!usable) return conclude(false, 1, y);
     const bool surprises = is_surprise(y);
+    ++since_birth_;
+    calm_ = static_cast<std::int8_t>(surprises ? 0 : calm_ < calm_enough ? calm_ + 1 : calm_);
     // Where nothing surprises, where exactly a line begins is of no account.
-    if (--pause_ <= 0 || surprises) {
-      begin_line(surprises, has_no_slope, step, y);
-      pause_ = pause;
-    }
-    lines_.weigh(y);
+    if (since_birth_ >= pause || surprises) begin_line({surprises, has_no_slope}, step, step, y, Scalar(1));
+    lines_.weigh(y, 1);
     const Scalar total = find_best();
     return conclude(at(lines_.strays, best_) == 0, total, y);
   }
 
- private:
-  // Forces of lines are in standard deviations of a reading, from `base_`; densities are those of such
-  // readings.
+  // Readings that wait.
 
-  using Lines = LoadLines<Scalar, 4>;
-  static constexpr Scalar farthest =
-      Scalar(1e9);  ///< what is farther is no reading, and its square overflows
+  /// What is young may soon be disproved.
+  bool may_wait() {
+    if (calm_ < calm_enough) return false;
+    if (block_.size == 0) {
+      const int hold = long_hold(1);
+      if (hold >= 0 && hold != best_) return false;
+      block_.begin(at(lines_.weight, best_) < Scalar(0.5) ? 0 : at(lines_.age, best_) / 4);
+      sure_before_ = sure_;
+    }
+    return block_.room > 1;
+  }
+  ConditionedLoad<Scalar> wait(Scalar reading, Scalar step) {
+    const Scalar y = level_of(reading);
+    block_.add(reading, step, y);
+    const auto fit = block_.fit(line(best_), y);
+    const Estimate estimate = estimate_load(fit);
+    const bool is_even = 2 * step > step_ && step < 2 * step_;
+    // Not a number does not agree either.
+    const bool agrees = fit.off * fit.off < disagree * disagree * fit.spread &&
+                        fit.last_off * fit.last_off < doubt * doubt * fit.last_spread;
+    if (!agrees || !is_even || has_turned(estimate)) return take_one_by_one();
+    if (block_.is_full()) return take_together(y);
+    const Scalar share = block_.share();
+    go_on(estimate, [&](Scalar way) {
+      return larger(way * y - sure_mean, way * (block_.sum * share) - sure_mean * std::sqrt(share));
+    });
+    return said(estimate);
+  }
+  /// The readings that wait, and their mean as one; the last of them is `y`.
+  ConditionedLoad<Scalar> take_together(Scalar y) {
+    const Scalar share = block_.share(), middle = block_.times * share, mean = block_.sum * share;
+    const int count = block_.size;
+    block_.size = 0;
+    step_ = block_.span * share;
+    since_birth_ = static_cast<std::int8_t>(since_birth_ + count);
+    lines_.forget(count);
+    lines_.advance(middle);
+    begin_line({false, false}, step_, middle, mean, share);
+    lines_.weigh(mean, count);
+    lines_.advance(block_.span - middle);
+    return conclude(true, find_best(), y);
+  }
+  /// What has been said of them in the meantime stands: `sure` does not go back, but for a turn.
+  ConditionedLoad<Scalar> take_one_by_one() {
+    const Scalar said = sure_;
+    const bool fell = falls_;
+    sure_ = sure_before_;
+    const int count = block_.size;
+    block_.size = 0;
+    ConditionedLoad<Scalar> now;
+    Scalar turn = 0;
+    for (int i = 0; i < count; ++i) {
+      now = take_one(at(block_.reading, i), at(block_.step, i));
+      if (now.turned) turn = now.turn;
+    }
+    calm_ = 0;
+    now.turned = falls_ != fell;
+    if (now.turned)
+      now.turn = fell ? -larger(-turn, -said) : larger(turn, said);
+    else if (now.refused || ahead(sure_, said) > 0)
+      sure_ = said;
+    now.sure = sure_;
+    return now;
+  }
 
   /// Lines that began longer ago than this are as good as one another.
   static constexpr int old_age = 1024;
   /// Samples from one new line to the next, but for readings that surprise: by so many standard deviations.
   static constexpr std::int8_t pause = 3;
   static constexpr Scalar surprise = 2;
+  /// Readings wait after so many without surprise, until the mean of them disagrees or the last one is in
+  /// doubt.
+  static constexpr std::int8_t calm_enough = 4;
+  static constexpr Scalar disagree = Scalar(2.0), doubt = Scalar(2.6);
+  /// As long as a line is young, it may have bent if their mean is off by more than by chance: so much of
+  /// that square is believed.
+  static constexpr Scalar perhaps_bent = Scalar(0.25);
+  static constexpr int young = 50;
 
   /// The odds that a piece ends now are 1 in its age and this: pieces of every length are as likely.
   static constexpr Scalar least_length = 15;
@@ -115,6 +207,11 @@ class LoadFilter {
     return Lines::at(array, i);
   }
   bool is_new(int i) const { return at(lines_.age, i) == 1 && at(lines_.known, i) == 1; }
+  Scalar level_of(Scalar reading) const { return (reading - base_) * per_sd_; }
+  LineState<Scalar> line(int i) const {
+    return {at(lines_.level, i), at(lines_.slope, i), at(lines_.level_variance, i), at(lines_.covariance, i),
+            at(lines_.slope_variance, i)};
+  }
   Scalar force(Scalar level) const {
     const Scalar newtons = base_ + level * sd_;
     return newtons > 0 ? newtons : Scalar(0);
@@ -137,6 +234,7 @@ class LoadFilter {
 
   ConditionedLoad<Scalar> begin_anew(bool usable, Scalar reading) {
     lines_.clear();
+    calm_ = 0;
     if (!usable) return refuse();
     base_ = reading;
     const int first = lines_.add();
@@ -158,25 +256,31 @@ class LoadFilter {
     const Scalar r = y - at(lines_.level, best_);
     return r * r > surprise * surprise * (at(lines_.level_variance, best_) + 1);
   }
-  /// A line that begins with this reading, by a bend of what was the best line until then, or by a jump:
-  /// where the reading is expected from there. The lines are at this sample, but have not taken it yet.
-  void begin_line(bool surprises, bool has_no_slope, Scalar dt, Scalar y) {
-    const Scalar odds = static_cast<Scalar>(pause - pause_) * at(lines_.weight, best_) /
+  struct Why {
+    bool surprises, has_no_slope;
+  };
+  /// A line that began `since` ago, by a bend of what was the best line until then, or by a jump: where the
+  /// reading `y`, with this variance, is expected from there. The lines are at this sample, but have not
+  /// taken it yet; samples are `dt` apart.
+  void begin_line(Why why, Scalar dt, Scalar since, Scalar y, Scalar noise) {
+    const Scalar odds = static_cast<Scalar>(since_birth_) * at(lines_.weight, best_) /
                         (static_cast<Scalar>(at(lines_.age, best_)) + least_length);
-    const Scalar come = corner(dt), level = at(lines_.level, best_), slope = at(lines_.slope, best_);
+    since_birth_ = 0;
+    const Scalar come = corner(since), level = at(lines_.level, best_), slope = at(lines_.slope, best_);
     const Scalar level_variance = at(lines_.level_variance, best_), covariance = at(lines_.covariance, best_);
     const Scalar slope_variance = at(lines_.slope_variance, best_);
     const std::int32_t known = at(lines_.known, best_);
-    make_room(surprises, y);
+    make_room(why.surprises, y);
     const int born = lines_.add();
-    const Scalar square = (y - level) * (y - level), variance = level_variance + 1;
-    const bool is_jump = has_no_slope || square > farthest_bend * (variance + steep_bend * steep_bend);
+    const Scalar square = (y - level) * (y - level), variance = level_variance + noise;
+    const bool is_jump = why.has_no_slope || square > farthest_bend * (variance + steep_bend * steep_bend);
     const Scalar jump = larger(square, least_jump * least_jump);
     const Scalar bend = square > gentle * variance ? steep_bend : gentle_bend, change = bend / dt;
+    const Scalar bent = change * since;
     at(lines_.level, born) = level;
     at(lines_.slope, born) = is_jump ? Scalar(0) : slope;
-    at(lines_.level_variance, born) = is_jump ? jump : level_variance + bend * bend;
-    at(lines_.covariance, born) = is_jump ? Scalar(0) : covariance + bend * change;
+    at(lines_.level_variance, born) = is_jump ? jump : level_variance + bent * bent;
+    at(lines_.covariance, born) = is_jump ? Scalar(0) : covariance + bent * change;
     at(lines_.slope_variance, born) = is_jump ? Scalar(0) : slope_variance + change * change;
     at(lines_.weight, born) = odds * (is_jump ? jumps : bends);
     at(lines_.corner, born) = come;
@@ -185,21 +289,21 @@ class LoadFilter {
     // Else a jump that bends at once were taken for a new one.
     at(lines_.known, born) = is_jump ? 0 : known < 2 ? 2 : known;
   }
-  /// The farthest that the load had come before this sample, as the best line has it. A load that is already
-  /// on its way back came farthest before that.
-  Scalar corner(Scalar dt) const {
-    const Scalar last = reached(dt), before = at(lines_.corner, best_);
+  /// The farthest that the load had come `since` ago, as the best line has it. A load that is already on its
+  /// way back came farthest before that.
+  Scalar corner(Scalar since) const {
+    const Scalar last = reached(since), before = at(lines_.corner, best_);
     const bool returns = lines_.has_slope(best_, sure_slope) && ahead(0, at(lines_.slope, best_)) < 0;
     return returns && ahead(last, before) > left_behind ? before : last;
   }
   /// Where the load had come at the last reading that the best line believed. In a hold its slope is known to
   /// be zero, which halves the scatter.
-  Scalar reached(Scalar dt) const {
+  Scalar reached(Scalar since) const {
     const Scalar level = at(lines_.level, best_), slope = at(lines_.slope, best_);
     const Scalar slope_variance = at(lines_.slope_variance, best_);
     if (!lines_.has_slope(best_, sure_slope) && slope_variance > 0)
       return level - at(lines_.covariance, best_) / slope_variance * slope;
-    return level - static_cast<Scalar>(at(lines_.strays, best_) + 1) * dt * slope;
+    return level - (static_cast<Scalar>(at(lines_.strays, best_)) * step_ + since) * slope;
   }
 
   /// If there is none, what contributes nothing goes, or the less likely of the two lines whose ages are most
@@ -258,29 +362,47 @@ class LoadFilter {
     const Estimate estimate = estimate_load(total);
     const Scalar unit = 1 / total;
     for (Scalar& weight : lines_.weight) weight = larger(least_weight, weight * unit);
-    ConditionedLoad<Scalar> now;
-    now.load = force(estimate.level);
-    now.sd = estimate.sd * sd_;
+    off_best_ = estimate.level - at(lines_.level, best_);
+    beside_best_ = estimate.sd * estimate.sd - at(lines_.level_variance, best_);
+    ConditionedLoad<Scalar> now = said(estimate);
     now.refused = !accepted;
     if (accepted) {
-      const Scalar past = ahead(estimate.level, (sure_ - base_) / sd_);
-      if (past > sure_turn * estimate.sd) turn_round(now);
-      go_on(estimate, y);
+      if (has_turned(estimate)) turn_round(now);
+      go_on(estimate, [&](Scalar way) { return least_mean(estimate, way, y); });
     }
     now.sure = sure_;
     move_base();
     return now;
   }
-  struct Estimate {
-    Scalar level, sd;
-  };
-  /// About the best line. A long hold is left only when hardly anything speaks for it any more: among a
-  /// million readings there are some that look like a bend.
-  Estimate estimate_load(Scalar all) const {
+  ConditionedLoad<Scalar> said(const Estimate& estimate) const {
+    ConditionedLoad<Scalar> now;
+    now.load = force(estimate.level);
+    now.sd = estimate.sd * sd_;
+    now.sure = sure_;
+    return now;
+  }
+  bool has_turned(const Estimate& estimate) const {
+    return ahead(estimate.level, level_of(sure_)) > sure_turn * estimate.sd;
+  }
+  /// While readings wait.
+  Estimate estimate_load(const typename Block::Fit& fit) const {
+    Scalar variance = fit.variance + beside_best_;
+    if (at(lines_.age, best_) < young)
+      variance += perhaps_bent * larger(fit.off * fit.off - fit.spread, Scalar(0));
+    return {fit.level + off_best_, std::sqrt(larger(variance, Scalar(0)))};
+  }
+  /// The line of a long hold, or -1. It is left only when hardly anything speaks for it any more: among a
+  /// million readings there are some that look like a bend. `all` is the sum of the weights.
+  int long_hold(Scalar all) const {
     const int oldest = lines_.place(0);
-    const bool is_long_hold = at(lines_.age, oldest) >= old_age &&
-                              at(lines_.weight, oldest) > patience * all && !lines_.has_slope(oldest, creeps);
-    const Scalar from = at(lines_.level, is_long_hold ? oldest : best_);
+    const bool holds = at(lines_.age, oldest) >= old_age && at(lines_.weight, oldest) > patience * all &&
+                       !lines_.has_slope(oldest, creeps);
+    return holds ? oldest : -1;
+  }
+  /// About the best line, or that of a long hold.
+  Estimate estimate_load(Scalar all) const {
+    const int hold = long_hold(all);
+    const Scalar from = at(lines_.level, hold < 0 ? best_ : hold);
     Scalar total = 0, mean = 0, square = 0;
     for (int i = 0; i < Lines::capacity; ++i) {
       const Scalar d = at(lines_.level, i) - from;
@@ -290,7 +412,7 @@ class LoadFilter {
       square += weight * (d * d + at(lines_.level_variance, i));
     }
     const Scalar unit = 1 / total;
-    if (is_long_hold) return {from, std::sqrt(square * unit)};
+    if (hold >= 0) return {from, std::sqrt(square * unit)};
     mean *= unit;
     return {from + mean, std::sqrt(square * unit - mean * mean)};
   }
@@ -300,13 +422,20 @@ class LoadFilter {
     now.turned = true;
     now.turn = sure_;
     falls_ = !falls_;
+    calm_ = 0;
     // The means of older lines are from before the turn.
     for (int k = 1; k < Lines::capacity && lines_.place(0) != best_; ++k) lines_.drop(0);
   }
-  void go_on(const Estimate& estimate, Scalar y) {
+  /// `least(way)` is what the load surely is by means of readings, times the way that it goes.
+  template <class Least>
+  void go_on(const Estimate& estimate, const Least& least) {
     const Scalar way = falls_ ? Scalar(-1) : Scalar(1);
     const Scalar most = way * estimate.level - sure_load * estimate.sd;
     if (!(ahead(sure_, force(way * most)) > 0)) return;
+    const Scalar come = force(way * -larger(-least(way), -most));
+    if (ahead(sure_, come) > 0) sure_ = come;
+  }
+  Scalar least_mean(const Estimate& estimate, Scalar way, Scalar y) const {
     const auto near = [&](Scalar level, Scalar least) {
       return std::fabs(level - estimate.level) <= apart ? least : -farthest;
     };
@@ -317,25 +446,28 @@ class LoadFilter {
       const Scalar least = way * at(lines_.mean, i) - sure_mean * lines_.mean_deviation(i);
       mean = larger(mean, near(at(lines_.level, i), least));
     }
-    mean = -larger(-mean, -most);
-    const Scalar come = force(way * mean);
-    if (ahead(sure_, come) > 0) sure_ = come;
+    return mean;
   }
   /// Keeps levels small, so that no digits are lost where the load is large and the noise is not.
   void move_base() {
     if (std::fabs(at(lines_.level, best_)) < 64) return;
     const Scalar base = base_ + at(lines_.level, best_) * sd_;
-    const Scalar moved = (base - base_) / sd_;
+    const Scalar moved = (base - base_) * per_sd_;
     base_ = base;
     for (auto* const lanes : {&lines_.level, &lines_.mean, &lines_.corner})
       for (Scalar& each : *lanes) each -= moved;
   }
 
   Lines lines_;
-  Scalar sd_ = 0, base_ = 0;
-  Scalar sure_ = 0;
-  std::int8_t best_ = 0;       // of the lines, the most likely
-  std::int8_t pause_ = pause;  // samples until a new line begins
+  Block block_;
+  Scalar sd_ = 0, per_sd_ = 0, base_ = 0;
+  Scalar sure_ = 0, sure_before_ = 0;  // now; before the readings that wait
+  // The estimate less the level of the best line, its variance less that of this line.
+  Scalar off_best_ = 0, beside_best_ = 0;
+  Scalar step_ = 0;              // the last one
+  std::int8_t best_ = 0;         // of the lines, the most likely
+  std::int8_t since_birth_ = 0;  // samples since a line began
+  std::int8_t calm_ = 0;         // samples without surprise
   bool falls_ = false;
 };
 

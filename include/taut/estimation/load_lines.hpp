@@ -65,9 +65,19 @@ struct LoadLines {
     at(weight, gone) = 0;
   }
 
-  /// To the next sample.
+  /// Before so many readings more: those of long ago count less.
+  void forget(int count) {
+    if (at(age, place(0)) < memory) return;
+    const Scalar growth = 1 + static_cast<Scalar>(count) / memory;
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const Scalar factor = age[i] >= memory ? growth : Scalar(1);
+      level_variance[i] *= factor;
+      covariance[i] *= factor;
+      slope_variance[i] *= factor;
+    }
+  }
+  /// Lets time pass.
   void advance(Scalar dt) {
-    if (at(age, place(0)) >= memory) forget();
     for (std::size_t i = 0; i < lanes; ++i) {
       const Scalar covaries = covariance[i] + dt * slope_variance[i];
       level[i] += dt * slope[i];
@@ -75,27 +85,29 @@ struct LoadLines {
       covariance[i] = covaries;
     }
   }
-  /// Every line takes the reading into account, or for an outlier.
-  void weigh(Scalar y) {
+  /// Every line takes the mean `y` of so many readings into account; a single one perhaps for an outlier.
+  void weigh(Scalar y, int count) {
+    const Scalar n = static_cast<Scalar>(count), noise = 1 / n, alone = count == 1 ? Scalar(1) : Scalar(0);
     Lanes precision, root, share, square;
     for (std::size_t i = 0; i < lanes; ++i) {
       // One division for two.
-      const Scalar older = static_cast<Scalar>(age[i] + 1),
+      const Scalar older = static_cast<Scalar>(age[i] + count),
                    readings = older < mean_memory ? older : mean_memory;
-      const Scalar variance = level_variance[i] + 1, both = 1 / (variance * readings);
+      const Scalar variance = level_variance[i] + noise, both = 1 / (variance * readings);
       precision[i] = both * readings;
-      share[i] = both * variance;
+      share[i] = both * variance * n;
       square[i] = (y - level[i]) * (y - level[i]) * precision[i];
     }
     for (std::size_t i = 0; i < lanes; ++i) root[i] = std::sqrt(precision[i]);
     for (std::size_t i = 0; i < lanes; ++i) square[i] = square[i] < farthest ? square[i] : farthest;
     for (std::size_t i = 0; i < lanes; ++i) {
       const Scalar r = y - level[i], fits = density(square[i], root[i]);
-      const Scalar stray = outlier_density(known[i], strays[i]);
+      const Scalar stray = alone * outlier_density(known[i], strays[i]);
       weight[i] *= fits + stray;
       // One, or zero for an outlier: a product instead of a branch.
-      const std::int32_t taken = stray > fits ? 0 : 1, older = age[i] + taken, better = known[i] + taken;
-      const Scalar takes = static_cast<Scalar>(taken), p = precision[i] * takes, left = 1 - takes + p;
+      const std::int32_t taken = stray > fits ? 0 : 1, older = age[i] + count * taken,
+                         better = known[i] + count * taken;
+      const Scalar takes = static_cast<Scalar>(taken), p = precision[i] * takes, left = 1 - takes + p * noise;
       const Scalar level_gain = level_variance[i] * p, slope_gain = covariance[i] * p;
       level[i] += level_gain * r;
       slope[i] += slope_gain * r;
@@ -144,15 +156,6 @@ struct LoadLines {
   static Scalar outlier_density(std::int32_t known, std::int32_t strays) {
     const Scalar alone = outliers * anywhere, repeated = strays == 0 ? alone : again * alone;
     return known < established || strays >= most_strays ? Scalar(0) : repeated;
-  }
-  void forget() {
-    constexpr Scalar growth = 1 + Scalar(1) / memory;
-    for (std::size_t i = 0; i < lanes; ++i) {
-      const Scalar factor = age[i] >= memory ? growth : Scalar(1);
-      level_variance[i] *= factor;
-      covariance[i] *= factor;
-      slope_variance[i] *= factor;
-    }
   }
 };
 
