@@ -88,7 +88,7 @@ struct LoadLines {
   /// Every line takes the mean `y` of so many readings into account; a single one perhaps for an outlier.
   void weigh(Scalar y, int count) {
     const Scalar n = static_cast<Scalar>(count), noise = 1 / n, alone = count == 1 ? Scalar(1) : Scalar(0);
-    Lanes precision, root, share, square;
+    Lanes precision, root, share, square, fit;
     for (std::size_t i = 0; i < lanes; ++i) {
       // One division for two.
       const Scalar older = static_cast<Scalar>(age[i] + count),
@@ -100,8 +100,9 @@ struct LoadLines {
     }
     for (std::size_t i = 0; i < lanes; ++i) root[i] = std::sqrt(precision[i]);
     for (std::size_t i = 0; i < lanes; ++i) square[i] = square[i] < farthest ? square[i] : farthest;
+    for (std::size_t i = 0; i < lanes; ++i) fit[i] = density(square[i], root[i]);
     for (std::size_t i = 0; i < lanes; ++i) {
-      const Scalar r = y - level[i], fits = density(square[i], root[i]);
+      const Scalar r = y - level[i], fits = fit[i];
       const Scalar stray = alone * outlier_density(known[i], strays[i]);
       weight[i] *= fits + stray;
       // One, or zero for an outlier: a product instead of a branch.
@@ -147,9 +148,9 @@ struct LoadLines {
   /// a power of two, its fraction by a polynomial.
   static Scalar density(Scalar square, Scalar root) {
     const Scalar u = Scalar(-0.72134752) * square;
-    const int whole = static_cast<int>(u);
-    const Scalar f = u - static_cast<Scalar>(whole);
-    return Scalar(0.39894228) * root * power_of_two<Scalar>(whole) *
+    const auto [whole, power] = whole_power_of_two(u);
+    const Scalar f = u - whole;
+    return Scalar(0.39894228) * root * power *
            (1 + f * (Scalar(0.6931472) +
                      f * (Scalar(0.2402265) + f * (Scalar(0.0555041) + f * Scalar(0.0096181)))));
   }

@@ -22,14 +22,29 @@ BitsOf<Scalar> bits_of(Scalar x) {
   return bits;
 }
 
-/// 2^n, -126 <= n <= 127.
+/// The whole part n of -126 <= x <= 0, and 2^n.
 template <class Scalar>
-Scalar power_of_two(int n) {
-  constexpr bool single = sizeof(Scalar) == sizeof(float);
-  const BitsOf<Scalar> bits = static_cast<BitsOf<Scalar>>(n + (single ? 127 : 1023)) << (single ? 23 : 52);
-  Scalar power;
-  std::memcpy(&power, &bits, sizeof power);
-  return power;
+struct WholePower {
+  Scalar whole, power;
+};
+template <class Scalar>
+WholePower<Scalar> whole_power_of_two(Scalar x) {
+  WholePower<Scalar> found;
+  BitsOf<Scalar> bits;
+  if constexpr (sizeof(Scalar) == sizeof(float)) {
+    const int n = static_cast<int>(x);
+    found.whole = static_cast<Scalar>(n);
+    bits = (n + 127) << 23;
+  } else {
+    // Compilers cannot turn several doubles at a time into integers. A number this large has no digits behind
+    // the point, and those before it are its lowest bits.
+    constexpr Scalar large = 6755399441055744;  // 3/2 2^52
+    const Scalar nearest = x + large - large;
+    found.whole = nearest + (nearest < x ? Scalar(1) : Scalar(0));
+    bits = static_cast<std::int64_t>((static_cast<std::uint64_t>(bits_of(found.whole + large)) + 1023) << 52);
+  }
+  std::memcpy(&found.power, &bits, sizeof bits);
+  return found;
 }
 
 }  // namespace taut
