@@ -39,7 +39,9 @@ class Belief {
   using JackReadings = FixedList<JackReading, Jacks>;
   /// A mean so far from where the model is linearized that a measured number is off its line by half of this
   /// part of its standard deviation is too far.
-  static constexpr Scalar bent = Scalar(0.2);
+  static constexpr Scalar bent = Scalar(0.3);
+  /// A reading whose square distance from what is expected is beyond so many variances contradicts it.
+  static constexpr Scalar impossible = 25;
 
   void clear() {
     size_ = friction_ = in_use_ = 0;
@@ -120,10 +122,16 @@ class Belief {
     has_errors_ = true;
     has_news_ = false;
   }
+  /// A reading with its standard deviation. As the mean of several it has the variance of one of them about
+  /// what was expected too: it is not to be refused for less than one of them would be.
+  struct Measured {
+    Scalar reading, sd, scatter;
+  };
   /// What a reading says of the unknowns, the model being linearized at `at`. False if it contradicts
   /// everything known by more than five sigma. Nothing is changed before apply().
-  bool weigh(const ExpectedType& expected, const Values& at, const JackReadings& jacks, Scalar reading,
-             Scalar sd) {
+  bool weigh(const ExpectedType& expected, const Values& at, const JackReadings& jacks,
+             const Measured& measured) {
+    const Scalar sd = measured.sd;
     Update& update = update_;
     const auto& H = expected.by_unknown;
     // A jack pulls less than it reads by the error of the reading.
@@ -154,8 +162,9 @@ class Belief {
       if (p < friction_) through_friction += H[p] * sum;
     }
     const Scalar spread = sd * sd + variance;
-    update.innovation = reading - number;
-    if (!(update.innovation * update.innovation <= Scalar(25) * spread)) return false;
+    update.innovation = measured.reading - number;
+    if (!(update.innovation * update.innovation <= impossible * larger(spread, measured.scatter)))
+      return false;
     update.precision = 1 / spread;
     const Scalar pull = update.innovation * update.precision;
     Scalar shift = 0;

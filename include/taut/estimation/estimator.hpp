@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <new>
 
 #include "taut/estimation/alarms.hpp"
 #include "taut/estimation/belief.hpp"
+#include "taut/estimation/gathered.hpp"
 #include "taut/estimation/knowledge.hpp"
 #include "taut/estimation/load_filter.hpp"
 #include "taut/estimation/readings.hpp"
@@ -26,7 +28,8 @@ namespace taut {
 /// sample to sample. What several measurements of one row have in common, the errors of the jacks' readings,
 /// is an unknown of that row. When mu has moved so far from where the tracker is linearized that it shows,
 /// the tracker is adjusted to it and the measurement is taken again (iterated update; Gelb, Applied Optimal
-/// Estimation, 1974, 6.1). Where nothing measures mu, the answer is the prior carried through.
+/// Estimation, 1974, 6.1). With one jack and one such cell, rows between which only the load changes are
+/// gathered first, up to eight. Where nothing measures mu, the answer is the prior carried through.
 ///
 /// Strain gauges on struts and the strokes of jacks are measurements of the same kind for whoever has them:
 /// take_strut(), take_stroke().
@@ -71,33 +74,38 @@ class Estimator {
     for (int i = 0; i < model_->loads; ++i)
       if (!std::isfinite(readings.sample.factor[i]))
         return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
-    belief_.begin_row();
-    const Corners corners = take_loads(readings);
+    begin_row();
+    Sample<Scalar, Cap> drive = readings.sample;
+    Corners corners;
+    bool has_more = false;
+    for (const CableEnd& jack : jacks_) {
+      const EndReading<Scalar>& given = readings.ends[jack.cable()][jack.end];
+      Jack<Scalar>& to = drive.jack[jack.cable()][jack.end];
+      Cell& cell = cell_of(jack);
+      take_load(jack, to.locked, given, readings.dt, cell, corners);
+      to = {larger(cell.at.sure, cell.first), cell.locked};
+      has_more |= given.has_stroke | (cell.locked & given.has_force);
+    }
     Progress<Scalar> progress;
-    if (corners.any()) progress = pass(corners, event_budget);
-    if (progress.status) {
-      drive_ = readings.sample;
-      for (const JackedEnd& jack : jacks_) {
-        const Cell& cell = cell_of(jack);
-        drive_.jack[jack.cable][jack.end] = {larger(cell.at.sure, cell.first), cell.locked};
-      }
-      progress = join(progress, lead(drive_, event_budget));
+    if (!corners.any() && tracker_.goes_along(drive)) {
+      for (int i = 0; i < model_->loads; ++i) drive_.factor[i] = drive.factor[i];
+      for (const CableEnd& jack : jacks_)
+        drive_.jack[jack.cable()][jack.end].force = drive.jack[jack.cable()][jack.end].force;
+    } else {
+      learn_gathered();
+      begin_row();
+      learned_ = 0;
+      progress = approach(corners, drive, event_budget);
+      if (!progress.status || progress.fraction < 1) return progress;
     }
-    if (!progress.status || progress.fraction < 1) {
-      stop_here();
-      return progress;
+    for (const CableEnd& end : far_) {
+      const EndReading<Scalar>& given = readings.ends[end.cable()][end.end];
+      if (given.has_force) measure(end, given.force);
     }
-    for (int c = 0; c < model_->cables.size(); ++c) {
-      const auto& cable = model_->cables[c];
-      for (std::size_t end = 0; end < 2 && !cable.closed; ++end) {
-        const EndReading<Scalar>& given = readings.ends[c][end];
-        if (cable.ends[end] == End::anchored) {
-          if (given.has_force) measure(c, end, given.force);
-          continue;
-        }
-        if (given.has_stroke) compare(c, end, given.stroke);
-        if (given.has_force && cells_[c][end].locked) watch(c, end, given.force);
-      }
+    for (int k = 0; has_more && k < jacks_.size(); ++k) {
+      const EndReading<Scalar>& given = readings.ends[jacks_[k].cable()][jacks_[k].end];
+      if (given.has_stroke) compare(jacks_[k], given.stroke);
+      if (given.has_force && cell_of(jacks_[k]).locked) watch(jacks_[k], given.force);
     }
     raise_alarms();
     return progress;
@@ -124,9 +132,9 @@ class Estimator {
             static_cast<Scalar>(carried(tracker_.elongations_by(tracker_.move_sensitivity(p))));
       for (int k = 0; k < jacks_.size(); ++k)
         expected.by_jack[k] = static_cast<Scalar>(
-            carried(tracker_.elongations_by(tracker_.move_slope(jacks_[k].cable, jacks_[k].end))));
+            carried(tracker_.elongations_by(tracker_.move_slope(jacks_[k].cable(), jacks_[k].end))));
     };
-    learn(expect, reading, sd, Alarm::of(Alarm::Kind::strut, -1, strut));
+    take_measurement(expect, reading, sd, Alarm::of(Alarm::Kind::strut, -1, strut));
   }
   /// The stroke of a jack, read together with the last row: its payout since the start [m], with the standard
   /// deviation `sd` > 0 of the reading and of what the elongation of the cable is uncertain by, that of E A.
@@ -140,9 +148,9 @@ class Estimator {
       expected.at = of(tracker_.moves());
       for (int p = 0; p < belief_.in_use(); ++p) expected.by_unknown[p] = of(tracker_.move_sensitivity(p));
       for (int k = 0; k < jacks_.size(); ++k)
-        expected.by_jack[k] = of(tracker_.move_slope(jacks_[k].cable, jacks_[k].end));
+        expected.by_jack[k] = of(tracker_.move_slope(jacks_[k].cable(), jacks_[k].end));
     };
-    learn(expect, reading, sd, Alarm::of(Alarm::Kind::elongation, cable, static_cast<int>(end)));
+    take_measurement(expect, reading, sd, Alarm::of(Alarm::Kind::elongation, cable, static_cast<int>(end)));
   }
 
   /// Force of a segment [N], >= 0.
@@ -155,10 +163,10 @@ class Estimator {
   /// Its standard deviation [N].
   Scalar deviation(int segment) const {
     Scalar variance = belief_.variance_of([&](int p) { return tracker_.sensitivity(p, segment); });
-    for (const JackedEnd& jack : jacks_) {
+    for (const CableEnd& jack : jacks_) {
       const Cell& cell = cell_of(jack);
       if (cell.locked || !(cell.at.sd > 0)) continue;
-      const Scalar slope = tracker_.slope(jack.cable, jack.end, segment), part = slope * cell.at.sd;
+      const Scalar slope = tracker_.slope(jack.cable(), jack.end, segment), part = slope * cell.at.sd;
       variance += part * part;
       // If it has turned, the force did not follow.
       const Scalar behind = cell.is_behind() ? slope * missing(jack) : Scalar(0);
@@ -182,8 +190,8 @@ class Estimator {
     tracker_.respond(response, struts);
     for (int i = 0; i < model_->segments; ++i) response.tension[i] = force(i);
     model_->resolve_joints(response);
-    for (const JackedEnd& jack : jacks_)
-      response.payout[jack.cable][jack.end] = payout(jack, response.payout[jack.cable][jack.end]);
+    for (const CableEnd& jack : jacks_)
+      response.payout[jack.cable()][jack.end] = payout(jack, response.payout[jack.cable()][jack.end]);
   }
   /// What is odd about the last row.
   const Alarms& alarms() const { return alarms_; }
@@ -219,10 +227,13 @@ class Estimator {
     FixedArray<Scalar, 2 * Cap::cables> most_payout;
     typename BeliefType::Values mean, at;
     typename BeliefType::Covariance covariance;
+    Gathered<Scalar> gathered;
+    std::int8_t learned;
   };
   /// Between two rows.
   State save() const {
-    return {tracker_.save(), drive_, cells_, most_payout_, belief_.mean(), at_, belief_.covariance()};
+    return {tracker_.save(),      drive_,    cells_,  most_payout_, belief_.mean(), at_,
+            belief_.covariance(), gathered_, learned_};
   }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `bad_sample` if the state
   /// is none of this scene; then only start() or another restore() may follow.
@@ -235,27 +246,43 @@ class Estimator {
     most_payout_ = state.most_payout;
     at_ = state.at;
     belief_.restore(state.mean, state.covariance);
+    gathered_ = state.gathered;
+    learned_ = state.learned;
     set_frictions();
     return tracker_.resume(state.tracker);
   }
 
  private:
   static constexpr int most_jacks = max_jacks<Cap>;
-  struct JackedEnd {
-    int cable = 0;
-    std::size_t end = 0;
+  struct CableEnd {
+    std::int16_t number = 0;
+    std::uint8_t end = 0;
+    // With one cable the compiler knows which.
+    int cable() const { return Cap::cables == 1 ? 0 : number; }
   };
-  Cell& cell_of(const JackedEnd& jack) { return cells_[jack.cable][jack.end]; }
-  const Cell& cell_of(const JackedEnd& jack) const { return cells_[jack.cable][jack.end]; }
+  static CableEnd end_of(int cable, std::size_t end) {
+    return {static_cast<std::int16_t>(cable), static_cast<std::uint8_t>(end)};
+  }
+  Cell& cell_of(const CableEnd& jack) { return cells_[jack.cable()][jack.end]; }
+  const Cell& cell_of(const CableEnd& jack) const { return cells_[jack.cable()][jack.end]; }
 
   Status begin(const CondensedType& condensed, const KnowledgeType& knowledge,
                const AlarmLimits<Scalar>& limits) {
     model_ = &condensed;
     knowledge_ = &knowledge;
     limits_ = limits;
+    limits_forces_ = limits.most_force >= 0 || limits.least_force >= 0;
     alarms_.clear();
     jacks_.clear();
-    for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) { jacks_.add({c, end}); });
+    for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) { jacks_.add(end_of(c, end)); });
+    far_.clear();
+    for (int c = 0; c < condensed.cables.size(); ++c)
+      for (std::size_t end = 0; end < 2 && !condensed.cables[c].closed; ++end)
+        if (condensed.cables[c].ends[end] == End::anchored && knowledge.sensor_sd[c][end] > 0)
+          far_.add(end_of(c, end));
+    gathered_ = {};
+    learned_ = 0;
+    mu_is_fine_ = false;
     tracker_.begin(condensed);
     for (int j = 0; j < Cap::joints; ++j) can_slide_[j] = j < condensed.joints && !condensed.is_locked(j);
     drive_ = {};
@@ -303,8 +330,8 @@ class Estimator {
     }
     belief_.end_friction();
     for (std::size_t m = 0; m < memories; ++m)
-      for (const JackedEnd& jack : jacks_) {
-        const bool has = knowledge_->sensor_sd[jack.cable][jack.end] > 0 && belief_.size() < Parameters;
+      for (const CableEnd& jack : jacks_) {
+        const bool has = knowledge_->sensor_sd[jack.cable()][jack.end] > 0 && belief_.size() < Parameters;
         cell_of(jack).memory[m] = static_cast<std::int16_t>(has ? add(Scalar(0)) : -1);
       }
     if (missing > 0) return Status::at(Code::capacity_exceeded, Place::none, Parameters, missing);
@@ -344,15 +371,16 @@ class Estimator {
     }
   }
   /// A jack that turns or is locked now: friction will remember the error of its load.
-  void remember(const JackedEnd& jack) {
+  void remember(const CableEnd& jack) {
     Cell& cell = cell_of(jack);
     const int p = cell.memory[static_cast<std::size_t>(cell.oldest)];
     if (p < 0) return;
     cell.oldest = (cell.oldest + 1) % memories;
     if (belief_.mean(p) != at_[p]) static_cast<void>(linearize_at(belief_.mean()));
-    tracker_.turn(p, jack.cable, jack.end);
+    tracker_.turn(p, jack.cable(), jack.end);
     at_[p] = 0;
     belief_.renew(p, cell.before);
+    mu_is_fine_ = false;
   }
 
   // The loads.
@@ -362,65 +390,73 @@ class Estimator {
     bool locks = false, turns = false;
     bool any() const { return locks || turns; }
   };
-  /// Conditions the jacks' readings.
-  Corners take_loads(const ReadingsType& readings) {
-    Corners corners;
-    for (const JackedEnd& jack : jacks_) {
-      Cell& cell = cell_of(jack);
-      const EndReading<Scalar>& given = readings.ends[jack.cable][jack.end];
-      const Scalar sd = knowledge_->sensor_sd[jack.cable][jack.end];
-      cell.is_new = cell.has_locked = false;
-      cell.at.turned = false;
-      cell.since += readings.dt;
-      if (readings.sample.jack[jack.cable][jack.end].locked) {
-        cell.before = cell.at.sd;
-        if (cell.locked) continue;
-        corners.locks = cell.has_locked = cell.locked = true;
-        cell.filter.start(sd);
-        cell.below = 0;
-        continue;
-      }
-      if (!given.has_force) continue;
-      // A released end keeps its wedge until a load is read.
-      if (cell.locked) {
-        cell.filter.start(sd);
-        cell.at = {};
-        cell.way = 1;
-        cell.locked = false;
-      }
+  /// Conditions a jack's reading.
+  void take_load(const CableEnd& jack, bool locks, const EndReading<Scalar>& given, Scalar dt, Cell& cell,
+                 Corners& corners) {
+    const Scalar sd = knowledge_->sensor_sd[jack.cable()][jack.end];
+    cell.is_new = cell.has_locked = false;
+    cell.at.turned = false;
+    cell.since += dt;
+    if (locks) {
       cell.before = cell.at.sd;
-      const Scalar was_sure = cell.at.sure;
-      cell.at = cell.filter.take(given.force, cell.since);
-      if (cell.at.sure != was_sure) cell.way = cell.at.sure > was_sure ? Scalar(1) : Scalar(-1);
-      if (cell.at.load > 0) cell.first = Scalar(1e-3) * sd;
-      cell.since = 0;
-      cell.raw = given.force;
-      cell.is_new = !cell.at.refused;
-      corners.turns = corners.turns || cell.at.turned;
-      if (cell.at.refused)
-        alarms_.add(Alarm::of(Alarm::Kind::outlier, jack.cable, static_cast<int>(jack.end)));
+      if (cell.locked) return;
+      corners.locks = cell.has_locked = cell.locked = true;
+      cell.filter.start(sd);
+      cell.below = 0;
+      return;
     }
-    return corners;
+    if (!given.has_force) return;
+    // A released end keeps its wedge until a load is read.
+    if (cell.locked) {
+      cell.filter.start(sd);
+      cell.at = {};
+      cell.way = 1;
+      cell.locked = false;
+    }
+    cell.before = cell.at.sd;
+    const Scalar was_sure = cell.at.sure;
+    // In place: what was written in parts is slow to read back at once.
+    new (&cell.at) ConditionedLoad<Scalar>(cell.filter.take(given.force, cell.since));
+    if (cell.at.sure != was_sure) cell.way = cell.at.sure > was_sure ? Scalar(1) : Scalar(-1);
+    if (cell.first == 0 && cell.at.load > 0) cell.first = Scalar(1e-3) * sd;
+    cell.since = 0;
+    cell.raw = given.force;
+    cell.is_new = !cell.at.refused;
+    corners.turns |= cell.at.turned;
+    if (cell.at.refused)
+      alarms_.add(Alarm::of(Alarm::Kind::outlier, jack.cable(), static_cast<int>(jack.end)));
+  }
+  /// Follows the readings where more happens than that a load changes.
+  [[gnu::noinline]] Progress<Scalar> approach(const Corners& corners, const Sample<Scalar, Cap>& drive,
+                                              int event_budget) {
+    Progress<Scalar> progress;
+    if (corners.any()) progress = pass(corners, event_budget);
+    if (progress.status) {
+      drive_ = drive;
+      progress = join(progress, lead(drive_, event_budget));
+    }
+    if (!progress.status || progress.fraction < 1) stop_here();
+    return progress;
   }
   /// Leads the tracker to the loads that ends had when they were locked, then to where loads have turned.
   Progress<Scalar> pass(const Corners& corners, int event_budget) {
     Sample<Scalar, Cap> corner = drive_;
     Progress<Scalar> progress;
     if (corners.locks) {
-      for (const JackedEnd& jack : jacks_)
-        if (cell_of(jack).has_locked) corner.jack[jack.cable][jack.end].force = cell_of(jack).at.load;
+      for (const CableEnd& jack : jacks_)
+        if (cell_of(jack).has_locked) corner.jack[jack.cable()][jack.end].force = cell_of(jack).at.load;
       progress = lead(corner, event_budget);
-      for (const JackedEnd& jack : jacks_)
+      for (const CableEnd& jack : jacks_)
         if (progress.status && cell_of(jack).has_locked) remember(jack);
     }
     if (corners.turns && progress.status) {
-      const auto turns = [&](const JackedEnd& jack) {
+      const auto turns = [&](const CableEnd& jack) {
         return !cell_of(jack).locked && cell_of(jack).at.turned;
       };
-      for (const JackedEnd& jack : jacks_)
-        if (turns(jack)) corner.jack[jack.cable][jack.end].force = cell_of(jack).at.turn;
+      for (const CableEnd& jack : jacks_)
+        if (turns(jack)) corner.jack[jack.cable()][jack.end].force = cell_of(jack).at.turn;
       progress = join(progress, lead(corner, event_budget));
-      for (const JackedEnd& jack : jacks_)
+      for (const CableEnd& jack : jacks_)
         if (progress.status && turns(jack)) remember(jack);
     }
     return progress;
@@ -455,9 +491,9 @@ class Estimator {
   void stop_here() {
     const auto& loads = tracker_.loads();
     for (int i = 0; i < model_->loads; ++i) drive_.factor[i] = static_cast<Scalar>(loads.factor[i]);
-    for (const JackedEnd& jack : jacks_) {
-      const auto& at = loads.jack[jack.cable][jack.end];
-      drive_.jack[jack.cable][jack.end] = {static_cast<Scalar>(at.force), at.locked};
+    for (const CableEnd& jack : jacks_) {
+      const auto& at = loads.jack[jack.cable()][jack.end];
+      drive_.jack[jack.cable()][jack.end] = {static_cast<Scalar>(at.force), at.locked};
     }
   }
   static Progress<Scalar> join(const Progress<Scalar>& first, Progress<Scalar> then) {
@@ -466,73 +502,171 @@ class Estimator {
     return then;
   }
   /// From where the tracker was led to the best estimate of the load [N].
-  Scalar missing(const JackedEnd& jack) const {
+  Scalar missing(const CableEnd& jack) const {
     const Cell& cell = cell_of(jack);
-    return cell.locked ? Scalar(0) : cell.at.load - drive_.jack[jack.cable][jack.end].force;
+    return cell.locked ? Scalar(0) : cell.at.load - led_to(jack);
   }
+  Scalar led_to(const CableEnd& jack) const { return drive_.jack[jack.cable()][jack.end].force; }
   /// What a segment has at the best estimate beyond what the tracker says, along the present piece.
   Scalar ahead(int segment) const {
     Scalar T = 0;
-    for (const JackedEnd& jack : jacks_) {
+    for (const CableEnd& jack : jacks_) {
       const Scalar dF = missing(jack);
-      if (dF != 0) T += tracker_.slope(jack.cable, jack.end, segment) * dF;
+      if (dF != 0) T += tracker_.slope(jack.cable(), jack.end, segment) * dF;
     }
     return T;
   }
-  Scalar payout(const JackedEnd& jack, Scalar of_tracker) const {
+  Scalar payout(const CableEnd& jack, Scalar of_tracker) const {
     const Scalar dF = missing(jack);
-    return dF != 0 ? of_tracker + tracker_.payout_slope(jack.cable, jack.end) * dF : of_tracker;
+    return dF != 0 ? of_tracker + tracker_.payout_slope(jack.cable(), jack.end) * dF : of_tracker;
   }
 
   // The measurements.
 
   using Expected = typename BeliefType::ExpectedType;
 
-  /// A load cell at an anchored end.
-  void measure(int c, std::size_t end, Scalar reading) {
-    const int segment = model_->cables[c].end_segment(end);
-    const auto expect = [&](Expected& expected) {
-      expected.at = tracker_.tension(segment);
-      for (int p = 0; p < belief_.in_use(); ++p) expected.by_unknown[p] = tracker_.sensitivity(p, segment);
-      for (int k = 0; k < jacks_.size(); ++k)
-        expected.by_jack[k] = tracker_.slope(jacks_[k].cable, jacks_[k].end, segment);
-    };
-    learn(expect, reading, knowledge_->sensor_sd[c][end],
-          Alarm::of(Alarm::Kind::sensor, c, static_cast<int>(end)));
+  void begin_row() {
+    belief_.begin_row();
+    has_gathered_ = false;
   }
-  /// Takes a reading into account; expect() tells what it should be, `contradiction` where it is and what to
-  /// raise if it is not.
-  template <class Expect>
-  void learn(const Expect& expect, Scalar reading, Scalar sd, const Alarm& contradiction) {
-    if (!(sd > 0) || !belief_.has_friction() || may_have_turned()) return;
-    Expected& expected = expected_;
-    expect(expected);
-    if (!slides_where_it_matters(expected, contradiction.cable, sd)) {
-      alarms_.add(Alarm::of(Alarm::Kind::no_information, contradiction.cable, contradiction.place));
+  /// A load cell at an anchored end.
+  void measure(const CableEnd& end, Scalar reading) {
+    if (!belief_.has_friction() || may_have_turned()) return;
+    const Scalar sd = knowledge_->sensor_sd[end.cable()][end.end];
+    const bool is_alone = far_.size() == 1 && jacks_.size() == 1;
+    if (is_alone && room() > 1 && (cell_of(jacks_[0]).is_new || cell_of(jacks_[0]).locked))
+      return gather(reading, sd);
+    const auto expect = [&](Expected& expected) { expect_far(end, expected); };
+    if (!says_something(expect, sd, sensor(end))) return;
+    learn(expect, readings_of_jacks(), {reading, sd, Scalar(0)}, sensor(end));
+    count_learned(1);
+  }
+  /// For readings that are gathered. Soon after something has happened little is known, and what is learned
+  /// is worth most.
+  int room() const { return learned_ / 4; }
+  void count_learned(int readings) {
+    constexpr int well_known = 4 * Gathered<Scalar>::capacity;
+    if (learned_ < well_known) learned_ = static_cast<std::int8_t>(learned_ + readings);
+  }
+  static Alarm sensor(const CableEnd& end) {
+    return Alarm::of(Alarm::Kind::sensor, end.cable(), static_cast<int>(end.end));
+  }
+  /// Where the tracker is.
+  void expect_far(const CableEnd& far, Expected& expected) const {
+    const int segment = model_->cables[far.cable()].end_segment(far.end);
+    expected.at = tracker_.tension(segment);
+    for (int p = 0; p < belief_.in_use(); ++p) expected.by_unknown[p] = tracker_.sensitivity(p, segment);
+    for (int k = 0; k < jacks_.size(); ++k)
+      expected.by_jack[k] = tracker_.slope(jacks_[k].cable(), jacks_[k].end, segment);
+  }
+  /// A reading of the only cell at an anchored end, with only one jack.
+  void gather(Scalar reading, Scalar sd) {
+    const auto jack = reading_of(jacks_[0]);
+    const Scalar led = led_to(jacks_[0]), load = led + jack.beyond;
+    if (gathered_.size == 0 && !begin_gathering(led, jack, sd)) return;
+    const Scalar off = gathered_.off_line(load, reading);
+    if (!(off * off <= BeliefType::impossible * gathered_.spread)) {
+      alarms_.add(sensor(far_[0]));
       return;
     }
+    gathered_.add(load, led, off);
+    has_gathered_ = true;
+    if (gathered_.is_full()) learn_gathered();
+  }
+  /// False if the cell says nothing at present.
+  bool begin_gathering(Scalar led, const typename BeliefType::JackReading& jack, Scalar sd) {
+    const auto expect = [&](Expected& expected) { expect_far(far_[0], expected); };
+    if (!says_something(expect, sd, sensor(far_[0]))) return false;
+    gathered_.begin(led + jack.beyond, led, room());
+    const Scalar by_jack = expected_.by_jack[0];
+    gathered_.slope = by_jack;
+    gathered_.level = expected_.at + by_jack * jack.beyond;
+    for (int p = 0; p < belief_.in_use(); ++p) {
+      const Scalar change = belief_.mean(p) - at_[p];
+      if (change == 0) continue;
+      gathered_.level += expected_.by_unknown[p] * change;
+      gathered_.slope += far_sensitivity_slope(p) * change;
+    }
+    gathered_.jack_variance = jack.variance;
+    gathered_.spread = sd * sd + by_jack * by_jack * jack.variance +
+                       belief_.variance_of([&](int p) { return expected_.by_unknown[p]; });
+    return true;
+  }
+  /// Of the only cell at an anchored end.
+  Scalar far_sensitivity_slope(int p) const {
+    const int segment = model_->cables[far_[0].cable()].end_segment(far_[0].end);
+    return tracker_.sensitivity_slope(p, jacks_[0].cable(), jacks_[0].end, segment);
+  }
+  /// What has been gathered becomes known.
+  void learn_gathered() {
+    if (gathered_.size == 0) return;
+    const Gathered<Scalar> all = gathered_;
+    gathered_.size = 0;
+    count_learned(all.size);
+    const Scalar led = led_to(jacks_[0]), back = all.led() - led;
+    const auto expect = [&](Expected& expected) {
+      expect_far(far_[0], expected);
+      if (back == 0) return;
+      for (int p = 0; p < belief_.in_use(); ++p) expected.by_unknown[p] += back * far_sensitivity_slope(p);
+    };
+    expect(expected_);
     typename BeliefType::JackReadings jacks;
-    for (const JackedEnd& jack : jacks_) jacks.add(reading_of(jack));
+    jacks.add({all.jack() - led, all.jack_variance * all.share()});
+    const Scalar sd = knowledge_->sensor_sd[far_[0].cable()][far_[0].end];
+    learn(expect, jacks, {all.reading(), sd * std::sqrt(all.share()), all.spread}, sensor(far_[0]));
+  }
+  /// Of something else than a load cell.
+  template <class Expect>
+  void take_measurement(const Expect& expect, Scalar reading, Scalar sd, const Alarm& contradiction) {
+    if (!(sd > 0) || !belief_.has_friction() || may_have_turned()) return;
+    // The errors of the jack that they share.
+    if (gathered_.size > 0) {
+      const bool shares_row = has_gathered_;
+      learn_gathered();
+      if (!shares_row) begin_row();
+    }
+    if (says_something(expect, sd, contradiction))
+      learn(expect, readings_of_jacks(), {reading, sd, Scalar(0)}, contradiction);
+  }
+  /// `expected_` has then what expect() tells.
+  template <class Expect>
+  bool says_something(const Expect& expect, Scalar sd, const Alarm& contradiction) {
+    expect(expected_);
+    const bool says = slides_where_it_matters(expected_, contradiction.cable, sd);
+    if (!says) alarms_.add(Alarm::of(Alarm::Kind::no_information, contradiction.cable, contradiction.place));
+    return says;
+  }
+  typename BeliefType::JackReadings readings_of_jacks() const {
+    typename BeliefType::JackReadings jacks;
+    for (const CableEnd& jack : jacks_) jacks.add(reading_of(jack));
+    return jacks;
+  }
+  /// Takes a reading into account. expect() tells what it should be where the tracker is linearized, and
+  /// `expected_` has that of the present; `contradiction` is raised if it cannot be.
+  template <class Expect>
+  void learn(const Expect& expect, const typename BeliefType::JackReadings& jacks,
+             const typename BeliefType::Measured& measured, const Alarm& contradiction) {
     belief_.learn_errors(jacks);
     constexpr int most_rounds = 4;
     for (int round = 1;; ++round) {
-      if (!belief_.weigh(expected, at_, jacks, reading, sd)) {
+      if (!belief_.weigh(expected_, at_, jacks, measured)) {
         alarms_.add(contradiction);
         return;
       }
       const bool goes_on = belief_.is_bent() && linearize_at(belief_.mean_to_be()) && round < most_rounds;
       if (!goes_on) {
         belief_.apply();
+        mu_is_fine_ = false;
         return;
       }
-      expect(expected);
+      expect(expected_);
     }
   }
-  typename BeliefType::JackReading reading_of(const JackedEnd& jack) const {
+  typename BeliefType::JackReading reading_of(const CableEnd& jack) const {
     const Cell& cell = cell_of(jack);
     if (cell.locked) return {};
-    const Scalar sd = cell.is_new ? knowledge_->sensor_sd[jack.cable][jack.end] : cell.at.sd;
-    return {(cell.is_new ? cell.raw : cell.at.load) - drive_.jack[jack.cable][jack.end].force, sd * sd};
+    const Scalar sd = cell.is_new ? knowledge_->sensor_sd[jack.cable()][jack.end] : cell.at.sd;
+    return {(cell.is_new ? cell.raw : cell.at.load) - led_to(jack), sd * sd};
   }
   /// While some joints stick, what a measurement says depends on which ones do, and that on friction: no
   /// derivative tells. All of `cable` must slide, and of every other one whose friction shows in the number.
@@ -565,14 +699,16 @@ class Estimator {
   }
   /// What slides and what sticks is in doubt then.
   bool may_have_turned() const {
-    for (const JackedEnd& jack : jacks_)
+    for (const CableEnd& jack : jacks_)
       if (cell_of(jack).is_behind()) return true;
     return false;
   }
   // What is odd.
 
-  void compare(int c, std::size_t end, Scalar stroke) {
-    const Scalar expected = payout({c, end}, static_cast<Scalar>(tracker_.moves().payout[c][end]));
+  void compare(const CableEnd& jack, Scalar stroke) {
+    const int c = jack.cable();
+    const std::size_t end = jack.end;
+    const Scalar expected = payout(jack, static_cast<Scalar>(tracker_.moves().payout[c][end]));
     Scalar& most = most_payout_[2 * c + static_cast<int>(end)];
     most = larger(most, std::fabs(expected));
     const Scalar allowed = larger(limits_.least_elongation, limits_.elongation * most);
@@ -581,8 +717,10 @@ class Estimator {
   }
   /// A load cell between the jack and a locked end: when the jack, having surely pulled less, comes to pull
   /// what the end segment has, the wedge is free.
-  void watch(int c, std::size_t end, Scalar reading) {
-    Cell& cell = cells_[c][end];
+  void watch(const CableEnd& jack, Scalar reading) {
+    const int c = jack.cable();
+    const std::size_t end = jack.end;
+    Cell& cell = cell_of(jack);
     const ConditionedLoad<Scalar> pull = cell.filter.take(reading, cell.since);
     cell.since = 0;
     if (pull.refused) return;
@@ -599,20 +737,32 @@ class Estimator {
     cell.below = static_cast<std::uint8_t>(is_below ? cell.below + 1 : 0);
   }
   void raise_alarms() {
+    if (!mu_is_fine_ && belief_.has_friction()) judge_friction();
+    if (limits_forces_) judge_forces();
+  }
+  void judge_friction() {
+    mu_is_fine_ = true;
     for (int c = 0; c < model_->cables.size(); ++c) {
       const auto& cable = model_->cables[c];
       const Scalar sd = knowledge_->mu_sd[c];
-      for (int k = 0; k < cable.joints() && belief_.has_friction(); ++k) {
+      for (int k = 0; k < cable.joints(); ++k) {
         const int j = cable.first_joint + k, p = unknown_of_[j];
         if (p < 0) continue;
         const bool shared = knowledge_->shared[c];
         const Scalar off = weight_[j] * belief_.mean(p), beyond = std::fabs(off) - 2 * sd * weight_[j];
-        if (beyond > 0 && beyond > 2 * mu_deviation(j))
+        if (beyond > 0 && beyond > 2 * mu_deviation(j)) {
+          mu_is_fine_ = false;
           alarms_.add(Alarm::of(off > 0 && !shared ? Alarm::Kind::stuck_joint : Alarm::Kind::mu_band, c,
                                 shared ? -1 : k));
+        }
         if (shared) break;
       }
-      for (int i = 0; i < cable.segments() && (limits_.most_force >= 0 || limits_.least_force >= 0); ++i) {
+    }
+  }
+  void judge_forces() {
+    for (int c = 0; c < model_->cables.size(); ++c) {
+      const auto& cable = model_->cables[c];
+      for (int i = 0; i < cable.segments(); ++i) {
         const Scalar T = force(cable.first_segment + i);
         if (limits_.most_force >= 0 && T > limits_.most_force)
           alarms_.add(Alarm::of(Alarm::Kind::force_high, c, i));
@@ -627,12 +777,18 @@ class Estimator {
   AlarmLimits<Scalar> limits_;
   TrackerType tracker_;
   Sample<Scalar, Cap> drive_;  // where the tracker was led
-  FixedList<JackedEnd, most_jacks> jacks_;
+  FixedList<CableEnd, most_jacks> jacks_;
+  FixedList<CableEnd, 2 * Cap::cables> far_;  // anchored ends whose load cell is known
   FixedArray<std::array<Cell, 2>, Cap::cables> cells_;
   FixedArray<Scalar, 2 * Cap::cables> most_payout_;
   Alarms alarms_;
 
   BeliefType belief_;
+  Gathered<Scalar> gathered_;
+  std::int8_t learned_ = 0;  // readings of the far end since something has happened
+  bool limits_forces_ = false;
+  bool has_gathered_ = false;  // in this row
+  bool mu_is_fine_ = false;    // nothing is odd about what is believed
   Expected expected_;  // of the last measurement; a member, so that what is not in use need not be cleared
   FixedArray<bool, Cap::joints> can_slide_;
   FixedArray<std::int16_t, Cap::joints> unknown_of_;

@@ -80,6 +80,10 @@ class Sensitivity {
       at += static_cast<Scalar>(x[k] - anchor[k]) * column_[p][k][segment];
     return at;
   }
+  /// How that changes with input `k`.
+  Scalar tension_slope(int p, int k, int segment) const {
+    return p >= frozen_.used ? Scalar(0) : column_[p][k][segment];
+  }
 
   /// Derivatives of everything that has moved, at inputs `x`.
   Moving<Scalar, Cap> moves(const Map& map, int p, const Inputs& x) const {

@@ -76,7 +76,10 @@ class Tracker {
     model_ = &condensed;
     runs_.find(condensed.cables, [&condensed](int j) { return condensed.is_locked(j); });
     jacks_.clear();
-    for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) { jacks_.add({c, end, -1, false}); });
+    number_.fill(-1);
+    for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) {
+      number_[2 * c + static_cast<int>(end)] = static_cast<std::int16_t>(jacks_.add({c, end, -1, false}));
+    });
     laws_.find(condensed);
     for (int j = 0; j < joints(); ++j) rho_[j] = static_cast<Scalar>(laws_.rho(j));
     moved_ = {};
@@ -171,8 +174,13 @@ class Tracker {
   /// Fails with `bad_sample` (nothing was done), or at `fraction` of the path with `pulled_through` (names
   /// the cable), `mechanism` (names a joint whose sliding sets its node free) or `state_iterations`.
   Progress<Scalar> advance(const Sample<Scalar, Cap>& sample, int event_budget = default_budget) {
-    if (only_ >= 0 && has_map_ && goes_along(sample)) return {};
+    if (goes_along(sample)) return {};
     return approach(sample, event_budget);
+  }
+  /// The same if one load alone changes and stays where nothing happens: all tensions and derivatives go on
+  /// along straight lines. Otherwise false, and nothing is changed.
+  bool goes_along(const Sample<Scalar, Cap>& sample) {
+    return only_ >= 0 && has_map_ && stays_in_range(sample);
   }
 
   /// The friction of a joint depends on unknown `parameter` from here on, with derivative `slope` of its rho.
@@ -212,6 +220,11 @@ class Tracker {
   /// Derivative of a tension with respect to unknown `p` [N], at the loads reached.
   Scalar sensitivity(int p, int segment) const {
     return !has_map_ ? Scalar(0) : derivatives_.tension(map_, p, segment, at_, anchor_);
+  }
+  /// Derivative of that with respect to the force of an unlocked jack, on the present piece [-].
+  Scalar sensitivity_slope(int p, int cable, std::size_t end, int segment) const {
+    const int k = input_of(cable, end);
+    return k < 0 ? Scalar(0) : derivatives_.tension_slope(p, k, segment);
   }
   /// Derivative of a tension with respect to the force of an unlocked jack, on the present piece [-].
   Scalar slope(int cable, std::size_t end, int segment) const {
@@ -361,9 +374,8 @@ class Tracker {
 
   /// Of an unlocked jack's force in the present map, or -1.
   int input_of(int cable, std::size_t end) const {
-    for (const JackedEnd& jack : jacks_)
-      if (jack.cable == cable && jack.end == end && has_map_) return jack.input;
-    return -1;
+    const int number = number_[2 * cable + static_cast<int>(end)];
+    return has_map_ && number >= 0 ? jacks_[number].input : -1;
   }
 
   /// Not in one frame with the samples that need no more than goes_along().
@@ -422,7 +434,7 @@ class Tracker {
     return true;
   }
   /// The same where the only input that changes has a range: false if anything else changes, or it leaves it.
-  bool goes_along(const Sample<Scalar, Cap>& sample) {
+  bool stays_in_range(const Sample<Scalar, Cap>& sample) {
     const int k = only_;
     Scalar x = at_[k];
     for (const JackedEnd& jack : jacks_) {
@@ -1245,6 +1257,7 @@ class Tracker {
   Runs<Cap> runs_;
   Laws laws_;
   FixedList<JackedEnd, max_jacks<Cap>> jacks_;
+  FixedArray<std::int16_t, 2 * Cap::cables> number_;  // of an end among them, or -1
 
   Loads now_, goal_;
   Loads built_;                            // where the map was made
