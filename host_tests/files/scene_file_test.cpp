@@ -133,7 +133,7 @@ TEST_CASE("places of names with slashes and tildes are valid JSON pointers") {
 
 TEST_CASE("the core scene holds everything in the order of the file") {
   const SceneDescription described = every_key();
-  const auto scene = make_valid_scene<3, Small>(described);
+  const auto scene = make_valid_scene<3, Large>(described);
   CHECK(scene->nodes.size() == 9);
   CHECK(scene->nodes[4].at == std::array<double, 3>{4, 0, 2});
   CHECK(scene->struts[1].nodes == std::array<int, 2>{2, 5});
