@@ -415,7 +415,7 @@ class Estimator {
     }
     cell.before = cell.at.sd;
     const Scalar was_sure = cell.at.sure;
-    // In place: what was written in parts is slow to read back at once.
+    // Placed there, not on the heap: a copy would read back at once what was just written in parts, and wait.
     new (&cell.at) ConditionedLoad<Scalar>(cell.filter.take(given.force, cell.since));
     if (cell.at.sure != was_sure) cell.way = cell.at.sure > was_sure ? Scalar(1) : Scalar(-1);
     if (cell.first == 0 && cell.at.load > 0) cell.first = Scalar(1e-3) * sd;

@@ -142,9 +142,9 @@ class LoadFilter {
     lines_.advance(block_.span - middle);
     return conclude(true, find_best(), y);
   }
-  /// What has been said of them in the meantime stands: `sure` does not go back, but for a turn.
+  /// What has been told of them in the meantime stands: `sure` does not go back, but for a turn.
   ConditionedLoad<Scalar> take_one_by_one() {
-    const Scalar said = sure_;
+    const Scalar told = sure_;
     const bool fell = falls_;
     sure_ = sure_before_;
     const int count = block_.size;
@@ -158,9 +158,9 @@ class LoadFilter {
     calm_ = 0;
     now.turned = falls_ != fell;
     if (now.turned)
-      now.turn = fell ? -larger(-turn, -said) : larger(turn, said);
-    else if (now.refused || ahead(sure_, said) > 0)
-      sure_ = said;
+      now.turn = fell ? -larger(-turn, -told) : larger(turn, told);
+    else if (now.refused || ahead(sure_, told) > 0)
+      sure_ = told;
     now.sure = sure_;
     return now;
   }
