@@ -2,8 +2,9 @@
 //
 // BENCH_TRACK: the tracker follows the exported scene; BENCH_VERIFY: verify() after every sample;
 // BENCH_ESTIMATE: the estimator follows it from readings with noise, the far end's cell in one sample of
-// three; BENCH_CONDENSE: a scene of BENCH_JOINTS joints in BENCH_DIMENSION dimensions is condensed, with
-// struts if BENCH_STRUTS. With none of them what is left is the program that the sizes are compared with.
+// three; BENCH_RAMP: both follow the log of host_tests/benchmark instead; BENCH_CONDENSE: a scene of
+// BENCH_JOINTS joints in BENCH_DIMENSION dimensions is condensed, with struts if BENCH_STRUTS. With none of
+// them what is left is the program that the sizes are compared with.
 #include <cstdint>
 
 #include "board.hpp"
@@ -80,10 +81,22 @@ std::uint32_t count(Part part) {
 }
 
 #if BENCH_TRACK || BENCH_ESTIMATE
+#if BENCH_RAMP
+constexpr int steps = 1000;
+
+/// What a jack pulls after it has pulled `force`: a ramp and a hold.
+float next(float, int step) { return 200.0F * static_cast<float>(step < 500 ? step + 1 : 500); }
+constexpr int far_end_every = 1;  // samples
+#else
 constexpr int steps = 96;
 
-/// By how much a jack changes: it pulls, releases, pulls again, with small changes in between.
-float change(int step) { return (step / 24 == 2 ? -1.0F : 1.0F) * (step % 3 == 2 ? 20.0F : 4000.0F); }
+/// What a jack pulls after it has pulled `force`: it pulls, releases, pulls again, with small changes in
+/// between.
+float next(float force, int step) {
+  return force + (step / 24 == 2 ? -1.0F : 1.0F) * (step % 3 == 2 ? 20.0F : 4000.0F);
+}
+constexpr int far_end_every = 3;
+#endif
 #endif
 
 #if BENCH_TRACK
@@ -98,7 +111,7 @@ void track() {
   tracker.start(model).status.ok();
   float force = 0;
   for (int step = 0; step < steps; ++step) {
-    force += change(step);
+    force = next(force, step);
     bool second = false;
     taut::for_each_jacked_end(model.cables, [&](int c, std::size_t end) {
       sample.jack[c][end].force = second ? force * 0.97F : force;
@@ -160,9 +173,9 @@ void estimate() {
   estimator.start(model, knowledge).status.ok();
   float force = 0;
   for (int step = 0; step < steps; ++step) {
-    force += change(step);
+    force = next(force, step);
     readings.ends[0][1] = {true, false, force + sd[1] * noise(), 0};
-    const bool measured = step % 3 == 0;
+    const bool measured = step % far_end_every == 0;
     readings.ends[0][0] = {measured, false, far_end(model, force) + sd[0] * noise(), 0};
     int events = 0;
     bool good = false;
@@ -170,13 +183,20 @@ void estimate() {
       const auto progress = estimator.advance(readings);
       events = progress.events;
       good = progress.status.ok() && progress.fraction >= 1;
+#if BENCH_RAMP
+      const auto [force_there, deviation] = estimator.estimate(0);
+      answered = force_there + deviation;
+#endif
     });
     say(!good ? "refused" : measured ? "measured" : "sample");
     say(static_cast<std::uint32_t>(events));
     say(used);
     say('\n');
     say("answer", count([&] {
-          for (int i = 0; i < model.segments; ++i) answered = estimator.force(i) + estimator.deviation(i);
+          for (int i = 0; i < model.segments; ++i) {
+            const auto here = estimator.estimate(i);
+            answered = here.force + here.deviation;
+          }
         }));
   }
 }

@@ -98,8 +98,8 @@ Path random_path(Noise& noise) {
 }  // namespace
 
 TEST_CASE("the filter is small and can be stored byte by byte") {
-  // Four lines are 180 of them, eight readings that wait and their times 64.
-  static_assert(sizeof(LoadFilter<float>) <= 304);
+  // Four lines are 180 of them, eight readings that wait and their times 64, what follows them 36.
+  static_assert(sizeof(LoadFilter<float>) <= 336);
   static_assert(std::is_trivially_copyable_v<LoadFilter<float>>);
   Noise noise(1);
   LoadFilter<float> filter, restored;
@@ -283,6 +283,31 @@ TEST_CASE("a hold in float is known as well when the load is a million times the
   }
   // Readings have steps of 1/16, and so has the answer.
   CHECK(std::sqrt(square / 80000) < 0.05 + 1.0 / 16);
+}
+
+TEST_CASE("in double a hold is known as well when the load is a hundred million times the noise") {
+  // The lines are in single precision, which has steps of 8 there.
+  Noise noise(4);
+  LoadFilter<double> filter;
+  filter.start(1);
+  double square = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const auto now = filter.take(1e8 + noise(), 1);
+    if (i >= 20000) square += (now.load - 1e8) * (now.load - 1e8);
+  }
+  CHECK(std::sqrt(square / 80000) < 0.05);
+}
+
+TEST_CASE("a reading that is finite in double alone is refused and does no harm") {
+  Noise noise(5);
+  LoadFilter<double> filter;
+  filter.start(1e-3);
+  for (int i = 0; i < 300; ++i) {
+    const bool bad = i % 50 == 49;
+    const auto now = filter.take(bad ? 1e305 : 50 + 1e-3 * noise(), 1);
+    REQUIRE(now.refused == bad);
+    REQUIRE(std::fabs(now.load - 50) < 5e-3);
+  }
 }
 
 TEST_CASE("slow creep of a hold is followed") {

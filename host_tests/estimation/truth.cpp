@@ -76,6 +76,22 @@ TEST_CASE("without noise, and with mu known, the estimate is what the tracker fi
   }
 }
 
+TEST_CASE_TEMPLATE("a force and its deviation are the same asked for together and apart", Scalar, float,
+                   double) {
+  static Ground ground;
+  make_ground(ground, true, 0.2, 0.1, 0.25);
+  const auto site = std::make_unique<Site<Scalar>>(ground, Instruments{}, full, 1);
+  for (const double to : {1.0, 0.4, 0.8}) {
+    ramp(*site, site->jack_reading() / full, to, 50);
+    REQUIRE(site->good());
+    for (int i = 0; i < site->segments(); ++i) {
+      const auto both = site->estimator().estimate(i);
+      CHECK(both.force == site->estimator().force(i));
+      CHECK(both.deviation == site->estimator().deviation(i));
+    }
+  }
+}
+
 TEST_CASE("without a measurement mu stays what it was, and the forces are as uncertain as it makes them") {
   static Ground ground;
   make_ground(ground, false, 0.2, 0.05, 0.2);

@@ -29,7 +29,7 @@ namespace taut {
 /// is an unknown of that row. When mu has moved so far from where the tracker is linearized that it shows,
 /// the tracker is adjusted to it and the measurement is taken again (iterated update; Gelb, Applied Optimal
 /// Estimation, 1974, 6.1). With one jack and one such cell, rows between which only the load changes are
-/// gathered first, up to eight. Where nothing measures mu, the answer is the prior carried through.
+/// gathered first, up to sixteen. Where nothing measures mu, the answer is the prior carried through.
 ///
 /// Strain gauges on struts and the strokes of jacks are measurements of the same kind for whoever has them:
 /// take_strut(), take_stroke().
@@ -54,6 +54,7 @@ class Estimator {
   static constexpr std::uint8_t surely_below = 3;
   /// Turning points of every jack that friction is taken to remember.
   static constexpr int memories = 2;
+  static constexpr int most_jacks = max_jacks<Cap>;
   using Alarms = FixedList<Alarm, 8 + 4 * Cap::cables + Cap::joints + Cap::segments>;
 
   /// Begins without loads, with friction as it is known beforehand. Fails with `capacity_exceeded` if there
@@ -71,41 +72,30 @@ class Estimator {
   /// finite is refused with an alarm.
   Progress<Scalar> advance(const ReadingsType& readings, int event_budget = TrackerType::default_budget) {
     alarms_.clear();
-    for (int i = 0; i < model_->loads; ++i)
+    for (int i = 0; i < patterns(); ++i)
       if (!std::isfinite(readings.sample.factor[i]))
         return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
     begin_row();
-    Sample<Scalar, Cap> drive = readings.sample;
     Corners corners;
     bool has_more = false;
-    for (const CableEnd& jack : jacks_) {
-      const EndReading<Scalar>& given = readings.ends[jack.cable()][jack.end];
-      Jack<Scalar>& to = drive.jack[jack.cable()][jack.end];
-      Cell& cell = cell_of(jack);
-      take_load(jack, to.locked, given, readings.dt, cell, corners);
-      to = {larger(cell.at.sure, cell.first), cell.locked};
-      has_more |= given.has_stroke | (cell.locked & given.has_force);
+    for (int k = 0; k < jacks_.size(); ++k) {
+      const EndReading<Scalar>& given = of_end(readings.ends, k);
+      take_load(k, of_end(readings.sample.jack, k).locked, given, readings.dt, corners);
+      has_more |= given.has_stroke | (cells_[k].locked & given.has_force);
     }
     Progress<Scalar> progress;
-    if (!corners.any() && tracker_.goes_along(drive)) {
-      for (int i = 0; i < model_->loads; ++i) drive_.factor[i] = drive.factor[i];
-      for (const CableEnd& jack : jacks_)
-        drive_.jack[jack.cable()][jack.end].force = drive.jack[jack.cable()][jack.end].force;
-    } else {
+    if (corners.any() || !goes_along(readings.sample)) {
       learn_gathered();
       begin_row();
       learned_ = 0;
-      progress = approach(corners, drive, event_budget);
+      progress = approach(corners, where_to(readings.sample), event_budget);
       if (!progress.status || progress.fraction < 1) return progress;
     }
-    for (const CableEnd& end : far_) {
-      const EndReading<Scalar>& given = readings.ends[end.cable()][end.end];
-      if (given.has_force) measure(end, given.force);
-    }
+    if (!far_.empty() && !may_have_turned()) measure_far_ends(readings);
     for (int k = 0; has_more && k < jacks_.size(); ++k) {
-      const EndReading<Scalar>& given = readings.ends[jacks_[k].cable()][jacks_[k].end];
-      if (given.has_stroke) compare(jacks_[k], given.stroke);
-      if (given.has_force && cell_of(jacks_[k]).locked) watch(jacks_[k], given.force);
+      const EndReading<Scalar>& given = of_end(readings.ends, k);
+      if (given.has_stroke) compare(k, given.stroke);
+      if (given.has_force && cells_[k].locked) watch(k, given.force);
     }
     raise_alarms();
     return progress;
@@ -141,8 +131,8 @@ class Estimator {
   /// A locked end tells nothing. When and how often as take_strut(); what contradicts raises
   /// Alarm::Kind::elongation.
   void take_stroke(int cable, std::size_t end, Scalar reading, Scalar sd) {
-    const auto& layout = model_->cables[cable];
-    if (layout.closed || layout.ends[end] != End::jacked || cells_[cable][end].locked) return;
+    const int jack = jack_at(cable, end);
+    if (jack < 0 || cells_[jack].locked) return;
     const auto expect = [&](Expected& expected) {
       const auto of = [&](const auto& moving) { return static_cast<Scalar>(moving.payout[cable][end]); };
       expected.at = of(tracker_.moves());
@@ -154,26 +144,14 @@ class Estimator {
   }
 
   /// Force of a segment [N], >= 0.
-  Scalar force(int segment) const {
-    Scalar T = tracker_.tension(segment) + ahead(segment);
-    for (int p = 0; p < belief_.in_use(); ++p)
-      if (belief_.mean(p) != at_[p]) T += tracker_.sensitivity(p, segment) * (belief_.mean(p) - at_[p]);
-    return T > 0 ? T : Scalar(0);
-  }
+  Scalar force(int segment) const { return find<false>(segment).force; }
   /// Its standard deviation [N].
-  Scalar deviation(int segment) const {
-    Scalar variance = belief_.variance_of([&](int p) { return tracker_.sensitivity(p, segment); });
-    for (const CableEnd& jack : jacks_) {
-      const Cell& cell = cell_of(jack);
-      if (cell.locked || !(cell.at.sd > 0)) continue;
-      const Scalar slope = tracker_.slope(jack.cable(), jack.end, segment), part = slope * cell.at.sd;
-      variance += part * part;
-      // If it has turned, the force did not follow.
-      const Scalar behind = cell.is_behind() ? slope * missing(jack) : Scalar(0);
-      variance += behind * behind;
-    }
-    return std::sqrt(variance > 0 ? variance : Scalar(0));
-  }
+  Scalar deviation(int segment) const { return find<true>(segment).deviation; }
+  /// Both at once take hardly longer than one.
+  struct SegmentForce {
+    Scalar force, deviation;
+  };
+  SegmentForce estimate(int segment) const { return find<true>(segment); }
   /// Friction coefficient of a joint, and its standard deviation.
   Scalar mu(int joint) const {
     const auto nominal = static_cast<Scalar>(knowledge_->mu[joint]);
@@ -190,17 +168,20 @@ class Estimator {
     tracker_.respond(response, struts);
     for (int i = 0; i < model_->segments; ++i) response.tension[i] = force(i);
     model_->resolve_joints(response);
-    for (const CableEnd& jack : jacks_)
-      response.payout[jack.cable()][jack.end] = payout(jack, response.payout[jack.cable()][jack.end]);
+    for (int k = 0; k < jacks_.size(); ++k)
+      of_end(response.payout, k) = payout(k, of_end(response.payout, k));
   }
   /// What is odd about the last row.
   const Alarms& alarms() const { return alarms_; }
-  /// The load of a jack as it was conditioned.
-  const ConditionedLoad<Scalar>& load(int cable, std::size_t end) const { return cells_[cable][end].at; }
+  /// The load of a jack as it was conditioned; zero where there is none.
+  ConditionedLoad<Scalar> load(int cable, std::size_t end) const {
+    const int jack = jack_at(cable, end);
+    return jack < 0 ? ConditionedLoad<Scalar>() : cells_[jack].at;
+  }
   const TrackerType& tracker() const { return tracker_; }
   int unknowns() const { return belief_.size(); }
 
-  /// A jack's load cell.
+  /// A jack and its load cell.
   struct Cell {
     LoadFilter<Scalar> filter;
     ConditionedLoad<Scalar> at{};
@@ -209,31 +190,27 @@ class Estimator {
     Scalar first = 0;   // the least load once there is one: which way things slide shows from then on
     Scalar way = 1;     // that the load goes: up or down
     Scalar before = 0;  // standard deviation of the load a sample ago
-    bool is_new = false;
+    bool is_new = false, is_behind = false;
     bool locked = false, has_locked = false;
+    Scalar most_payout = 0;  // that it should have had so far
     std::uint8_t below = 0;  // locked: readings in a row that were surely below what the wedge holds
     // Unknown errors of where its load last turned or was locked; the oldest is forgotten next.
     std::array<std::int16_t, memories> memory{};
     int oldest = 0;
-
-    /// Whether the load is behind where it surely was, without being known to have turned.
-    bool is_behind() const { return !locked && (at.load - at.sure) * way < 0; }
   };
   /// All that restore() needs to go on with the same bits, as Tracker::State.
   struct State {
     typename TrackerType::State tracker;
     Sample<Scalar, Cap> drive;
-    FixedArray<std::array<Cell, 2>, Cap::cables> cells;
-    FixedArray<Scalar, 2 * Cap::cables> most_payout;
+    FixedArray<Cell, most_jacks> cells;
     typename BeliefType::Values mean, at;
     typename BeliefType::Covariance covariance;
     Gathered<Scalar> gathered;
-    std::int8_t learned;
+    std::uint8_t learned;
   };
   /// Between two rows.
   State save() const {
-    return {tracker_.save(),      drive_,    cells_,  most_payout_, belief_.mean(), at_,
-            belief_.covariance(), gathered_, learned_};
+    return {tracker_.save(), drive_, cells_, belief_.mean(), at_, belief_.covariance(), gathered_, learned_};
   }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `bad_sample` if the state
   /// is none of this scene; then only start() or another restore() may follow.
@@ -243,7 +220,6 @@ class Estimator {
     if (!known) return known;
     drive_ = state.drive;
     cells_ = state.cells;
-    most_payout_ = state.most_payout;
     at_ = state.at;
     belief_.restore(state.mean, state.covariance);
     gathered_ = state.gathered;
@@ -253,7 +229,6 @@ class Estimator {
   }
 
  private:
-  static constexpr int most_jacks = max_jacks<Cap>;
   struct CableEnd {
     std::int16_t number = 0;
     std::uint8_t end = 0;
@@ -263,8 +238,19 @@ class Estimator {
   static CableEnd end_of(int cable, std::size_t end) {
     return {static_cast<std::int16_t>(cable), static_cast<std::uint8_t>(end)};
   }
-  Cell& cell_of(const CableEnd& jack) { return cells_[jack.cable()][jack.end]; }
-  const Cell& cell_of(const CableEnd& jack) const { return cells_[jack.cable()][jack.end]; }
+  /// What belongs to the end where jack `k` is.
+  template <class Ends>
+  auto& of_end(Ends& ends, int k) const {
+    return ends[jacks_[k].cable()][jacks_[k].end];
+  }
+  /// Its number, or -1.
+  int jack_at(int cable, std::size_t end) const {
+    for (int k = 0; k < jacks_.size(); ++k)
+      if (jacks_[k].cable() == cable && jacks_[k].end == end) return k;
+    return -1;
+  }
+  /// Zero at compile time where the capacity is.
+  int patterns() const { return Cap::loads == 0 ? 0 : model_->loads; }
 
   Status begin(const CondensedType& condensed, const KnowledgeType& knowledge,
                const AlarmLimits<Scalar>& limits) {
@@ -275,24 +261,28 @@ class Estimator {
     alarms_.clear();
     jacks_.clear();
     for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) { jacks_.add(end_of(c, end)); });
-    far_.clear();
-    for (int c = 0; c < condensed.cables.size(); ++c)
-      for (std::size_t end = 0; end < 2 && !condensed.cables[c].closed; ++end)
-        if (condensed.cables[c].ends[end] == End::anchored && knowledge.sensor_sd[c][end] > 0)
-          far_.add(end_of(c, end));
     gathered_ = {};
     learned_ = 0;
     mu_is_fine_ = false;
     tracker_.begin(condensed);
     for (int j = 0; j < Cap::joints; ++j) can_slide_[j] = j < condensed.joints && !condensed.is_locked(j);
     drive_ = {};
-    most_payout_.fill(Scalar(0));
-    for (int c = 0; c < Cap::cables; ++c)
-      for (std::size_t end = 0; end < 2; ++end) {
-        cells_[c][end] = {};
-        cells_[c][end].filter.start(knowledge.sensor_sd[c][end]);
-      }
-    return find_unknowns();
+    for (int k = 0; k < jacks_.size(); ++k) {
+      cells_[k] = {};
+      cells_[k].filter.start(of_end(knowledge.sensor_sd, k));
+    }
+    const Status known = find_unknowns();
+    find_far_ends();
+    return known;
+  }
+  /// Where a load cell has something to say.
+  void find_far_ends() {
+    far_.clear();
+    for (int c = 0; c < model_->cables.size() && belief_.has_friction(); ++c)
+      for (std::size_t end = 0; end < 2 && !model_->cables[c].closed; ++end)
+        if (model_->cables[c].ends[end] == End::anchored && knowledge_->sensor_sd[c][end] > 0)
+          far_.add(end_of(c, end));
+    can_gather_ = far_.size() == 1 && jacks_.size() == 1;
   }
 
   // The unknowns.
@@ -330,9 +320,9 @@ class Estimator {
     }
     belief_.end_friction();
     for (std::size_t m = 0; m < memories; ++m)
-      for (const CableEnd& jack : jacks_) {
-        const bool has = knowledge_->sensor_sd[jack.cable()][jack.end] > 0 && belief_.size() < Parameters;
-        cell_of(jack).memory[m] = static_cast<std::int16_t>(has ? add(Scalar(0)) : -1);
+      for (int k = 0; k < jacks_.size(); ++k) {
+        const bool has = of_end(knowledge_->sensor_sd, k) > 0 && belief_.size() < Parameters;
+        cells_[k].memory[m] = static_cast<std::int16_t>(has ? add(Scalar(0)) : -1);
       }
     if (missing > 0) return Status::at(Code::capacity_exceeded, Place::none, Parameters, missing);
     return Status::success();
@@ -371,13 +361,13 @@ class Estimator {
     }
   }
   /// A jack that turns or is locked now: friction will remember the error of its load.
-  void remember(const CableEnd& jack) {
-    Cell& cell = cell_of(jack);
+  void remember(int k) {
+    Cell& cell = cells_[k];
     const int p = cell.memory[static_cast<std::size_t>(cell.oldest)];
     if (p < 0) return;
     cell.oldest = (cell.oldest + 1) % memories;
     if (belief_.mean(p) != at_[p]) static_cast<void>(linearize_at(belief_.mean()));
-    tracker_.turn(p, jack.cable(), jack.end);
+    tracker_.turn(p, jacks_[k].cable(), jacks_[k].end);
     at_[p] = 0;
     belief_.renew(p, cell.before);
     mu_is_fine_ = false;
@@ -391,9 +381,9 @@ class Estimator {
     bool any() const { return locks || turns; }
   };
   /// Conditions a jack's reading.
-  void take_load(const CableEnd& jack, bool locks, const EndReading<Scalar>& given, Scalar dt, Cell& cell,
-                 Corners& corners) {
-    const Scalar sd = knowledge_->sensor_sd[jack.cable()][jack.end];
+  void take_load(int k, bool locks, const EndReading<Scalar>& given, Scalar dt, Corners& corners) {
+    const Scalar sd = of_end(knowledge_->sensor_sd, k);
+    Cell& cell = cells_[k];
     cell.is_new = cell.has_locked = false;
     cell.at.turned = false;
     cell.since += dt;
@@ -401,6 +391,7 @@ class Estimator {
       cell.before = cell.at.sd;
       if (cell.locked) return;
       corners.locks = cell.has_locked = cell.locked = true;
+      cell.is_behind = false;
       cell.filter.start(sd);
       cell.below = 0;
       return;
@@ -418,13 +409,36 @@ class Estimator {
     // Placed there, not on the heap: a copy would read back at once what was just written in parts, and wait.
     new (&cell.at) ConditionedLoad<Scalar>(cell.filter.take(given.force, cell.since));
     if (cell.at.sure != was_sure) cell.way = cell.at.sure > was_sure ? Scalar(1) : Scalar(-1);
+    cell.is_behind = (cell.at.load - cell.at.sure) * cell.way < 0;
     if (cell.first == 0 && cell.at.load > 0) cell.first = Scalar(1e-3) * sd;
     cell.since = 0;
     cell.raw = given.force;
     cell.is_new = !cell.at.refused;
     corners.turns |= cell.at.turned;
-    if (cell.at.refused)
-      alarms_.add(Alarm::of(Alarm::Kind::outlier, jack.cable(), static_cast<int>(jack.end)));
+    if (cell.at.refused) alarms_.add(of_jack(Alarm::Kind::outlier, k));
+  }
+  Alarm of_jack(Alarm::Kind kind, int k) const {
+    return Alarm::of(kind, jacks_[k].cable(), static_cast<int>(jacks_[k].end));
+  }
+  /// Where the tracker is led for a row.
+  Scalar load_of(int k) const { return larger(cells_[k].at.sure, cells_[k].first); }
+  Sample<Scalar, Cap> where_to(const Sample<Scalar, Cap>& given) const {
+    Sample<Scalar, Cap> drive = given;
+    for (int k = 0; k < jacks_.size(); ++k) of_end(drive.jack, k) = {load_of(k), cells_[k].locked};
+    return drive;
+  }
+  /// Follows the readings where nothing happens but that a load changes; else false, and nothing was done.
+  bool goes_along(const Sample<Scalar, Cap>& given) {
+    // With one jack alone the compiler knows what can change.
+    if constexpr (most_jacks == 1 && Cap::loads == 0) {
+      if (jacks_.empty() || cells_[0].locked || !tracker_.goes_along(0, load_of(0))) return false;
+    } else {
+      const Sample<Scalar, Cap> drive = where_to(given);
+      if (!tracker_.goes_along(drive)) return false;
+      for (int i = 0; i < patterns(); ++i) drive_.factor[i] = drive.factor[i];
+    }
+    for (int k = 0; k < jacks_.size(); ++k) of_end(drive_.jack, k).force = load_of(k);
+    return true;
   }
   /// Follows the readings where more happens than that a load changes.
   [[gnu::noinline]] Progress<Scalar> approach(const Corners& corners, const Sample<Scalar, Cap>& drive,
@@ -443,21 +457,19 @@ class Estimator {
     Sample<Scalar, Cap> corner = drive_;
     Progress<Scalar> progress;
     if (corners.locks) {
-      for (const CableEnd& jack : jacks_)
-        if (cell_of(jack).has_locked) corner.jack[jack.cable()][jack.end].force = cell_of(jack).at.load;
+      for (int k = 0; k < jacks_.size(); ++k)
+        if (cells_[k].has_locked) of_end(corner.jack, k).force = cells_[k].at.load;
       progress = lead(corner, event_budget);
-      for (const CableEnd& jack : jacks_)
-        if (progress.status && cell_of(jack).has_locked) remember(jack);
+      for (int k = 0; k < jacks_.size(); ++k)
+        if (progress.status && cells_[k].has_locked) remember(k);
     }
     if (corners.turns && progress.status) {
-      const auto turns = [&](const CableEnd& jack) {
-        return !cell_of(jack).locked && cell_of(jack).at.turned;
-      };
-      for (const CableEnd& jack : jacks_)
-        if (turns(jack)) corner.jack[jack.cable()][jack.end].force = cell_of(jack).at.turn;
+      const auto turns = [&](int k) { return !cells_[k].locked && cells_[k].at.turned; };
+      for (int k = 0; k < jacks_.size(); ++k)
+        if (turns(k)) of_end(corner.jack, k).force = cells_[k].at.turn;
       progress = join(progress, lead(corner, event_budget));
-      for (const CableEnd& jack : jacks_)
-        if (progress.status && turns(jack)) remember(jack);
+      for (int k = 0; k < jacks_.size(); ++k)
+        if (progress.status && turns(k)) remember(k);
     }
     return progress;
   }
@@ -481,7 +493,7 @@ class Estimator {
     Scalar carried = cable.joints() == 0 ? Scalar(1) : Scalar(1.02);
     for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
       carried *= static_cast<Scalar>(tracker_.rho(j));
-    const ConditionedLoad<Scalar>&larger_load = cells_[c][more].at, &smaller_load = cells_[c][less].at;
+    const ConditionedLoad<Scalar> larger_load = load(c, more), smaller_load = load(c, less);
     if (smaller_load.load + 5 * smaller_load.sd < carried * (larger_load.load - 5 * larger_load.sd))
       return false;
     jack[more].force = jack[less].force / carried;
@@ -491,9 +503,9 @@ class Estimator {
   void stop_here() {
     const auto& loads = tracker_.loads();
     for (int i = 0; i < model_->loads; ++i) drive_.factor[i] = static_cast<Scalar>(loads.factor[i]);
-    for (const CableEnd& jack : jacks_) {
-      const auto& at = loads.jack[jack.cable()][jack.end];
-      drive_.jack[jack.cable()][jack.end] = {static_cast<Scalar>(at.force), at.locked};
+    for (int k = 0; k < jacks_.size(); ++k) {
+      const auto& at = of_end(loads.jack, k);
+      of_end(drive_.jack, k) = {static_cast<Scalar>(at.force), at.locked};
     }
   }
   static Progress<Scalar> join(const Progress<Scalar>& first, Progress<Scalar> then) {
@@ -502,23 +514,37 @@ class Estimator {
     return then;
   }
   /// From where the tracker was led to the best estimate of the load [N].
-  Scalar missing(const CableEnd& jack) const {
-    const Cell& cell = cell_of(jack);
-    return cell.locked ? Scalar(0) : cell.at.load - led_to(jack);
-  }
-  Scalar led_to(const CableEnd& jack) const { return drive_.jack[jack.cable()][jack.end].force; }
-  /// What a segment has at the best estimate beyond what the tracker says, along the present piece.
-  Scalar ahead(int segment) const {
-    Scalar T = 0;
-    for (const CableEnd& jack : jacks_) {
-      const Scalar dF = missing(jack);
-      if (dF != 0) T += tracker_.slope(jack.cable(), jack.end, segment) * dF;
+  Scalar missing(int k) const { return cells_[k].locked ? Scalar(0) : cells_[k].at.load - led_to(k); }
+  Scalar led_to(int k) const { return of_end(drive_.jack, k).force; }
+  template <bool HasDeviation>
+  SegmentForce find(int segment) const {
+    Scalar T = tracker_.tension(segment), variance = 0;
+    for (int k = 0; k < jacks_.size(); ++k) {
+      // Along the present piece.
+      const Cell& cell = cells_[k];
+      const Scalar slope = tracker_.slope(k, segment), further = slope * missing(k);
+      T += further;
+      if (!HasDeviation || cell.locked) continue;
+      const Scalar part = slope * cell.at.sd;
+      variance += part * part;
+      // If it has turned, the force did not follow.
+      if (cell.is_behind) variance += further * further;
     }
-    return T;
+    if (HasDeviation) {
+      variance += belief_.variance_of([&](int p) {
+        const Scalar S = tracker_.sensitivity(p, segment);
+        T += S * (belief_.mean(p) - at_[p]);
+        return S;
+      });
+    } else {
+      for (int p = 0; p < belief_.in_use(); ++p)
+        if (belief_.mean(p) != at_[p]) T += tracker_.sensitivity(p, segment) * (belief_.mean(p) - at_[p]);
+    }
+    return {larger(T, Scalar(0)), HasDeviation ? std::sqrt(larger(variance, Scalar(0))) : Scalar(0)};
   }
-  Scalar payout(const CableEnd& jack, Scalar of_tracker) const {
-    const Scalar dF = missing(jack);
-    return dF != 0 ? of_tracker + tracker_.payout_slope(jack.cable(), jack.end) * dF : of_tracker;
+  Scalar payout(int k, Scalar of_tracker) const {
+    const Scalar dF = missing(k);
+    return dF != 0 ? of_tracker + tracker_.payout_slope(jacks_[k].cable(), jacks_[k].end) * dF : of_tracker;
   }
 
   // The measurements.
@@ -529,24 +555,35 @@ class Estimator {
     belief_.begin_row();
     has_gathered_ = false;
   }
-  /// A load cell at an anchored end.
+  /// The load cells at anchored ends.
+  void measure_far_ends(const ReadingsType& readings) {
+    const auto reading_at = [&](const CableEnd& end) -> const EndReading<Scalar>& {
+      return readings.ends[end.cable()][end.end];
+    };
+    if (may_gather()) {
+      const EndReading<Scalar>& given = reading_at(far_[0]);
+      if (given.has_force) gather(given.force);
+      return;
+    }
+    for (const CableEnd& end : far_) {
+      const EndReading<Scalar>& given = reading_at(end);
+      if (given.has_force) measure(end, given.force);
+    }
+  }
   void measure(const CableEnd& end, Scalar reading) {
-    if (!belief_.has_friction() || may_have_turned()) return;
     const Scalar sd = knowledge_->sensor_sd[end.cable()][end.end];
-    const bool is_alone = far_.size() == 1 && jacks_.size() == 1;
-    if (is_alone && room() > 1 && (cell_of(jacks_[0]).is_new || cell_of(jacks_[0]).locked))
-      return gather(reading, sd);
     const auto expect = [&](Expected& expected) { expect_far(end, expected); };
     if (!says_something(expect, sd, sensor(end))) return;
     learn(expect, readings_of_jacks(), {reading, sd, Scalar(0)}, sensor(end));
     count_learned(1);
   }
+  bool may_gather() const { return can_gather_ && room() > 1 && (cells_[0].is_new || cells_[0].locked); }
   /// For readings that are gathered. Soon after something has happened little is known, and what is learned
   /// is worth most.
   int room() const { return learned_ / 4; }
   void count_learned(int readings) {
     constexpr int well_known = 4 * Gathered<Scalar>::capacity;
-    if (learned_ < well_known) learned_ = static_cast<std::int8_t>(learned_ + readings);
+    if (learned_ < well_known) learned_ = static_cast<std::uint8_t>(learned_ + readings);
   }
   static Alarm sensor(const CableEnd& end) {
     return Alarm::of(Alarm::Kind::sensor, end.cable(), static_cast<int>(end.end));
@@ -556,14 +593,12 @@ class Estimator {
     const int segment = model_->cables[far.cable()].end_segment(far.end);
     expected.at = tracker_.tension(segment);
     for (int p = 0; p < belief_.in_use(); ++p) expected.by_unknown[p] = tracker_.sensitivity(p, segment);
-    for (int k = 0; k < jacks_.size(); ++k)
-      expected.by_jack[k] = tracker_.slope(jacks_[k].cable(), jacks_[k].end, segment);
+    for (int k = 0; k < jacks_.size(); ++k) expected.by_jack[k] = tracker_.slope(k, segment);
   }
   /// A reading of the only cell at an anchored end, with only one jack.
-  void gather(Scalar reading, Scalar sd) {
-    const auto jack = reading_of(jacks_[0]);
-    const Scalar led = led_to(jacks_[0]), load = led + jack.beyond;
-    if (gathered_.size == 0 && !begin_gathering(led, jack, sd)) return;
+  void gather(Scalar reading) {
+    const Scalar led = led_to(0), load = cells_[0].locked ? led : cells_[0].raw;
+    if (gathered_.size == 0 && !begin_gathering(led)) return;
     const Scalar off = gathered_.off_line(load, reading);
     if (!(off * off <= BeliefType::impossible * gathered_.spread)) {
       alarms_.add(sensor(far_[0]));
@@ -574,7 +609,9 @@ class Estimator {
     if (gathered_.is_full()) learn_gathered();
   }
   /// False if the cell says nothing at present.
-  bool begin_gathering(Scalar led, const typename BeliefType::JackReading& jack, Scalar sd) {
+  bool begin_gathering(Scalar led) {
+    const Scalar sd = of_far_cell();
+    const auto jack = reading_of(0);
     const auto expect = [&](Expected& expected) { expect_far(far_[0], expected); };
     if (!says_something(expect, sd, sensor(far_[0]))) return false;
     gathered_.begin(led + jack.beyond, led, room());
@@ -595,15 +632,16 @@ class Estimator {
   /// Of the only cell at an anchored end.
   Scalar far_sensitivity_slope(int p) const {
     const int segment = model_->cables[far_[0].cable()].end_segment(far_[0].end);
-    return tracker_.sensitivity_slope(p, jacks_[0].cable(), jacks_[0].end, segment);
+    return tracker_.sensitivity_slope(p, 0, segment);
   }
+  Scalar of_far_cell() const { return knowledge_->sensor_sd[far_[0].cable()][far_[0].end]; }
   /// What has been gathered becomes known.
   void learn_gathered() {
     if (gathered_.size == 0) return;
     const Gathered<Scalar> all = gathered_;
     gathered_.size = 0;
     count_learned(all.size);
-    const Scalar led = led_to(jacks_[0]), back = all.led() - led;
+    const Scalar led = led_to(0), back = all.led() - led;
     const auto expect = [&](Expected& expected) {
       expect_far(far_[0], expected);
       if (back == 0) return;
@@ -612,7 +650,7 @@ class Estimator {
     expect(expected_);
     typename BeliefType::JackReadings jacks;
     jacks.add({all.jack() - led, all.jack_variance * all.share()});
-    const Scalar sd = knowledge_->sensor_sd[far_[0].cable()][far_[0].end];
+    const Scalar sd = of_far_cell();
     learn(expect, jacks, {all.reading(), sd * std::sqrt(all.share()), all.spread}, sensor(far_[0]));
   }
   /// Of something else than a load cell.
@@ -638,7 +676,7 @@ class Estimator {
   }
   typename BeliefType::JackReadings readings_of_jacks() const {
     typename BeliefType::JackReadings jacks;
-    for (const CableEnd& jack : jacks_) jacks.add(reading_of(jack));
+    for (int k = 0; k < jacks_.size(); ++k) jacks.add(reading_of(k));
     return jacks;
   }
   /// Takes a reading into account. expect() tells what it should be where the tracker is linearized, and
@@ -662,11 +700,11 @@ class Estimator {
       expect(expected_);
     }
   }
-  typename BeliefType::JackReading reading_of(const CableEnd& jack) const {
-    const Cell& cell = cell_of(jack);
+  typename BeliefType::JackReading reading_of(int k) const {
+    const Cell& cell = cells_[k];
     if (cell.locked) return {};
-    const Scalar sd = cell.is_new ? knowledge_->sensor_sd[jack.cable()][jack.end] : cell.at.sd;
-    return {(cell.is_new ? cell.raw : cell.at.load) - led_to(jack), sd * sd};
+    const Scalar sd = cell.is_new ? of_end(knowledge_->sensor_sd, k) : cell.at.sd;
+    return {(cell.is_new ? cell.raw : cell.at.load) - led_to(k), sd * sd};
   }
   /// While some joints stick, what a measurement says depends on which ones do, and that on friction: no
   /// derivative tells. All of `cable` must slide, and of every other one whose friction shows in the number.
@@ -699,37 +737,33 @@ class Estimator {
   }
   /// What slides and what sticks is in doubt then.
   bool may_have_turned() const {
-    for (const CableEnd& jack : jacks_)
-      if (cell_of(jack).is_behind()) return true;
+    for (int k = 0; k < jacks_.size(); ++k)
+      if (cells_[k].is_behind) return true;
     return false;
   }
   // What is odd.
 
-  void compare(const CableEnd& jack, Scalar stroke) {
-    const int c = jack.cable();
-    const std::size_t end = jack.end;
-    const Scalar expected = payout(jack, static_cast<Scalar>(tracker_.moves().payout[c][end]));
-    Scalar& most = most_payout_[2 * c + static_cast<int>(end)];
+  void compare(int k, Scalar stroke) {
+    const auto moves = tracker_.moves();
+    const Scalar expected = payout(k, static_cast<Scalar>(of_end(moves.payout, k)));
+    Scalar& most = cells_[k].most_payout;
     most = larger(most, std::fabs(expected));
     const Scalar allowed = larger(limits_.least_elongation, limits_.elongation * most);
-    if (!(std::fabs(stroke - expected) <= allowed))
-      alarms_.add(Alarm::of(Alarm::Kind::elongation, c, static_cast<int>(end)));
+    if (!(std::fabs(stroke - expected) <= allowed)) alarms_.add(of_jack(Alarm::Kind::elongation, k));
   }
   /// A load cell between the jack and a locked end: when the jack, having surely pulled less, comes to pull
   /// what the end segment has, the wedge is free.
-  void watch(const CableEnd& jack, Scalar reading) {
-    const int c = jack.cable();
-    const std::size_t end = jack.end;
-    Cell& cell = cell_of(jack);
+  void watch(int k, Scalar reading) {
+    Cell& cell = cells_[k];
     const ConditionedLoad<Scalar> pull = cell.filter.take(reading, cell.since);
     cell.since = 0;
     if (pull.refused) return;
-    const int segment = model_->cables[c].end_segment(end);
+    const int segment = model_->cables[jacks_[k].cable()].end_segment(jacks_[k].end);
     const Scalar held = force(segment);
     if (cell.below == surely_below) {
       if (pull.load < held) return;
       cell.below = 0;
-      alarms_.add(Alarm::of(Alarm::Kind::lift_off, c, static_cast<int>(end)));
+      alarms_.add(of_jack(Alarm::Kind::lift_off, k));
       return;
     }
     const Scalar missing = held - pull.load;
@@ -776,16 +810,16 @@ class Estimator {
   const KnowledgeType* knowledge_ = nullptr;
   AlarmLimits<Scalar> limits_;
   TrackerType tracker_;
-  Sample<Scalar, Cap> drive_;  // where the tracker was led
-  FixedList<CableEnd, most_jacks> jacks_;
+  Sample<Scalar, Cap> drive_;                 // where the tracker was led
+  FixedList<CableEnd, most_jacks> jacks_;     // in the order in which the tracker counts them
   FixedList<CableEnd, 2 * Cap::cables> far_;  // anchored ends whose load cell is known
-  FixedArray<std::array<Cell, 2>, Cap::cables> cells_;
-  FixedArray<Scalar, 2 * Cap::cables> most_payout_;
+  FixedArray<Cell, most_jacks> cells_;
   Alarms alarms_;
 
   BeliefType belief_;
   Gathered<Scalar> gathered_;
-  std::int8_t learned_ = 0;  // readings of the far end since something has happened
+  std::uint8_t learned_ = 0;  // readings of the far end since something has happened
+  bool can_gather_ = false;   // the readings of the far end
   bool limits_forces_ = false;
   bool has_gathered_ = false;  // in this row
   bool mu_is_fine_ = false;    // nothing is odd about what is believed

@@ -13,7 +13,7 @@ namespace taut {
 /// They must not go by the reading: its noise would be in what is measured and in what it is weighed with.
 template <class Scalar>
 struct Gathered {
-  static constexpr int capacity = 8;
+  static constexpr int capacity = 16;
 
   // Of the line.
   Scalar jack_from = 0, led_from = 0;  ///< the loads of the first reading [N]

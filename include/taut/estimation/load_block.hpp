@@ -14,59 +14,68 @@ struct LineState {
   Scalar level_variance, covariance, slope_variance;
 };
 
-/// Readings with standard deviation one since a line was last fitted. Of a straight line their mean says
-/// nearly all that they say one by one: it is a reading in the middle of them, with the variance 1 / size.
-/// They are kept themselves too, for the case that one does not agree.
-template <class Scalar, int Capacity>
+/// Readings with standard deviation one that wait until several lines take them into account together. Of a
+/// straight line their mean says nearly all that they say one by one: it is a reading in the middle of them,
+/// with the variance 1 / size. One line follows them meanwhile, with the gains that it had for the first:
+/// they are few beside those that it has taken before. They are kept themselves too, for the case that one
+/// does not agree.
+template <class Force, class Scalar, int Capacity>
 struct LoadBlock {
   static constexpr int capacity = Capacity;
-  using Values = std::array<Scalar, static_cast<std::size_t>(Capacity)>;
 
-  Values reading{}, step{};  ///< as they were read; the time since the one before
-  Scalar sum = 0;            ///< of the readings, as levels of the line
-  Scalar times = 0;          ///< sum of their times since the line was last fitted
-  Scalar span = 0;           ///< time of the last one
+  std::array<Force, static_cast<std::size_t>(Capacity)> reading{};  ///< as they were read
+  std::array<Scalar, static_cast<std::size_t>(Capacity)> step{};    ///< the time since the one before
+  Scalar level = 0, slope = 0;  ///< of the line that follows them, at the last reading
+  Scalar level_gain = 0, slope_gain = 0;
+  Scalar spread = 1;  ///< variance of an innovation
+  Scalar off = 0;     ///< sum of the innovations
+  Scalar sum = 0;     ///< of the readings, as levels of the line
+  Scalar times = 0;   ///< sum of their times since the line was last fitted
+  Scalar span = 0;    ///< time of the last one
   std::int8_t size = 0;
-  std::int8_t room = 0;  ///< so many are taken into account together
+  std::int8_t room = 0;  ///< so many more may wait
 
-  void begin(int most) {
+  /// Readings of this line will come about `dt` apart.
+  void begin(const LineState<Scalar>& line, Scalar dt, int most) {
+    const Scalar C = line.covariance + dt * line.slope_variance,
+                 P = line.level_variance + dt * (line.covariance + C);
+    spread = P + 1;
+    level = line.level;
+    slope = line.slope;
+    level_gain = P / spread;
+    slope_gain = C / spread;
+    sum = times = span = off = 0;
     size = 0;
     room = static_cast<std::int8_t>(most < capacity ? most : capacity);
-    sum = times = span = 0;
   }
-  /// There must be room. `level` is the reading as a level of the line.
-  void add(Scalar given, Scalar dt, Scalar level) {
+  /// Variance of `level` once it has taken a reading.
+  Scalar variance() const { return level_gain; }
+  /// There must be room. Returns the innovation: how far the reading, as a level, is from what the line
+  /// expected.
+  Scalar add(Force given, Scalar dt, Scalar y) {
     reading[static_cast<std::size_t>(size)] = given;
     step[static_cast<std::size_t>(size)] = dt;
     ++size;
+    --room;
     span += dt;
     times += span;
-    sum += level;
+    sum += y;
+    const Scalar expected = level + dt * slope, innovation = y - expected;
+    level = expected + level_gain * innovation;
+    slope += slope_gain * innovation;
+    off += innovation;
+    return innovation;
   }
-  bool is_full() const { return size >= room; }
+  /// The last reading, `y`, is no longer among them. What follows them is not put back.
+  void drop_last(Scalar y) {
+    --size;
+    sum -= y;
+    times -= span;
+    span -= step[static_cast<std::size_t>(size)];
+  }
+  bool is_full() const { return room == 0; }
+  Scalar count() const { return static_cast<Scalar>(size); }
   Scalar share() const { return shares[static_cast<std::size_t>(size)]; }  ///< 1 / size
-
-  /// The line at the last reading, once it has taken the mean of them all; how far that mean was off, and the
-  /// variance of that; and the same of the last reading alone, without the others.
-  struct Fit {
-    Scalar level, variance;
-    Scalar off, spread;
-    Scalar last_off, last_spread;
-  };
-  Fit fit(const LineState<Scalar>& line, Scalar last) const {
-    const Scalar P = line.level_variance, C = line.covariance, Q = line.slope_variance;
-    const Scalar n = share(), t = span, m = times * n;
-    const Scalar level = line.level + t * line.slope, variance = P + t * (C + C + t * Q);
-    Fit fit;
-    fit.last_off = last - level;
-    fit.last_spread = variance + 1;
-    fit.off = sum * n - (line.level + m * line.slope);
-    fit.spread = P + m * (C + C + m * Q) + n;
-    const Scalar together = P + (t + m) * C + t * m * Q, gain = together / fit.spread;
-    fit.level = level + gain * fit.off;
-    fit.variance = variance - gain * together;
-    return fit;
-  }
 
  private:
   static_assert(Capacity <= 8, "shares of more are missing");

@@ -133,10 +133,15 @@ struct LoadLines {
   bool has_slope(int i, Scalar deviations) const {
     return at(slope, i) * at(slope, i) > deviations * deviations * at(slope_variance, i);
   }
-  /// Standard deviation of mean.
-  Scalar mean_deviation(int i) const {
-    const Scalar readings = static_cast<Scalar>(at(age, i));
-    return 1 / std::sqrt(readings < mean_memory ? readings : mean_memory);
+  /// Standard deviations of mean.
+  Lanes mean_deviations() const {
+    Lanes deviation;
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const Scalar readings = static_cast<Scalar>(age[i]);
+      deviation[i] = readings < mean_memory ? readings : mean_memory;
+    }
+    for (std::size_t i = 0; i < lanes; ++i) deviation[i] = 1 / std::sqrt(deviation[i]);
+    return deviation;
   }
 
  private:

@@ -29,7 +29,11 @@ class FixedList {
   constexpr void drop_last() { --size_; }
 
   /// Zero at compile time where the capacity is, so that loops over what a scene cannot have leave no code.
-  constexpr int size() const { return N == 0 ? 0 : size_; }
+  constexpr int size() const {
+    // So that the compiler knows that a loop over one item is none.
+    if (N <= 2 && (size_ < 0 || size_ > N)) __builtin_unreachable();
+    return N == 0 ? 0 : size_;
+  }
   constexpr bool empty() const { return size() == 0; }
   static constexpr int capacity() { return N; }
   /// How many items were dropped because the list was full.

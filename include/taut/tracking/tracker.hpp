@@ -182,6 +182,10 @@ class Tracker {
   bool goes_along(const Sample<Scalar, Cap>& sample) {
     return only_ >= 0 && has_map_ && stays_in_range(sample);
   }
+  /// The same if the force of this jack alone changes, by its number.
+  bool goes_along(int jack, Scalar force) {
+    return only_ >= 0 && has_map_ && jacks_[jack].input == only_ && goes_to(force);
+  }
 
   /// The friction of a joint depends on unknown `parameter` from here on, with derivative `slope` of its rho.
   /// At the start, before the first path; see adjust() for later. Not for locked joints.
@@ -221,15 +225,20 @@ class Tracker {
   Scalar sensitivity(int p, int segment) const {
     return !has_map_ ? Scalar(0) : derivatives_.tension(map_, p, segment, at_, anchor_);
   }
-  /// Derivative of that with respect to the force of an unlocked jack, on the present piece [-].
-  Scalar sensitivity_slope(int p, int cable, std::size_t end, int segment) const {
-    const int k = input_of(cable, end);
+  /// Derivative of that with respect to the force of an unlocked jack, on the present piece [-]. Jacks are
+  /// counted as for_each_jacked_end() does.
+  Scalar sensitivity_slope(int p, int jack, int segment) const {
+    const int k = input_of(jack);
     return k < 0 ? Scalar(0) : derivatives_.tension_slope(p, k, segment);
   }
   /// Derivative of a tension with respect to the force of an unlocked jack, on the present piece [-].
-  Scalar slope(int cable, std::size_t end, int segment) const {
-    const int k = input_of(cable, end);
+  Scalar slope(int jack, int segment) const {
+    const int k = input_of(jack);
     return k < 0 ? Scalar(0) : map_.rounded_column(k)[segment];
+  }
+  Scalar slope(int cable, std::size_t end, int segment) const {
+    const int jack = number_[2 * cable + static_cast<int>(end)];
+    return jack < 0 ? Scalar(0) : slope(jack, segment);
   }
   /// The same of a jack's payout [m/N].
   Scalar payout_slope(int cable, std::size_t end) const {
@@ -371,12 +380,16 @@ class Tracker {
   bool is_slack(int segment) const { return slack_[runs_.of(segment)]; }
   /// Zero at compile time where the capacity is, so that no code for joints is left.
   int joints() const { return Cap::joints == 0 ? 0 : model_->joints; }
+  /// Where there can be only one cable the compiler knows its number.
+  static int number_of(int cable) { return Cap::cables == 1 ? 0 : cable; }
+  int patterns() const { return Cap::loads == 0 ? 0 : model_->loads; }
 
   /// Of an unlocked jack's force in the present map, or -1.
   int input_of(int cable, std::size_t end) const {
-    const int number = number_[2 * cable + static_cast<int>(end)];
-    return has_map_ && number >= 0 ? jacks_[number].input : -1;
+    const int jack = number_[2 * cable + static_cast<int>(end)];
+    return jack < 0 ? -1 : input_of(jack);
   }
+  int input_of(int jack) const { return has_map_ ? jacks_[jack].input : -1; }
 
   /// Not in one frame with the samples that need no more than goes_along().
   [[gnu::noinline]] Progress<Scalar> approach(const Sample<Scalar, Cap>& sample, int event_budget) {
@@ -437,19 +450,25 @@ class Tracker {
   bool stays_in_range(const Sample<Scalar, Cap>& sample) {
     const int k = only_;
     Scalar x = at_[k];
-    for (const JackedEnd& jack : jacks_) {
-      const Jack<Scalar>& given = sample.jack[jack.cable][jack.end];
+    for (int n = 0; n < jacks_.size(); ++n) {
+      const JackedEnd& jack = jacks_[n];
+      const Jack<Scalar>& given = sample.jack[number_of(jack.cable)][jack.end];
       if (given.locked != jack.locked) return false;
       if (jack.input == k)
         x = given.force;
       else if (jack.input >= 0 && given.force != at_[jack.input])
         return false;
     }
-    for (int i = 0; i < model_->loads; ++i) {
+    for (int i = 0; i < patterns(); ++i) {
       if (sample.factor[i] == factor_[i]) continue;
       if (load_input_[i] != k) return false;
       x = sample.factor[i];
     }
+    return goes_to(x);
+  }
+  /// Of that input.
+  bool goes_to(Scalar x) {
+    const int k = only_;
     const Scalar step = x - at_[k];
     if (step != 0) {
       const Scalar dx = x - anchor_[k];
@@ -468,8 +487,10 @@ class Tracker {
     at_[k] = x;
     if (input.kind == Input::Kind::load)
       now_.factor[input.index] = static_cast<Real>(factor_[input.index] = x);
-    if (input.kind == Input::Kind::jack_force)
-      now_.jack[input.index / 2][static_cast<std::size_t>(input.index % 2)].force = static_cast<Real>(x);
+    if (input.kind == Input::Kind::jack_force) {
+      const auto end = static_cast<std::size_t>(input.index);
+      now_.jack[number_of(static_cast<int>(end / 2))][end % 2].force = static_cast<Real>(x);
+    }
   }
   /// What a sample says of the map's inputs; false if it changes anything else.
   bool read(const Sample<Scalar, Cap>& sample, Given& x) const {
