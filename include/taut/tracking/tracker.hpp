@@ -236,10 +236,6 @@ class Tracker {
     const int k = input_of(jack);
     return k < 0 ? Scalar(0) : map_.rounded_column(k)[segment];
   }
-  Scalar slope(int cable, std::size_t end, int segment) const {
-    const int jack = number_[2 * cable + static_cast<int>(end)];
-    return jack < 0 ? Scalar(0) : slope(jack, segment);
-  }
   /// The same of a jack's payout [m/N].
   Scalar payout_slope(int cable, std::size_t end) const {
     const int k = input_of(cable, end);
