@@ -128,6 +128,7 @@ class Tracking {
   void restart() { good_ = tracker_.start(condensed_).status.ok() && good_; }
   void advance(const taut::Sample<Scalar, Cap>& sample) {
     good_ = tracker_.advance(sample).status.ok() && good_;
+    benchmark::DoNotOptimize(tracker_.tension(0));
   }
   Scalar tension(int segment) const { return tracker_.tension(segment); }
   bool good() const { return good_; }

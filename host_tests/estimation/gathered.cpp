@@ -67,6 +67,32 @@ TEST_CASE_TEMPLATE("mu and its deviation are those of least squares over all rea
   CHECK(most == taut::Gathered<Scalar>::capacity - 1);
 }
 
+TEST_CASE_TEMPLATE("in a hold readings are gathered after the tracker has been adjusted as before", Scalar,
+                   double, float) {
+  // So short a ramp leaves much to be learned in the hold.
+  static Ground ground;
+  make_ground(ground);
+  ground.known.cables[0].mu_sd = 0.1;
+  ground.set_true_mu(std::vector<double>(16, 0.35));
+  const auto site = std::make_unique<Site<Scalar>>(ground, far_end_alone(), full, 2);
+  ramp(*site, 0, 1, 10);
+  auto rho = site->estimator().tracker().rho(0);
+  int adjusted = 0, most = 0;
+  for (int i = 0; i < 200; ++i) {
+    site->advance(full);
+    REQUIRE(site->good());
+    const auto now = site->estimator().tracker().rho(0);
+    if (now != rho) {
+      ++adjusted;
+      most = 0;
+    }
+    rho = now;
+    most = std::max(most, waiting(*site));
+  }
+  REQUIRE(adjusted > 0);
+  CHECK(most == taut::Gathered<Scalar>::capacity - 1);
+}
+
 TEST_CASE("what waits is learned before something else happens") {
   static Ground ground;
   make_ground(ground);

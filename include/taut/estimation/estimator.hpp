@@ -87,8 +87,8 @@ class Estimator {
     if (corners.any() || !goes_along(readings.sample)) {
       learn_gathered();
       begin_row();
-      learned_ = 0;
       progress = approach(corners, where_to(readings.sample), event_budget);
+      if (corners.any() || progress.events > 0) learned_ = 0;
       if (!progress.status || progress.fraction < 1) return progress;
     }
     if (!far_.empty() && !may_have_turned()) measure_far_ends(readings);

@@ -17,36 +17,41 @@ struct LineState {
 /// Readings with standard deviation one that wait until several lines take them into account together. Of a
 /// straight line their mean says nearly all that they say one by one: it is a reading in the middle of them,
 /// with the variance 1 / size. One line follows them meanwhile, with the gains that it had for the first:
-/// they are few beside those that it has taken before. They are kept themselves too, for the case that one
-/// does not agree.
+/// they are few beside those that it has taken before. How far it drifts off shows in the sum of its
+/// innovations, where older ones fade. The readings are kept themselves too, for the case that some do not
+/// agree.
 template <class Force, class Scalar, int Capacity>
 struct LoadBlock {
   static constexpr int capacity = Capacity;
+  /// Of an innovation in the sum, from one reading to the next: a line that has bent is off by more and more.
+  static constexpr Scalar fade = Scalar(0.8);
 
   std::array<Force, static_cast<std::size_t>(Capacity)> reading{};  ///< as they were read
   std::array<Scalar, static_cast<std::size_t>(Capacity)> step{};    ///< the time since the one before
   Scalar level = 0, slope = 0;  ///< of the line that follows them, at the last reading
   Scalar level_gain = 0, slope_gain = 0;
-  Scalar spread = 1;  ///< variance of an innovation
-  Scalar off = 0;     ///< sum of the innovations
-  Scalar sum = 0;     ///< of the readings, as levels of the line
-  Scalar times = 0;   ///< sum of their times since the line was last fitted
-  Scalar span = 0;    ///< time of the last one
+  Scalar spread = 1;          ///< variance of an innovation
+  Scalar drift = 0;           ///< sum of the innovations
+  Scalar drift_variance = 0;  ///< of the sum after many
+  Scalar sum = 0;             ///< of the readings, as levels of the line
+  Scalar times = 0;           ///< sum of their times since the line was last fitted
+  Scalar span = 0;            ///< time of the last one
   std::int8_t size = 0;
-  std::int8_t room = 0;  ///< so many more may wait
+  std::int8_t most = 0;  ///< so many may wait
 
-  /// Readings of this line will come about `dt` apart.
-  void begin(const LineState<Scalar>& line, Scalar dt, int most) {
+  /// Up to so many readings of this line will come about `dt` apart.
+  void begin(const LineState<Scalar>& line, Scalar dt, int up_to) {
     const Scalar C = line.covariance + dt * line.slope_variance,
                  P = line.level_variance + dt * (line.covariance + C);
     spread = P + 1;
+    drift_variance = spread / (1 - fade * fade);
     level = line.level;
     slope = line.slope;
     level_gain = P / spread;
     slope_gain = C / spread;
-    sum = times = span = off = 0;
+    drift = sum = times = span = 0;
     size = 0;
-    room = static_cast<std::int8_t>(most < capacity ? most : capacity);
+    most = static_cast<std::int8_t>(up_to < capacity ? up_to : capacity);
   }
   /// Variance of `level` once it has taken a reading.
   Scalar variance() const { return level_gain; }
@@ -56,32 +61,37 @@ struct LoadBlock {
     reading[static_cast<std::size_t>(size)] = given;
     step[static_cast<std::size_t>(size)] = dt;
     ++size;
-    --room;
     span += dt;
     times += span;
     sum += y;
     const Scalar expected = level + dt * slope, innovation = y - expected;
     level = expected + level_gain * innovation;
     slope += slope_gain * innovation;
-    off += innovation;
+    drift = fade * drift + innovation;
     return innovation;
   }
-  /// The last reading, `y`, is no longer among them. What follows them is not put back.
-  void drop_last(Scalar y) {
-    --size;
-    sum -= y;
-    times -= span;
-    span -= step[static_cast<std::size_t>(size)];
+  /// No more of them than these wait from now on; level_of() is that of a reading. What follows them is not
+  /// put back.
+  template <class LevelOf>
+  void keep(int first, int count, const LevelOf& level_of) {
+    sum = times = span = 0;
+    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(first + count); ++i) {
+      span += step[i];
+      times += span;
+      sum += level_of(reading[i]);
+    }
+    size = static_cast<std::int8_t>(count);
   }
-  bool is_full() const { return room == 0; }
-  Scalar count() const { return static_cast<Scalar>(size); }
+  void close() { most = 0; }  ///< none waits any more
+  bool has_room() const { return size < most; }
   Scalar share() const { return shares[static_cast<std::size_t>(size)]; }  ///< 1 / size
 
  private:
-  static_assert(Capacity <= 8, "shares of more are missing");
-  static constexpr Scalar third = Scalar(1) / 3, fifth = Scalar(1) / 5, seventh = Scalar(1) / 7;
-  static constexpr Scalar shares[] = {0,     1,         Scalar(0.5), third,        Scalar(0.25),
-                                      fifth, third / 2, seventh,     Scalar(0.125)};
+  static_assert(Capacity <= 16, "shares of more are missing");
+  static constexpr Scalar part(int of) { return Scalar(1) / static_cast<Scalar>(of); }
+  static constexpr Scalar shares[] = {0,        1,        part(2),  part(3),  part(4),  part(5),
+                                      part(6),  part(7),  part(8),  part(9),  part(10), part(11),
+                                      part(12), part(13), part(14), part(15), part(16)};
 };
 
 }  // namespace taut

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "taut/estimation/load_block.hpp"
 #include "taut/estimation/load_lines.hpp"
@@ -32,9 +31,9 @@ struct ConditionedLoad {
 /// mean and spread. A new line is weighed at every third sample, and at every one that surprises; as there is
 /// room for few, the young ones are kept closer together.
 ///
-/// As long as the readings agree with the likeliest line, up to eight of them wait until they are weighed as
-/// one: their mean. Meanwhile that line alone follows them. Where they do not agree they are weighed one by
-/// one after all; where only the last one does not, it is weighed alone.
+/// As long as the readings agree with the likeliest line, up to sixteen of them wait until they are weighed
+/// as one: their mean. Meanwhile that line alone follows them. Where they drift off, the last eight are
+/// weighed two by two after all; where only the last one does not agree, it is weighed alone.
 ///
 /// `sure` asks for more than a line, which overshoots where a ramp ends: a load that rises is now at least as
 /// high as the mean of any readings since it turned.
@@ -56,7 +55,7 @@ class LoadFilter {
   /// no account. What is not finite is refused.
   ConditionedLoad<Scalar> take(Scalar reading, Scalar dt) {
     const auto step = static_cast<Level>(dt);
-    if (block_.room > 0 || begins_to_wait()) return wait(reading, step);
+    if (block_.has_room() || begins_to_wait()) return wait(reading, step);
     return sd_ == 0 ? take_exact(reading) : take_one(reading, step);
   }
 
@@ -66,7 +65,7 @@ class LoadFilter {
 
   using Level = float;
   using Lines = LoadLines<Level, 4>;
-  using Block = LoadBlock<Scalar, Level, 8>;
+  using Block = LoadBlock<Scalar, Level, 16>;
   static constexpr Level farthest = Level(1e9);  ///< what is farther is no reading, and its square overflows
 
   struct Estimate {
@@ -108,34 +107,34 @@ class LoadFilter {
     const int hold = long_hold(1);
     if (hold >= 0 && hold != best_) return false;
     const std::int32_t age = at(lines_.age, best_);
-    const int most = at(lines_.weight, best_) < Level(0.5) ? 0 : age / 4;
+    const int most = at(lines_.weight, best_) < Level(0.5) ? 0 : age / 2;
     if (most < 2) return false;
     block_.begin(line(best_), step_, most);
     sure_before_ = sure_;
-    const Level taken = static_cast<Level>(age), half = Level(0.5) * static_cast<Level>(block_.room + 1);
-    const Level may_bend = bends * unseen_bend * unseen_bend / (taken + least_length);
+    const Level taken = static_cast<Level>(age), half = Level(0.5) * static_cast<Level>(block_.most + 1);
     // While half of them have been taken.
-    const Level variance = block_.variance() * taken / (taken + half) + half * may_bend;
+    const Level variance = block_.variance() * taken / (taken + half);
     waits_sd_ = std::sqrt(larger(variance + beside_best_, Level(0)));
+    waits_bent_ = age < young ? perhaps_bent : Level(0);
     return true;
   }
   ConditionedLoad<Scalar> wait(Scalar reading, Level dt) {
     const Level y = level_of(reading);
-    const Level innovation = block_.add(reading, dt, y), most_off = block_.count() * block_.spread;
-    const bool is_even = dt == step_ || (2 * dt > step_ && dt < 2 * step_);
-    const Level square = block_.off * block_.off;
-    const Estimate estimate = {block_.level + off_best_, sd_while_waiting(square - most_off)};
+    const Level innovation = block_.add(reading, dt, y), square = block_.drift * block_.drift;
+    const bool is_even = std::fabs(dt - step_) <= Level(0.5) * step_;
+    const Estimate estimate = {block_.level + off_best_, waits_sd_};
     const Level further = beyond_sure(estimate);
     // Not a number does not agree either.
-    const bool agrees = square < disagree * disagree * most_off && is_even && !has_turned(estimate, further);
+    const bool agrees =
+        square < disagree * disagree * block_.drift_variance && is_even && !has_turned(estimate, further);
     const bool fits = innovation * innovation < doubt * doubt * block_.spread;
-    if (!agrees || !fits) return take_apart(agrees, y);
-    if (block_.is_full()) return take_together(y, square > suspicious * most_off);
+    if (!agrees || !fits) return take_apart(agrees, fits && is_even);
+    if (!block_.has_room()) return take_together(y, square > suspicious * block_.drift_variance);
     go_on(estimate, further, [&](Level way) {
       const Level share = block_.share();
       return larger(way * y - sure_mean, way * (block_.sum * share) - sure_mean * std::sqrt(share));
     });
-    return said(estimate);
+    return said({estimate.level, waits_sd_ + waits_bent_ * std::fabs(block_.drift)});
   }
   /// The readings that wait, and their mean as one; the last of them is `y`.
   [[gnu::noinline]] ConditionedLoad<Scalar> take_together(Level y, bool is_suspicious) {
@@ -150,29 +149,30 @@ class LoadFilter {
     lines_.advance(block_.span - middle);
     return conclude(true, find_best(), y);
   }
+  /// Of those that agree the mean is weighed, others two by two; the last one, if it does not fit, alone.
   /// What has been told of them in the meantime stands: `sure` does not go back, but for a turn.
-  [[gnu::noinline]] ConditionedLoad<Scalar> take_apart(bool only_last, Level y) {
+  [[gnu::noinline]] ConditionedLoad<Scalar> take_apart(bool agree, bool last_fits) {
     const Scalar told = sure_;
     const Level way = way_;
-    const int count = block_.size;
-    block_.room = 0;
+    const int count = block_.size, in_doubt = agree ? 0 : doubtful, last = count - (last_fits ? 0 : 1);
+    const int agreeing = agree ? last : count > in_doubt ? count - in_doubt : 0;
+    block_.close();
+    if (!agree) set_sure(sure_before_);
     ConditionedLoad<Scalar> now;
     Scalar turn = 0;
-    int i = 0;
-    if (only_last && count > 1) {
-      block_.drop_last(y);
-      now = take_together(level_of(at(block_.reading, count - 2)), true);
+    for (int i = 0; i < count;) {
+      const int together = i < agreeing ? agreeing : i + 2 <= last ? 2 : 1;
+      if (together > 1) {
+        block_.keep(i, together, [this](Scalar each) { return level_of(each); });
+        now = take_together(level_of(at(block_.reading, i + together - 1)), true);
+      } else {
+        now = take_one(at(block_.reading, i), at(block_.step, i));
+      }
       if (now.turned) turn = now.turn;
-      i = count - 1;
-    } else {
-      set_sure(sure_before_);
-    }
-    for (; i < count; ++i) {
-      now = take_one(at(block_.reading, i), at(block_.step, i));
-      if (now.turned) turn = now.turn;
+      i += together;
     }
     // It was by chance if an old line is still by far the likeliest.
-    const bool is_calm = at(lines_.weight, best_) > by_far && at(lines_.age, best_) > 4 * Block::capacity;
+    const bool is_calm = at(lines_.weight, best_) > by_far && at(lines_.age, best_) > long_ago;
     calm_ = is_calm ? calm_enough : std::int8_t{0};
     now.turned = way_ != way;
     if (now.turned)
@@ -191,18 +191,17 @@ class LoadFilter {
   static constexpr std::int8_t long_pause = 24;
   static constexpr Level suspicious = Level(0.5);
   static constexpr Level surprise = 2;
-  /// Readings wait after so many without surprise, until the mean of them disagrees or the last one is in
-  /// doubt.
+  /// Readings wait after so many without surprise, until they drift off or the last one is in doubt.
   static constexpr std::int8_t calm_enough = 4;
-  static constexpr Level disagree = Level(2.4), doubt = Level(2.6);
+  static constexpr Level disagree = Level(2.4), doubt = 3;
+  /// Of the readings that drift off so many are not what the line explains.
+  static constexpr int doubtful = 8;
   static constexpr Level by_far = Level(0.8);
-  /// One of those that wait may be the first of a new piece, with the odds of a bend: the load is then off by
-  /// about so much before it shows.
-  static constexpr Level unseen_bend = Level(0.36);
-  /// As long as a line is young, it may have bent if their mean is off by more than by chance: so much of
-  /// that square is believed.
-  static constexpr Level perhaps_bent = Level(0.25);
-  static constexpr int young = 50;
+  static constexpr int long_ago = 32;
+  /// One of those that wait may be the first of a new piece: as long as a line is young, so much of how far
+  /// they drift off counts as deviation too.
+  static constexpr Level perhaps_bent = Level(0.06);
+  static constexpr int young = 150;
 
   /// The odds that a piece ends now are 1 in its age and this: pieces of every length are as likely.
   static constexpr Level least_length = 15;
@@ -233,21 +232,23 @@ class LoadFilter {
   }
   bool is_new(int i) const { return at(lines_.age, i) == 1 && at(lines_.known, i) == 1; }
   Level level_of(Scalar reading) const {
-    const Scalar level = (reading - base_) * per_sd_;
-    const bool fits = sizeof(Scalar) == sizeof(Level) || std::fabs(level) < Scalar(farthest);
-    return fits ? static_cast<Level>(level) : std::numeric_limits<Level>::infinity();
+    // What is none, or too far, is farther than any.
+    constexpr Scalar end = 2 * Scalar(farthest);
+    const Scalar level = (reading - base_) * per_sd_, below = level < end ? level : end;
+    return static_cast<Level>(larger(below, -end));
   }
   LineState<Level> line(int i) const {
     return {at(lines_.level, i), at(lines_.slope, i), at(lines_.level_variance, i), at(lines_.covariance, i),
             at(lines_.slope_variance, i)};
   }
-  void set_sure(Scalar load) {
+  void set_sure(Scalar load) { set_sure(load, level_of(load)); }
+  void set_sure(Scalar load, Level level) {
     sure_ = load;
-    sure_level_ = level_of(load);
+    sure_level_ = level;
   }
   Scalar force(Level level) const {
     const Scalar newtons = base_ + static_cast<Scalar>(level) * sd_;
-    return newtons > 0 ? newtons : Scalar(0);
+    return larger(newtons, Scalar(0));
   }
   /// Positive if `b` lies beyond `a` as the load goes at present.
   template <class Number>
@@ -423,12 +424,6 @@ class LoadFilter {
   static bool has_turned(const Estimate& estimate, Level further) {
     return -further > sure_turn * estimate.sd;
   }
-  /// `beyond` is by how much the square of the sum of innovations is larger than its variance.
-  Level sd_while_waiting(Level beyond) const {
-    if (!(at(lines_.age, best_) < young && beyond > 0)) return waits_sd_;
-    const Level share = block_.share();
-    return std::sqrt(waits_sd_ * waits_sd_ + perhaps_bent * share * share * beyond);
-  }
   /// The line of a long hold, or -1. It is left only when hardly anything speaks for it any more: among a
   /// million readings there are some that look like a bend. `all` is the sum of the weights.
   int long_hold(Level all) const {
@@ -469,8 +464,9 @@ class LoadFilter {
   void go_on(const Estimate& estimate, Level further, const Least& least) {
     if (!(further > sure_load * estimate.sd)) return;
     const Level most = way_ * estimate.level - sure_load * estimate.sd;
-    const Scalar come = force(way_ * -larger(-least(way_), -most));
-    if (ahead(sure_, come) > 0) set_sure(come);
+    const Level level = way_ * -larger(-least(way_), -most);
+    const Scalar come = force(level);
+    if (ahead(sure_, come) > 0) set_sure(come, come > 0 ? level : level_of(come));
   }
   Level least_mean(const Estimate& estimate, Level way, Level y) const {
     const auto near = [&](Level level, Level least) {
@@ -505,6 +501,7 @@ class LoadFilter {
   // The estimate less the level of the best line, its variance less that of this line.
   Level off_best_ = 0, beside_best_ = 0;
   Level waits_sd_ = 0;           // standard deviation of the estimate while readings wait
+  Level waits_bent_ = 0;         // and its growth with their drift
   Level step_ = 0;               // the last one
   Level way_ = 1;                // that the load goes: up or down
   std::int8_t best_ = 0;         // of the lines, the most likely

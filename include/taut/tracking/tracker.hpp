@@ -97,7 +97,7 @@ class Tracker {
     find_spare();
     map_.clear(condensed);
     if constexpr (is_adjustable) derivatives_.begin();
-    has_map_ = false;
+    drop_map();
     peak_ = 0;
   }
   Progress<Scalar> bring_on_prestrain(int event_budget = default_budget) {
@@ -179,12 +179,10 @@ class Tracker {
   }
   /// The same if one load alone changes and stays where nothing happens: all tensions and derivatives go on
   /// along straight lines. Otherwise false, and nothing is changed.
-  bool goes_along(const Sample<Scalar, Cap>& sample) {
-    return only_ >= 0 && has_map_ && stays_in_range(sample);
-  }
+  bool goes_along(const Sample<Scalar, Cap>& sample) { return only_ >= 0 && stays_in_range(sample); }
   /// The same if the force of this jack alone changes, by its number.
   bool goes_along(int jack, Scalar force) {
-    return only_ >= 0 && has_map_ && jacks_[jack].input == only_ && goes_to(force);
+    return only_ >= 0 && jacks_[jack].input == only_ && goes_to(force);
   }
 
   /// The friction of a joint depends on unknown `parameter` from here on, with derivative `slope` of its rho.
@@ -201,7 +199,7 @@ class Tracker {
     if (!has_map_) return Status::success();
     freeze();
     derivatives_.for_each([&](const auto& derivative, int p) { shift(derivative, change[p]); });
-    has_map_ = false;
+    drop_map();
     for (int count = 0; count <= joints(); ++count) {
       if (make_map() >= 0) return at_joint(Code::mechanism, -1);
       find_forces();
@@ -219,7 +217,7 @@ class Tracker {
     find_forces();
     freeze();
     derivatives_.turn(map_, p, k);
-    has_map_ = false;
+    drop_map();
   }
   /// Derivative of a tension with respect to unknown `p` [N], at the loads reached.
   Scalar sensitivity(int p, int segment) const {
@@ -400,7 +398,7 @@ class Tracker {
       if (has_load_[i] || goal_.factor[i] == now_.factor[i]) continue;
       find_forces();
       freeze();
-      has_map_ = false;
+      drop_map();
     }
     return follow(event_budget);
   }
@@ -422,15 +420,15 @@ class Tracker {
       keeps = keeps && map_.keeps(k, x[k] > at_[k]);
       regroups = regroups || !live_[k];
     }
-    if (!moves) {
-      last_.fill(Real(0));
-      return true;
-    }
-    if ((!keeps || map_.has_slack()) && !goes_on(x)) return false;
+    if (moves && (!keeps || map_.has_slack()) && !goes_on(x)) return false;
     if (regroups)
       regroup(x);
     else if (!has_range_)
       find_range();
+    if (!moves) {
+      last_.fill(Real(0));
+      return true;
+    }
     Rounded T = constant_;
     add_inputs(true, x, T);
     if (!is_within_limits(T)) return false;
@@ -522,8 +520,13 @@ class Tracker {
     has_range_ = false;
     only_ = -1;
   }
+  void drop_map() {
+    has_map_ = false;
+    forget_range();
+  }
   /// Where one input alone changes, as in most samples: how far it may go from its anchor within all limits.
-  /// Found when a second sample is like the first; from then on a sample asks for nothing else.
+  /// Found when a second sample is like the first; from then on a sample asks for nothing else. Where none
+  /// changes, as in a hold, that is not far.
   void find_range() {
     has_range_ = true;
     only_ = -1;
@@ -533,6 +536,11 @@ class Tracker {
         ++live;
         only_ = k;
       }
+    if (live == 0 && map_.inputs() > 0) {
+      only_ = 0;
+      range_ = {1, -1};
+      return;
+    }
     // A slack run has limits of its own.
     if (live != 1 || map_.has_slack()) {
       only_ = -1;
@@ -634,7 +642,7 @@ class Tracker {
     // A jack that takes hold of a slack run draws it straight; its payout follows from its force.
     for (int r = 0; r < runs_.size(); ++r)
       if (slack_[r] && is_jacked(runs_[r])) draw_straight(r);
-    has_map_ = false;
+    drop_map();
   }
 
   /// Takes the moves where they are, to make another map from.
@@ -1034,7 +1042,7 @@ class Tracker {
       if (rests == rests_[r]) continue;
       freeze();
       rests_[r] = rests;
-      has_map_ = false;
+      drop_map();
       for (int i = 0; rests && i < runs_[r].joints(); ++i) slides_[runs_[r].joint(i)] = JointState::stick;
     }
   }
@@ -1063,7 +1071,7 @@ class Tracker {
     Status status;
     for (int count = 0; count < tries; ++count) {
       for (int i = 0; few && i < asked.size(); ++i) slack_[asked[i]] = (count >> i & 1) == 0;
-      has_map_ = false;
+      drop_map();
       status = decide_slides(next);
       bool agrees = status.ok();
       for (const int r : asked) {
@@ -1076,7 +1084,7 @@ class Tracker {
         if (!slack_[r]) moved_.excess[r] = 0;
       return status;
     }
-    has_map_ = false;
+    drop_map();
     return status ? at_joint(Code::state_iterations, runs_[asked[0]].joint_near()) : status;
   }
   bool is_without_tension(int r) const {
@@ -1134,7 +1142,7 @@ class Tracker {
     const Status status = solve_slides(candidates);
     if (!status) {
       slides_ = slid;
-      has_map_ = false;
+      drop_map();
     }
     return status;
   }
@@ -1306,7 +1314,7 @@ class Tracker {
   FixedArray<bool, Map::max_inputs> live_;  // inputs that do
   // Of the only live input, from its anchor: within all limits.
   std::array<Scalar, 2> range_{};
-  int only_ = 0;
+  int only_ = -1;
   bool has_range_ = false;
   bool arrived_ = false;
   bool has_spare_ = false;
