@@ -1314,7 +1314,7 @@ class Tracker {
   FixedArray<bool, Map::max_inputs> live_;  // inputs that do
   // Of the only live input, from its anchor: within all limits.
   std::array<Scalar, 2> range_{};
-  int only_ = -1;
+  int only_ = 0;
   bool has_range_ = false;
   bool arrived_ = false;
   bool has_spare_ = false;
