@@ -187,7 +187,7 @@ class LoadFilter {
   static constexpr int old_age = 1024;
   /// Samples from one new line to the next, but for readings that surprise: by so many standard deviations.
   static constexpr std::int8_t pause = 3;
-  /// The same where readings wait, but for a mean whose square is beyond so many of its variances.
+  /// The same where readings wait, but for a drift whose square is beyond so many of its variances.
   static constexpr std::int8_t long_pause = 24;
   static constexpr Level suspicious = Level(0.5);
   static constexpr Level surprise = 2;
