@@ -77,7 +77,7 @@ class AffineMap {
     for (int k = 0; k < inputs(); ++k) make_column(laws, laws_times_moves, k);
     round();
     differentiate([&](const Moves& given, Tensions& follow, Moves& by) {
-      settle(laws, laws_times_moves, given, follow, by);
+      settle(laws, laws_times_moves, given, follow, by, 1);
     });
     return -1;
   }
@@ -203,10 +203,10 @@ class AffineMap {
 
   /// Lets the active moves follow until their laws are what is due.
   template <class Laws>
-  void settle(const Laws& laws, const Factors& laws_times_moves, const Moves& due, Tensions& T,
-              Moves& moves) const {
-    // The second pass takes out what the first one's rounding left.
-    for (int pass = 0; pass < 2 && active() > 0; ++pass) {
+  void settle(const Laws& laws, const Factors& laws_times_moves, const Moves& due, Tensions& T, Moves& moves,
+              int passes = 2) const {
+    // The second pass takes out what the first one's rounding left; derivatives do without.
+    for (int pass = 0; pass < passes && active() > 0; ++pass) {
       FixedArray<Real, max_active + 1> change;
       for (int i = 0; i < active(); ++i) change[i] = due[i] - laws.of(active_[i]).of(T);
       laws_times_moves.solve(change);
