@@ -39,7 +39,7 @@ class Noise {
 /// What the filter says, in standard deviations of a reading.
 struct Said {
   double load, sd, sure, turn;
-  bool turned, refused;
+  bool turned, refused, behind;
 };
 
 template <class Scalar>
@@ -54,7 +54,8 @@ class Bench {
             double(now.sure) / sigma,
             double(now.turn) / sigma,
             now.turned,
-            now.refused};
+            now.refused,
+            now.behind};
   }
 
  private:
@@ -98,8 +99,8 @@ Path random_path(Noise& noise) {
 }  // namespace
 
 TEST_CASE("the filter is small and can be stored byte by byte") {
-  // Four lines are 180 of them, sixteen readings that wait and their times 128, what follows them 44.
-  static_assert(sizeof(LoadFilter<float>) <= 408);
+  // Four lines are 180 of them, sixteen readings that wait and their times 128, what follows them 52.
+  static_assert(sizeof(LoadFilter<float>) <= 416);
   static_assert(std::is_trivially_copyable_v<LoadFilter<float>>);
   Noise noise(1);
   LoadFilter<float> filter, restored;
@@ -209,6 +210,29 @@ TEST_CASE("the sure load goes one way until it turns, and never turns short of w
     }
   }
   CHECK(turns > 300);
+}
+
+TEST_CASE("a load is behind if it has not come as far as it surely had, the way that it goes") {
+  int behind = 0, rows = 0;
+  for (int seed = 0; seed < 300; ++seed) {
+    CAPTURE(seed);
+    Noise noise(seed);
+    const Path path = random_path(noise);
+    Bench<double> bench;
+    double way = 1;
+    for (const double truth : path.load) {
+      const Said said = bench.take(truth + noise() + (noise.below(200) == 0 ? noise.between(-100, 100) : 0));
+      if (said.turned) way = -way;
+      const double further = way * (said.load - said.sure);
+      // In single precision it is told.
+      if (std::fabs(further) > 1e-4) REQUIRE(said.behind == (further < 0));
+      if (said.load == 0 && said.sure == 0) REQUIRE_FALSE(said.behind);
+      behind += said.behind ? 1 : 0;
+      ++rows;
+    }
+  }
+  CHECK(behind > rows / 100);
+  CHECK(behind < rows / 4);
 }
 
 TEST_CASE("a load that begins to rise after a hold is followed without lag") {

@@ -55,6 +55,7 @@ class Estimator {
   /// Turning points of every jack that friction is taken to remember.
   static constexpr int memories = 2;
   static constexpr int most_jacks = max_jacks<Cap>;
+  using Factors = FixedArray<Scalar, Cap::loads>;
   using Alarms = FixedList<Alarm, 8 + 4 * Cap::cables + Cap::joints + Cap::segments>;
 
   /// Begins without loads, with friction as it is known beforehand. Fails with `capacity_exceeded` if there
@@ -91,7 +92,7 @@ class Estimator {
       if (corners.any() || progress.events > 0) learned_ = 0;
       if (!progress.status || progress.fraction < 1) return progress;
     }
-    if (!far_.empty() && !may_have_turned()) measure_far_ends(readings);
+    if (!may_have_turned()) measure_far_ends(readings);
     for (int k = 0; has_more && k < jacks_.size(); ++k) {
       const EndReading<Scalar>& given = of_end(readings.ends, k);
       if (given.has_stroke) compare(k, given.stroke);
@@ -185,13 +186,12 @@ class Estimator {
   struct Cell {
     LoadFilter<Scalar> filter;
     ConditionedLoad<Scalar> at{};
-    Scalar since = 0;  // the reading before
+    Jack<Scalar> led{};  // where the tracker was led
+    Scalar since = 0;    // the reading before
     Scalar raw = 0;
     Scalar first = 0;   // the least load once there is one: which way things slide shows from then on
-    Scalar way = 1;     // that the load goes: up or down
     Scalar before = 0;  // standard deviation of the load a sample ago
-    bool is_new = false, is_behind = false;
-    bool locked = false, has_locked = false;
+    bool is_new = false, has_locked = false, locked = false;
     Scalar most_payout = 0;  // that it should have had so far
     std::uint8_t below = 0;  // locked: readings in a row that were surely below what the wedge holds
     // Unknown errors of where its load last turned or was locked; the oldest is forgotten next.
@@ -201,7 +201,7 @@ class Estimator {
   /// All that restore() needs to go on with the same bits, as Tracker::State.
   struct State {
     typename TrackerType::State tracker;
-    Sample<Scalar, Cap> drive;
+    Factors factor;
     FixedArray<Cell, most_jacks> cells;
     typename BeliefType::Values mean, at;
     typename BeliefType::Covariance covariance;
@@ -210,7 +210,7 @@ class Estimator {
   };
   /// Between two rows.
   State save() const {
-    return {tracker_.save(), drive_, cells_, belief_.mean(), at_, belief_.covariance(), gathered_, learned_};
+    return {tracker_.save(), factor_, cells_, belief_.mean(), at_, belief_.covariance(), gathered_, learned_};
   }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `bad_sample` if the state
   /// is none of this scene; then only start() or another restore() may follow.
@@ -218,7 +218,7 @@ class Estimator {
                  const AlarmLimits<Scalar>& limits = {}) {
     const Status known = begin(condensed, knowledge, limits);
     if (!known) return known;
-    drive_ = state.drive;
+    factor_ = state.factor;
     cells_ = state.cells;
     at_ = state.at;
     belief_.restore(state.mean, state.covariance);
@@ -266,7 +266,7 @@ class Estimator {
     mu_is_fine_ = false;
     tracker_.begin(condensed);
     for (int j = 0; j < Cap::joints; ++j) can_slide_[j] = j < condensed.joints && !condensed.is_locked(j);
-    drive_ = {};
+    factor_.fill(Scalar(0));
     for (int k = 0; k < jacks_.size(); ++k) {
       cells_[k] = {};
       cells_[k].filter.start(of_end(knowledge.sensor_sd, k));
@@ -391,7 +391,7 @@ class Estimator {
       cell.before = cell.at.sd;
       if (cell.locked) return;
       corners.locks = cell.has_locked = cell.locked = true;
-      cell.is_behind = false;
+      cell.at.behind = false;
       cell.filter.start(sd);
       cell.below = 0;
       return;
@@ -401,15 +401,11 @@ class Estimator {
     if (cell.locked) {
       cell.filter.start(sd);
       cell.at = {};
-      cell.way = 1;
       cell.locked = false;
     }
     cell.before = cell.at.sd;
-    const Scalar was_sure = cell.at.sure;
     // Placed there, not on the heap: a copy would read back at once what was just written in parts, and wait.
     new (&cell.at) ConditionedLoad<Scalar>(cell.filter.take(given.force, cell.since));
-    if (cell.at.sure != was_sure) cell.way = cell.at.sure > was_sure ? Scalar(1) : Scalar(-1);
-    cell.is_behind = (cell.at.load - cell.at.sure) * cell.way < 0;
     if (cell.first == 0 && cell.at.load > 0) cell.first = Scalar(1e-3) * sd;
     cell.since = 0;
     cell.raw = given.force;
@@ -431,13 +427,15 @@ class Estimator {
   bool goes_along(const Sample<Scalar, Cap>& given) {
     // With one jack alone the compiler knows what can change.
     if constexpr (most_jacks == 1 && Cap::loads == 0) {
-      if (jacks_.empty() || cells_[0].locked || !tracker_.goes_along(0, load_of(0))) return false;
+      if (jacks_.empty() || cells_[0].locked) return false;
+      const Scalar load = load_of(0);
+      if (!tracker_.goes_along(0, load)) return false;
+      cells_[0].led.force = load;
     } else {
       const Sample<Scalar, Cap> drive = where_to(given);
       if (!tracker_.goes_along(drive)) return false;
-      for (int i = 0; i < patterns(); ++i) drive_.factor[i] = drive.factor[i];
+      has_led(drive);
     }
-    for (int k = 0; k < jacks_.size(); ++k) of_end(drive_.jack, k).force = load_of(k);
     return true;
   }
   /// Follows the readings where more happens than that a load changes.
@@ -445,16 +443,23 @@ class Estimator {
                                               int event_budget) {
     Progress<Scalar> progress;
     if (corners.any()) progress = pass(corners, event_budget);
-    if (progress.status) {
-      drive_ = drive;
-      progress = join(progress, lead(drive_, event_budget));
-    }
-    if (!progress.status || progress.fraction < 1) stop_here();
+    Sample<Scalar, Cap> to = drive;
+    if (progress.status) progress = join(progress, lead(to, event_budget));
+    if (!progress.status || progress.fraction < 1)
+      stop_here();
+    else
+      has_led(to);
     return progress;
+  }
+  void has_led(const Sample<Scalar, Cap>& to) {
+    for (int i = 0; i < patterns(); ++i) factor_[i] = to.factor[i];
+    for (int k = 0; k < jacks_.size(); ++k) cells_[k].led = of_end(to.jack, k);
   }
   /// Leads the tracker to the loads that ends had when they were locked, then to where loads have turned.
   Progress<Scalar> pass(const Corners& corners, int event_budget) {
-    Sample<Scalar, Cap> corner = drive_;
+    Sample<Scalar, Cap> corner;
+    for (int i = 0; i < patterns(); ++i) corner.factor[i] = factor_[i];
+    for (int k = 0; k < jacks_.size(); ++k) of_end(corner.jack, k) = cells_[k].led;
     Progress<Scalar> progress;
     if (corners.locks) {
       for (int k = 0; k < jacks_.size(); ++k)
@@ -502,10 +507,10 @@ class Estimator {
   /// The tracker came to its end before the row.
   void stop_here() {
     const auto& loads = tracker_.loads();
-    for (int i = 0; i < model_->loads; ++i) drive_.factor[i] = static_cast<Scalar>(loads.factor[i]);
+    for (int i = 0; i < patterns(); ++i) factor_[i] = static_cast<Scalar>(loads.factor[i]);
     for (int k = 0; k < jacks_.size(); ++k) {
       const auto& at = of_end(loads.jack, k);
-      of_end(drive_.jack, k) = {static_cast<Scalar>(at.force), at.locked};
+      cells_[k].led = {static_cast<Scalar>(at.force), at.locked};
     }
   }
   static Progress<Scalar> join(const Progress<Scalar>& first, Progress<Scalar> then) {
@@ -515,7 +520,7 @@ class Estimator {
   }
   /// From where the tracker was led to the best estimate of the load [N].
   Scalar missing(int k) const { return cells_[k].locked ? Scalar(0) : cells_[k].at.load - led_to(k); }
-  Scalar led_to(int k) const { return of_end(drive_.jack, k).force; }
+  Scalar led_to(int k) const { return cells_[k].led.force; }
   template <bool HasDeviation>
   SegmentForce find(int segment) const {
     Scalar T = tracker_.tension(segment), variance = 0;
@@ -528,7 +533,7 @@ class Estimator {
       const Scalar part = slope * cell.at.sd;
       variance += part * part;
       // If it has turned, the force did not follow.
-      if (cell.is_behind) variance += further * further;
+      if (cell.at.behind) variance += further * further;
     }
     if (HasDeviation) {
       variance += belief_.variance_of([&](int p) {
@@ -577,7 +582,9 @@ class Estimator {
     learn(expect, readings_of_jacks(), {reading, sd, Scalar(0)}, sensor(end));
     count_learned(1);
   }
-  bool may_gather() const { return can_gather_ && room() > 1 && (cells_[0].is_new || cells_[0].locked); }
+  bool may_gather() const {
+    return (gathered_.size > 0 || (can_gather_ && room() > 1)) && (cells_[0].is_new || cells_[0].locked);
+  }
   /// For readings that are gathered. Soon after something has happened little is known, and what is learned
   /// is worth most.
   int room() const { return learned_ / 4; }
@@ -738,7 +745,7 @@ class Estimator {
   /// What slides and what sticks is in doubt then.
   bool may_have_turned() const {
     for (int k = 0; k < jacks_.size(); ++k)
-      if (cells_[k].is_behind) return true;
+      if (cells_[k].at.behind) return true;
     return false;
   }
   // What is odd.
@@ -810,7 +817,7 @@ class Estimator {
   const KnowledgeType* knowledge_ = nullptr;
   AlarmLimits<Scalar> limits_;
   TrackerType tracker_;
-  Sample<Scalar, Cap> drive_;                 // where the tracker was led
+  Factors factor_;                            // of the load patterns, where the tracker was led
   FixedList<CableEnd, most_jacks> jacks_;     // in the order in which the tracker counts them
   FixedList<CableEnd, 2 * Cap::cables> far_;  // anchored ends whose load cell is known
   FixedArray<Cell, most_jacks> cells_;

@@ -20,6 +20,7 @@ struct ConditionedLoad {
   bool turned = false;   ///< the load has turned since the sample before: the model goes to `turn` first
   Scalar turn = 0;       ///< best estimate of where [N], if it has
   bool refused = false;  ///< the reading was taken for an outlier
+  bool behind = false;   ///< the estimate has not come as far as `sure`: the load may have turned
 };
 
 /// Friction remembers every peak, those of noise too: fed with raw readings, a model is dragged along by
@@ -116,6 +117,8 @@ class LoadFilter {
     const Level variance = block_.variance() * taken / (taken + half);
     waits_sd_ = std::sqrt(larger(variance + beside_best_, Level(0)));
     waits_bent_ = age < young ? perhaps_bent : Level(0);
+    most_drift_ = disagree * disagree * block_.drift_variance;
+    most_innovation_ = doubt * doubt * block_.spread;
     return true;
   }
   ConditionedLoad<Scalar> wait(Scalar reading, Level dt) {
@@ -125,16 +128,15 @@ class LoadFilter {
     const Estimate estimate = {block_.level + off_best_, waits_sd_};
     const Level further = beyond_sure(estimate);
     // Not a number does not agree either.
-    const bool agrees =
-        square < disagree * disagree * block_.drift_variance && is_even && !has_turned(estimate, further);
-    const bool fits = innovation * innovation < doubt * doubt * block_.spread;
+    const bool agrees = square < most_drift_ && is_even && !has_turned(estimate, further);
+    const bool fits = innovation * innovation < most_innovation_;
     if (!agrees || !fits) return take_apart(agrees, fits && is_even);
     if (!block_.has_room()) return take_together(y, square > suspicious * block_.drift_variance);
     go_on(estimate, further, [&](Level way) {
       const Level share = block_.share();
       return larger(way * y - sure_mean, way * (block_.sum * share) - sure_mean * std::sqrt(share));
     });
-    return said({estimate.level, waits_sd_ + waits_bent_ * std::fabs(block_.drift)});
+    return said({estimate.level, waits_sd_ + waits_bent_ * std::fabs(block_.drift)}, further);
   }
   /// The readings that wait, and their mean as one; the last of them is `y`.
   [[gnu::noinline]] ConditionedLoad<Scalar> take_together(Level y, bool is_suspicious) {
@@ -180,6 +182,7 @@ class LoadFilter {
     else if (now.refused || ahead(sure_, told) > 0)
       set_sure(told);
     now.sure = sure_;
+    now.behind = ahead(sure_, now.load) < 0;
     return now;
   }
 
@@ -402,22 +405,27 @@ class LoadFilter {
     for (Level& weight : lines_.weight) weight = larger(least_weight, weight * unit);
     off_best_ = estimate.level - at(lines_.level, best_);
     beside_best_ = estimate.sd * estimate.sd - at(lines_.level_variance, best_);
-    ConditionedLoad<Scalar> now = said(estimate);
-    now.refused = !accepted;
+    ConditionedLoad<Scalar> now;
     if (accepted) {
       if (has_turned(estimate, beyond_sure(estimate))) turn_round(now);
       go_on(estimate, beyond_sure(estimate), [&](Level way) { return least_mean(estimate, way, y); });
     }
-    now.sure = sure_;
+    say(now, estimate, beyond_sure(estimate));
+    now.refused = !accepted;
     move_base();
     return now;
   }
-  ConditionedLoad<Scalar> said(const Estimate& estimate) const {
+  ConditionedLoad<Scalar> said(const Estimate& estimate, Level further) const {
     ConditionedLoad<Scalar> now;
+    say(now, estimate, further);
+    return now;
+  }
+  void say(ConditionedLoad<Scalar>& now, const Estimate& estimate, Level further) const {
     now.load = force(estimate.level);
     now.sd = static_cast<Scalar>(estimate.sd) * sd_;
     now.sure = sure_;
-    return now;
+    // Below zero there is no load: both are zero then.
+    if (further < 0) now.behind = now.load != sure_;
   }
   /// How much further the load probably is than it surely is, as it goes at present.
   Level beyond_sure(const Estimate& estimate) const { return way_ * (estimate.level - sure_level_); }
@@ -436,13 +444,20 @@ class LoadFilter {
   Estimate estimate_load(Level all) const {
     const int hold = long_hold(all);
     const Level from = at(lines_.level, hold < 0 ? best_ : hold);
+    // Side by side, then in a row: sums have an order.
+    typename Lines::Lanes weights, means, squares;
+    for (std::size_t i = 0; i < Lines::capacity; ++i) {
+      const Level d = lines_.level[i] - from;
+      const Level given = lines_.weight[i], weight = std::fabs(d) > apart ? Level(0) : given;
+      weights[i] = weight;
+      means[i] = weight * d;
+      squares[i] = weight * (d * d + lines_.level_variance[i]);
+    }
     Level total = 0, mean = 0, square = 0;
     for (int i = 0; i < Lines::capacity; ++i) {
-      const Level d = at(lines_.level, i) - from;
-      const Level weight = std::fabs(d) > apart ? Level(0) : at(lines_.weight, i);
-      total += weight;
-      mean += weight * d;
-      square += weight * (d * d + at(lines_.level_variance, i));
+      total += at(weights, i);
+      mean += at(means, i);
+      square += at(squares, i);
     }
     const Level unit = 1 / total;
     if (hold >= 0) return {from, std::sqrt(square * unit)};
@@ -500,13 +515,14 @@ class LoadFilter {
   Level sure_level_ = 0;
   // The estimate less the level of the best line, its variance less that of this line.
   Level off_best_ = 0, beside_best_ = 0;
-  Level waits_sd_ = 0;           // standard deviation of the estimate while readings wait
-  Level waits_bent_ = 0;         // and its growth with their drift
-  Level step_ = 0;               // the last one
-  Level way_ = 1;                // that the load goes: up or down
-  std::int8_t best_ = 0;         // of the lines, the most likely
-  std::int8_t since_birth_ = 0;  // samples since a line began
-  std::int8_t calm_ = 0;         // samples without surprise
+  Level waits_sd_ = 0;                          // standard deviation of the estimate while readings wait
+  Level waits_bent_ = 0;                        // and its growth with their drift
+  Level most_drift_ = 0, most_innovation_ = 0;  // their squares, as long as readings agree
+  Level step_ = 0;                              // the last one
+  Level way_ = 1;                               // that the load goes: up or down
+  std::int8_t best_ = 0;                        // of the lines, the most likely
+  std::int8_t since_birth_ = 0;                 // samples since a line began
+  std::int8_t calm_ = 0;                        // samples without surprise
 };
 
 }  // namespace taut
