@@ -183,56 +183,54 @@ TEST_CASE("times that are not even are allowed for: a ramp is followed without l
   CHECK(std::sqrt(square / samples) < 1.2 * std::sqrt(of_even / samples));
 }
 
-TEST_CASE("the sure load goes one way until it turns, and never turns short of where it had surely been") {
-  int turns = 0;
+/// Calls check(what the filter says, what it said before, the way that the load went until then: up or down)
+/// at every sample of 300 random logs with outliers.
+template <class Check>
+void follow_random_logs(const Check& check) {
   for (int seed = 0; seed < 300; ++seed) {
     CAPTURE(seed);
     Noise noise(seed);
     const Path path = random_path(noise);
     Bench<double> bench;
-    double sure = 0;
-    bool falls = false, was_refused = false;
+    Said before{};
+    double way = 1;
     for (const double truth : path.load) {
-      const bool is_outlier = !was_refused && noise.below(200) == 0;
+      const bool is_outlier = !before.refused && noise.below(200) == 0;
       const Said said = bench.take(truth + noise() + (is_outlier ? noise.between(-100, 100) : 0));
-      was_refused = said.refused;
-      const double way = falls ? -1 : 1;
-      if (said.turned) {
-        REQUIRE(way * (said.turn - sure) >= 0);
-        REQUIRE(way * (said.turn - said.sure) >= 0);
-        falls = !falls;
-        ++turns;
-      } else {
-        REQUIRE(way * (said.sure - sure) >= 0);
-        if (said.refused) REQUIRE(said.sure == sure);
-      }
-      sure = said.sure;
+      check(said, before, way);
+      if (said.turned) way = -way;
+      before = said;
     }
   }
+}
+
+TEST_CASE("the sure load goes one way until it turns, and never turns short of where it had surely been") {
+  int turns = 0;
+  follow_random_logs([&](const Said& said, const Said& before, double way) {
+    if (said.turned) {
+      REQUIRE(way * (said.turn - before.sure) >= 0);
+      REQUIRE(way * (said.turn - said.sure) >= 0);
+      ++turns;
+    } else {
+      REQUIRE(way * (said.sure - before.sure) >= 0);
+      if (said.refused) REQUIRE(said.sure == before.sure);
+    }
+  });
   CHECK(turns > 300);
 }
 
 TEST_CASE("a load is behind if it has not come as far as it surely had, the way that it goes") {
-  int behind = 0, rows = 0;
-  for (int seed = 0; seed < 300; ++seed) {
-    CAPTURE(seed);
-    Noise noise(seed);
-    const Path path = random_path(noise);
-    Bench<double> bench;
-    double way = 1;
-    for (const double truth : path.load) {
-      const Said said = bench.take(truth + noise() + (noise.below(200) == 0 ? noise.between(-100, 100) : 0));
-      if (said.turned) way = -way;
-      const double further = way * (said.load - said.sure);
-      // In single precision it is told.
-      if (std::fabs(further) > 1e-4) REQUIRE(said.behind == (further < 0));
-      if (said.load == 0 && said.sure == 0) REQUIRE_FALSE(said.behind);
-      behind += said.behind ? 1 : 0;
-      ++rows;
-    }
-  }
-  CHECK(behind > rows / 100);
-  CHECK(behind < rows / 4);
+  int behind = 0, samples = 0;
+  follow_random_logs([&](const Said& said, const Said&, double way) {
+    const double further = (said.turned ? -way : way) * (said.load - said.sure);
+    // The filter compares in single precision.
+    if (std::fabs(further) > 1e-4) REQUIRE(said.behind == (further < 0));
+    if (said.load == 0 && said.sure == 0) REQUIRE_FALSE(said.behind);
+    behind += said.behind ? 1 : 0;
+    ++samples;
+  });
+  CHECK(behind > samples / 100);
+  CHECK(behind < samples / 4);
 }
 
 TEST_CASE("a load that begins to rise after a hold is followed without lag") {
