@@ -434,7 +434,7 @@ class Estimator {
     } else {
       const Sample<Scalar, Cap> drive = where_to(given);
       if (!tracker_.goes_along(drive)) return false;
-      has_led(drive);
+      arrive(drive);
     }
     return true;
   }
@@ -448,12 +448,13 @@ class Estimator {
     if (!progress.status || progress.fraction < 1)
       stop_here();
     else
-      has_led(to);
+      arrive(to);
     return progress;
   }
-  void has_led(const Sample<Scalar, Cap>& to) {
-    for (int i = 0; i < patterns(); ++i) factor_[i] = to.factor[i];
-    for (int k = 0; k < jacks_.size(); ++k) cells_[k].led = of_end(to.jack, k);
+  /// The tracker has been led there.
+  void arrive(const Sample<Scalar, Cap>& there) {
+    for (int i = 0; i < patterns(); ++i) factor_[i] = there.factor[i];
+    for (int k = 0; k < jacks_.size(); ++k) cells_[k].led = of_end(there.jack, k);
   }
   /// Leads the tracker to the loads that ends had when they were locked, then to where loads have turned.
   Progress<Scalar> pass(const Corners& corners, int event_budget) {
@@ -582,6 +583,7 @@ class Estimator {
     learn(expect, readings_of_jacks(), {reading, sd, Scalar(0)}, sensor(end));
     count_learned(1);
   }
+  /// With a load to go by; what has begun goes on.
   bool may_gather() const {
     return (gathered_.size > 0 || (can_gather_ && room() > 1)) && (cells_[0].is_new || cells_[0].locked);
   }
