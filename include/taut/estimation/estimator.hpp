@@ -446,15 +446,19 @@ class Estimator {
     Sample<Scalar, Cap> to = drive;
     if (progress.status) progress = join(progress, lead(to, event_budget));
     if (!progress.status || progress.fraction < 1)
-      stop_here();
+      arrive(tracker_.loads());
     else
       arrive(to);
     return progress;
   }
-  /// The tracker has been led there.
-  void arrive(const Sample<Scalar, Cap>& there) {
-    for (int i = 0; i < patterns(); ++i) factor_[i] = there.factor[i];
-    for (int k = 0; k < jacks_.size(); ++k) cells_[k].led = of_end(there.jack, k);
+  /// The tracker has come to these loads: those of a row, or its own where it came to its end before.
+  template <class Loads>
+  void arrive(const Loads& loads) {
+    for (int i = 0; i < patterns(); ++i) factor_[i] = static_cast<Scalar>(loads.factor[i]);
+    for (int k = 0; k < jacks_.size(); ++k) {
+      const auto& at = of_end(loads.jack, k);
+      cells_[k].led = {static_cast<Scalar>(at.force), at.locked};
+    }
   }
   /// Leads the tracker to the loads that ends had when they were locked, then to where loads have turned.
   Progress<Scalar> pass(const Corners& corners, int event_budget) {
@@ -504,15 +508,6 @@ class Estimator {
       return false;
     jack[more].force = jack[less].force / carried;
     return true;
-  }
-  /// The tracker came to its end before the row.
-  void stop_here() {
-    const auto& loads = tracker_.loads();
-    for (int i = 0; i < patterns(); ++i) factor_[i] = static_cast<Scalar>(loads.factor[i]);
-    for (int k = 0; k < jacks_.size(); ++k) {
-      const auto& at = of_end(loads.jack, k);
-      cells_[k].led = {static_cast<Scalar>(at.force), at.locked};
-    }
   }
   static Progress<Scalar> join(const Progress<Scalar>& first, Progress<Scalar> then) {
     then.events += first.events;

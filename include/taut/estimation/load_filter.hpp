@@ -136,7 +136,9 @@ class LoadFilter {
       const Level share = block_.share();
       return larger(way * y - sure_mean, way * (block_.sum * share) - sure_mean * std::sqrt(share));
     });
-    return said({estimate.level, waits_sd_ + waits_bent_ * std::fabs(block_.drift)}, further);
+    ConditionedLoad<Scalar> now;
+    say(now, {estimate.level, waits_sd_ + waits_bent_ * std::fabs(block_.drift)}, further);
+    return now;
   }
   /// The readings that wait, and their mean as one; the last of them is `y`.
   [[gnu::noinline]] ConditionedLoad<Scalar> take_together(Level y, bool is_suspicious) {
@@ -413,11 +415,6 @@ class LoadFilter {
     say(now, estimate, beyond_sure(estimate));
     now.refused = !accepted;
     move_base();
-    return now;
-  }
-  ConditionedLoad<Scalar> said(const Estimate& estimate, Level further) const {
-    ConditionedLoad<Scalar> now;
-    say(now, estimate, further);
     return now;
   }
   void say(ConditionedLoad<Scalar>& now, const Estimate& estimate, Level further) const {
