@@ -71,16 +71,16 @@ struct Sizes {
     static constexpr std::size_t bytes = sizeof(Tracker<Condensed<Scalar, Cap>>);
   };
 
-  // The large variables that live at once while Lemke's method factors, eight rows of tensions on the way
-  // there, and a kilobyte for all calls.
+  // The large variables that live at once while the modes are decided, four rows of tensions and moves for a
+  // direction, and a kilobyte for all calls.
   template <class Cap>
   struct OfStack {
     using Model = Condensed<Scalar, Cap>;
-    using Rates = Sliding<Model>;
-    static constexpr std::size_t bytes =
-        sizeof(Rates) + sizeof(BandLu<typename Model::Real, Rates::max_active + 1>) +
-        sizeof(typename Rates::Actives) + sizeof(typename Rates::Candidates) +
-        sizeof(typename Tracker<Model>::Moving) + 8 * sizeof(typename Rates::Tensions) + 1024;
+    using Solver = ModeSolver<Model, typename Tracker<Model>::Laws>;
+    static constexpr std::size_t bytes = sizeof(Solver) + 2 * sizeof(FixedList<Candidate, 2 * Cap::joints>) +
+                                         sizeof(typename Tracker<Model>::Moving) +
+                                         8 * sizeof(typename Solver::Tensions) +
+                                         8 * sizeof(typename Solver::Moves) + 1024;
   };
 
   template <bool IsRigid>

@@ -292,6 +292,8 @@ std::string failure_remedy(const Status& status) {
                                           : "add a strut, a support or a substructure that holds it";
     case Code::pulled_through:
       return "bring the jack forces closer together, or anchor one end";
+    case Code::gives_way:
+      return "hold the node of this joint sideways (a second strut, a substructure), or stay below this load";
     case Code::state_iterations:
       return "divide the path: add rows in between, or use --method stepwise with --substeps";
     case Code::ill_conditioned:

@@ -30,6 +30,7 @@ enum class Code : std::uint8_t {
   // The scene has no answer at this load.
   mechanism,         ///< nothing holds this node: add a strut, a support or a substructure
   pulled_through,    ///< two jack forces differ by more than all friction between them
+  gives_way,         ///< friction at this joint holds no longer: the structure would jump to a state far away
   state_iterations,  ///< the joint states do not settle; `place` is a joint that keeps flipping
   ill_conditioned,   ///< equilibrium is not reached in this scalar type: use double
 };
@@ -112,6 +113,8 @@ constexpr const char* describe(Code code) {
       return "mechanism: nothing holds this node";
     case Code::pulled_through:
       return "the cable is pulled through: the jack forces differ by more than all friction";
+    case Code::gives_way:
+      return "friction gives way: the structure would jump to a state far away";
     case Code::state_iterations:
       return "the joint states do not settle";
     case Code::ill_conditioned:

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <type_traits>
 
-#include "taut/numerics/band_lu.hpp"
 #include "taut/numerics/larger.hpp"
-#include "taut/tracking/moves.hpp"
+#include "taut/tracking/active_set.hpp"
 
 namespace taut {
 
@@ -15,7 +14,7 @@ namespace taut {
 /// Made from totals whenever the set of active moves changes: with R the laws' coefficients, W the columns of
 /// the moves, T0 the tensions at the anchor and s what the laws are to be, the moves change by
 /// m = (R W)^-1 (s - R T0), and T = T0 + W m.
-template <class CondensedType>
+template <class CondensedType, class Laws>
 class AffineMap {
  public:
   using Scalar = typename CondensedType::Scalar;
@@ -23,49 +22,41 @@ class AffineMap {
   using Cap = typename CondensedType::Capacity;
   static constexpr int max_active = max_active_moves<Cap>;
   static constexpr int max_inputs = Cap::loads + max_jacks<Cap> + 1;
+  using Set = ActiveSet<CondensedType, Laws>;
   using Tensions = FixedArray<Real, Cap::segments>;
   using Moves = FixedArray<Real, max_active>;
   using Inputs = FixedArray<Real, max_inputs>;
   /// The same in the scene's scalar.
   using Rounded = FixedArray<Scalar, Cap::segments>;
 
-  void clear(const CondensedType& model) {
+  /// Empties the map. The model must outlive it.
+  void begin(const CondensedType& model) {
     model_ = &model;
-    active_.clear();
+    set_.begin(model);
     inputs_.clear();
     has_slack_ = false;
   }
-  void add(const Active& active) {
-    active_.add(active);
-    has_slack_ = has_slack_ || active.move.kind == Move::Kind::excess;
-  }
+  void clear_inputs() { inputs_.clear(); }
   void add_input(Input::Kind kind, int index) { inputs_.add({kind, static_cast<std::int16_t>(index)}); }
 
-  int active() const { return active_.size(); }
-  const Move& move(int i) const { return active_[i].move; }
-  const FixedList<Active, max_active>& actives() const { return active_; }
+  /// The moves at work; whoever changes them makes the map anew.
+  Set& set() { return set_; }
+  bool is_held() const { return set_.is_held(); }
+  int active() const { return set_.size(); }
+  const Move& move(int i) const { return set_[i].move; }
+  const typename Set::Actives& actives() const { return set_.actives(); }
   int inputs() const { return inputs_.size(); }
   const Input& input(int k) const { return inputs_[k]; }
   bool has_slack() const { return has_slack_; }
 
-  /// Makes the map. `laws` are those of the joints, `T` the tensions of all moves as they are at the anchor,
-  /// `moves` the active ones, `anchor` the inputs. Returns -1, or an active move that changes no law: nothing
-  /// resists it. differentiate(settle) is called last: settle(due, T, moves) lets the active moves follow
-  /// until their laws are what is due.
-  template <class Laws, class Differentiate>
-  int make(const Laws& laws, const Tensions& T, const Moves& moves, const Inputs& anchor,
-           Differentiate differentiate) {
-    const int n = active();
-    Factors laws_times_moves;
-    laws_times_moves.reset(n, n > 0 ? n - 1 : 0);
-    for (int i = 0; i < n; ++i) {
-      const Law<Real> law = laws.of(active_[i]);
-      for (int k = 0; k < n; ++k) laws_times_moves.add(i, k, resistance(*model_, law, active_[k].move));
-      laws_times_moves.set_column_scale(i, Real(1) / stiffness(i));
-    }
-    const int loose = laws_times_moves.factor();
-    if (loose >= 0) return loose;
-
+  /// Makes the map for the moves of the set. `T` are the tensions of all moves as they are at the anchor,
+  /// `moves` the active ones, `anchor` the inputs. differentiate(settle) is called last: settle(due, T,
+  /// moves) lets the active moves follow until their laws are what is due.
+  template <class Differentiate>
+  void make(const Laws& laws, const Tensions& T, const Moves& moves, const Inputs& anchor,
+            Differentiate differentiate) {
+    has_slack_ = false;
+    for (const Active& active : actives()) has_slack_ = has_slack_ || active.move.kind == Move::Kind::excess;
     anchor_ = anchor;
     base_ = T;
     base_moves_ = moves;
@@ -73,13 +64,11 @@ class AffineMap {
     due.fill(Real(0));
     for (int k = 0; k < inputs(); ++k)
       if (inputs_[k].kind == Input::Kind::jack_force) due[row_of_jack(inputs_[k].index)] = anchor[k];
-    settle(laws, laws_times_moves, due, base_, base_moves_);
-    for (int k = 0; k < inputs(); ++k) make_column(laws, laws_times_moves, k);
+    set_.settle(laws, due, base_, base_moves_, most_passes);
+    for (int k = 0; k < inputs(); ++k) make_column(laws, k);
     round();
-    differentiate([&](const Moves& given, Tensions& follow, Moves& by) {
-      settle(laws, laws_times_moves, given, follow, by, 1);
-    });
-    return -1;
+    differentiate(
+        [&](const Moves& given, Tensions& follow, Moves& by) { set_.settle(laws, given, follow, by); });
   }
 
   const Tensions& base() const { return base_; }
@@ -112,10 +101,7 @@ class AffineMap {
     return rate;
   }
   /// What an elongation by an active move is in its own segment [N/m].
-  Real stiffness(int i) const {
-    const int segment = active_[i].move.lengthened;
-    return model_->coupling(segment, segment);
-  }
+  Real stiffness(int i) const { return set_.stiffness(i); }
 
   /// Whether every move keeps the sign it must have when input `k` alone grows, or shrinks.
   bool keeps(int k, bool up) const { return up ? keeps_if_up_[k] : keeps_if_down_[k]; }
@@ -126,14 +112,13 @@ class AffineMap {
     return true;
   }
   bool goes_on(int i, const Inputs& dx, Real tolerance) const {
-    return static_cast<Real>(active_[i].sense) * move_rate(i, dx) * stiffness(i) >= -tolerance;
+    return static_cast<Real>(set_[i].sense) * move_rate(i, dx) * stiffness(i) >= -tolerance;
   }
   /// By how much tensions at `x` miss the laws of the active moves [N]: more than rounding if Real has too
   /// few digits.
-  template <class Laws>
   Real law_violation(const Laws& laws, const Tensions& T, const Inputs& x) const {
     Moves off;
-    for (int i = 0; i < active(); ++i) off[i] = laws.of(active_[i]).of(T);
+    for (int i = 0; i < active(); ++i) off[i] = laws.of(set_[i]).of(T);
     for (int k = 0; k < inputs(); ++k)
       if (inputs_[k].kind == Input::Kind::jack_force) off[row_of_jack(inputs_[k].index)] -= x[k];
     Real most = 0;
@@ -164,8 +149,7 @@ class AffineMap {
 
  private:
   static constexpr bool is_wide = std::is_same<Real, Scalar>::value;
-  // One more than there are moves: the size that finding what slides needs, so that there is one kind.
-  using Factors = BandLu<Real, max_active + 1>;
+  static constexpr int most_passes = 8;
 
   void round() {
     if constexpr (!is_wide) {
@@ -175,8 +159,7 @@ class AffineMap {
   }
 
   /// Tensions that a unit of an input makes.
-  template <class Laws>
-  void make_column(const Laws& laws, const Factors& laws_times_moves, int k) {
+  void make_column(const Laws& laws, int k) {
     Tensions& column = column_[k];
     column.fill(Real(0));
     const Input& input = inputs_[k];
@@ -192,36 +175,15 @@ class AffineMap {
     }
     if (input.kind == Input::Kind::jack_force) due[row_of_jack(input.index)] = 1;
     column_moves_[k].fill(Real(0));
-    settle(laws, laws_times_moves, due, column, column_moves_[k]);
+    set_.settle(laws, due, column, column_moves_[k], most_passes);
     keeps_if_up_[k] = keeps_if_down_[k] = true;
     for (int i = 0; i < active(); ++i) {
-      const Real along = static_cast<Real>(active_[i].sense) * column_moves_[k][i];
+      const Real along = static_cast<Real>(set_[i].sense) * column_moves_[k][i];
       keeps_if_up_[k] = keeps_if_up_[k] && along >= 0;
       keeps_if_down_[k] = keeps_if_down_[k] && along <= 0;
     }
   }
 
-  /// Lets the active moves follow until their laws are what is due.
-  template <class Laws>
-  void settle(const Laws& laws, const Factors& laws_times_moves, const Moves& due, Tensions& T, Moves& moves,
-              int passes = 2) const {
-    // The second pass takes out what the first one's rounding left; derivatives do without.
-    for (int pass = 0; pass < passes && active() > 0; ++pass) {
-      FixedArray<Real, max_active + 1> change;
-      for (int i = 0; i < active(); ++i) change[i] = due[i] - laws.of(active_[i]).of(T);
-      laws_times_moves.solve(change);
-      Tensions e;
-      e.fill(Real(0));
-      for (int i = 0; i < active(); ++i) {
-        moves[i] += change[i];
-        active_[i].move.impose(change[i], e);
-      }
-      model_->coupling.add(model_->segments, e, T);
-    }
-    // What a law gives outright has no rounding.
-    for (int i = 0; i < active(); ++i)
-      if (!active_[i].slides()) T[active_[i].on] = due[i];
-  }
   int row_of_jack(int index) const {
     for (int i = 0; i < active(); ++i)
       if (move(i).kind == Move::Kind::payout && move(i).index == index) return i;
@@ -229,7 +191,7 @@ class AffineMap {
   }
 
   const CondensedType* model_ = nullptr;
-  FixedList<Active, max_active> active_;
+  Set set_;
   FixedList<Input, max_inputs> inputs_;
   Inputs anchor_;
   Tensions base_;

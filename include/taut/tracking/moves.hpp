@@ -48,8 +48,9 @@ struct Law {
 /// keeps T_small = rho T_big.
 struct Active {
   Move move;
-  std::int16_t on = 0;    ///< -1: a joint that slides
-  std::int8_t sense = 0;  ///< of sliding: the sign that its rate must have; else 0
+  std::int16_t on = 0;     ///< -1: a joint that slides
+  std::int8_t sense = 0;   ///< of sliding: the sign that its rate must have; 0 if it has none
+  std::int16_t pair = -1;  ///< of the complementarity problem in which it entered, or -1
 
   bool slides() const { return on < 0; }
   /// T_big of a joint that slides.
@@ -72,9 +73,9 @@ struct Moving {
   }
 };
 
-/// As many as there can be: all slips and excess lengths of slack runs, and the jacks.
+/// As many as there can be: their laws are linear in the tensions, and no more of them are independent.
 template <class Cap>
-constexpr int max_active_moves = Cap::segments + max_jacks<Cap>;
+constexpr int max_active_moves = Cap::segments;
 
 /// Something outside that changes along a path.
 struct Input {
@@ -138,8 +139,10 @@ class JointLaws {
   void set_rho(int joint, Real rho) { rho_[joint] = rho; }
   Active sliding(const Candidate& candidate) const {
     return {slip(candidate.joint), -1,
-            static_cast<std::int8_t>(candidate.way == JointState::forward ? 1 : -1)};
+            static_cast<std::int8_t>(candidate.way == JointState::forward ? 1 : -1), -1};
   }
+  /// A joint without friction slides both ways.
+  Active gliding(int joint) const { return {slip(joint), -1, 0, -1}; }
   Law<Real> of(const Active& active) const {
     if (!active.slides()) return Law<Real>::on(active.on);
     return limit({active.move.index, active.sense > 0 ? JointState::forward : JointState::backward});

@@ -14,13 +14,13 @@ namespace taut {
 /// joint that sticks keeps the derivative of its slip. Where sliding ends at an event, that is at a load that
 /// itself depends on friction, the derivative jumps by the rate of slip times the derivative of that load.
 /// Like tensions, derivatives are affine in the inputs while no state changes.
-template <class CondensedType, int Parameters>
+template <class CondensedType, class Laws, int Parameters>
 class Sensitivity {
  public:
   using Scalar = typename CondensedType::Scalar;
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
-  using Map = AffineMap<CondensedType>;
+  using Map = AffineMap<CondensedType, Laws>;
   using Tensions = typename Map::Tensions;
   using Moves = typename Map::Moves;
   using Inputs = typename Map::Inputs;
@@ -42,6 +42,7 @@ class Sensitivity {
     parameter_[joint] = static_cast<std::int16_t>(parameter);
     slope_[joint] = slope;
   }
+  bool depends(int joint) const { return parameter_[joint] >= 0; }
   const Frozen& frozen() const { return frozen_; }
   void set_frozen(const Frozen& frozen) { frozen_ = frozen; }
   /// Calls change(derivatives of all that has moved) for every parameter.
@@ -171,8 +172,8 @@ class Sensitivity {
 };
 
 /// Of a tracker whose friction is known: nothing is carried, and nothing done for it.
-template <class CondensedType>
-class Sensitivity<CondensedType, 0> {
+template <class CondensedType, class Laws>
+class Sensitivity<CondensedType, Laws, 0> {
  public:
   struct Frozen {};
 };

@@ -10,8 +10,8 @@
 #include "taut/scene/runs.hpp"
 #include "taut/status.hpp"
 #include "taut/tracking/affine_map.hpp"
+#include "taut/tracking/mode_solver.hpp"
 #include "taut/tracking/sensitivity.hpp"
-#include "taut/tracking/sliding.hpp"
 
 namespace taut {
 
@@ -43,8 +43,9 @@ class Tracker {
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
   using Loads = Drive<Real, Cap>;
-  using Map = AffineMap<CondensedType>;
-  using Derivatives = Sensitivity<CondensedType, Parameters>;
+  using Laws = JointLaws<CondensedType, (Parameters > 0)>;
+  using Map = AffineMap<CondensedType, Laws>;
+  using Derivatives = Sensitivity<CondensedType, Laws, Parameters>;
   using Moving = taut::Moving<Real, Cap>;
   using Tensions = typename Map::Tensions;
   /// Events in one call. Of 300,000 random logs none reached it.
@@ -56,7 +57,9 @@ class Tracker {
     Loads now, goal, built;
     Moving moved;
     FixedArray<JointState, Cap::joints> slides;
+    FixedList<std::int16_t, Cap::joints> order;  ///< joints that slide, as they began
     FixedArray<bool, Cap::segments> slack, rests;
+    FixedArray<std::int16_t, Cap::segments> representative;
     FixedArray<bool, Cap::loads> has_load;
     FixedArray<bool, Map::max_inputs> live;
     FixedArray<Real, Map::max_inputs> last;
@@ -84,6 +87,7 @@ class Tracker {
     for (int j = 0; j < joints(); ++j) rho_[j] = static_cast<Scalar>(laws_.rho(j));
     moved_ = {};
     slides_ = {};
+    order_.clear();
     last_ = {};
     slack_ = {};
     rests_ = {};
@@ -95,7 +99,10 @@ class Tracker {
     has_load_ = {};
     goal_.prestrain = 1;
     find_spare();
-    map_.clear(condensed);
+    map_.begin(condensed);
+    drop_set();
+    for (int r = 0; r < runs_.size(); ++r)
+      representative_[r] = static_cast<std::int16_t>(runs_[r].segment(0));
     if constexpr (is_adjustable) derivatives_.begin();
     drop_map();
     peak_ = 0;
@@ -116,8 +123,10 @@ class Tracker {
     state.built = built_;
     state.moved = moved_;
     state.slides = slides_;
+    state.order = order_;
     state.slack = slack_;
     state.rests = rests_;
+    state.representative = representative_;
     state.has_load = has_load_;
     state.live = live_;
     state.last = last_;
@@ -141,14 +150,16 @@ class Tracker {
     now_ = state.built;
     moved_ = state.moved;
     slides_ = state.slides;
+    order_ = state.order;
     slack_ = state.slack;
     rests_ = state.rests;
+    representative_ = state.representative;
     has_load_ = state.has_load;
     peak_ = state.peak;
     if constexpr (is_adjustable) derivatives_.set_frozen(state);
     find_spare();
     const Status broken = Status::at(Code::bad_sample, Place::none, -1);
-    if (!(peak_ >= 0) || (state.has_map && make_map() >= 0)) return broken;
+    if (!(peak_ >= 0) || (state.has_map && !(set_up() && make_map()))) return broken;
     now_ = state.now;
     last_ = state.last;
     if (state.has_map)
@@ -199,9 +210,9 @@ class Tracker {
     if (!has_map_) return Status::success();
     freeze();
     derivatives_.for_each([&](const auto& derivative, int p) { shift(derivative, change[p]); });
-    drop_map();
+    drop_set();
     for (int count = 0; count <= joints(); ++count) {
-      if (make_map() >= 0) return at_joint(Code::mechanism, -1);
+      if (!set_up() || !make_map()) return at_joint(Code::mechanism, -1);
       find_forces();
       if (!put_on_edge()) break;
     }
@@ -334,7 +345,7 @@ class Tracker {
   using Rounded = typename Map::Rounded;
   using Given = FixedArray<Scalar, Map::max_inputs>;
   using States = FixedArray<JointState, Cap::joints>;
-  using Laws = JointLaws<CondensedType, (Parameters > 0)>;
+  using Spans = FixedArray<bool, Cap::segments>;
 
   static constexpr bool is_adjustable = Parameters > 0;
   static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
@@ -351,18 +362,6 @@ class Tracker {
     bool locked = false;  ///< as in the goal
   };
 
-  /// How rounding is allowed for when the states are decided.
-  struct Doubt {
-    Real width;        ///< times the tolerance
-    bool nearer_only;  ///< a joint under tension is at the nearer of its limits alone
-    bool may_rest;     ///< see find_resting()
-    int attempts;      ///< to find what slides
-  };
-  static constexpr Doubt no_doubt{1, false, true, 3};
-  static constexpr Doubt doubts[] = {{1, false, false, 3}, {1, true, true, 3},    {16, false, true, 3},
-                                     {16, true, true, 3},  {256, false, true, 3}, {256, true, true, 3},
-                                     {1, false, true, 64}};
-
   bool has_prestrain() const {
     for (int i = 0; i < model_->segments; ++i)
       if (model_->prestrain[i] != 0) return true;
@@ -370,7 +369,6 @@ class Tracker {
   }
 
   Real force_tolerance() const { return tolerance * peak_; }
-  Real equal() const { return doubt_.width * force_tolerance(); }
   bool is_slack(int segment) const { return slack_[runs_.of(segment)]; }
   /// Zero at compile time where the capacity is, so that no code for joints is left.
   int joints() const { return Cap::joints == 0 ? 0 : model_->joints; }
@@ -524,6 +522,11 @@ class Tracker {
     has_map_ = false;
     forget_range();
   }
+  /// Other moves are at work from here on.
+  void drop_set() {
+    is_set_up_ = false;
+    drop_map();
+  }
   /// Where one input alone changes, as in most samples: how far it may go from its anchor within all limits.
   /// Found when a second sample is like the first; from then on a sample asks for nothing else. Where none
   /// changes, as in a hold, that is not far.
@@ -558,7 +561,7 @@ class Tracker {
       }
     }
     for (int r = 0; r < runs_.size(); ++r) {
-      const int segment = runs_[r].segment(0);
+      const int segment = representative_[r];
       narrow(constant_[segment] - least_tension(r), column[segment]);
     }
   }
@@ -589,7 +592,7 @@ class Tracker {
         if (!are_joints_within(cable, T)) return false;
     }
     for (int r = 0; r < runs_.size(); ++r)
-      if (!(T[runs_[r].segment(0)] >= least_tension(r))) return false;
+      if (!(T[representative_[r]] >= least_tension(r))) return false;
     return true;
   }
   bool are_joints_within(const CableLayout<Scalar>& cable, const Rounded& T) const {
@@ -612,7 +615,7 @@ class Tracker {
   void set_limits() {
     margin_ = quick_tolerance * static_cast<Scalar>(peak_);
     for (int j = 0; j < joints(); ++j)
-      spare_[j] = slides_[j] == JointState::stick && can_slide(j) ? margin_ : -margin_;
+      spare_[j] = slides_[j] == JointState::stick && can_slide(j) && !glides(j) ? margin_ : -margin_;
     has_resting_ = false;
     for (int r = 0; r < runs_.size(); ++r) {
       may_be_zero_[r] = slack_[r] || is_jacked(runs_[r]);
@@ -642,7 +645,7 @@ class Tracker {
     // A jack that takes hold of a slack run draws it straight; its payout follows from its force.
     for (int r = 0; r < runs_.size(); ++r)
       if (slack_[r] && is_jacked(runs_[r])) draw_straight(r);
-    drop_map();
+    drop_set();
   }
 
   /// Takes the moves where they are, to make another map from.
@@ -676,6 +679,7 @@ class Tracker {
       for (const JointState way : {JointState::forward, JointState::backward})
         if (laws_.limit(Candidate::of(j, way)).of(force_) < -force_tolerance()) {
           slides_[j] = way;
+          order_.add(static_cast<std::int16_t>(j));
           any = true;
         }
     }
@@ -734,22 +738,51 @@ class Tracker {
 
   // The map.
 
-  /// Makes the map of the present state from totals; the moves must be frozen at it. Returns -1, or an active
-  /// move that nothing resists: then there is none.
-  int rebuild() {
+  /// Puts the moves of the present states at work, in their order. Where laws imply one another, a node is
+  /// held by its cables alone; weak springs then choose among its places, and forces do not depend on them.
+  bool set_up() {
+    is_set_up_ = add_all(Real(0)) || add_all(held_at_zero);
+    return is_set_up_;
+  }
+  bool add_all(Real held) {
+    map_.begin(*model_);
+    map_.set().hold(held);
+    return add_equalities() && add_slides();
+  }
+  /// What follows whatever happens: jacks, spans without tension, joints without friction.
+  bool add_equalities() {
+    for (const JackedEnd& jack : jacks_)
+      if (!add_jack(jack.cable, jack.end)) return false;
+    for (int r = 0; r < runs_.size(); ++r)
+      if (slack_[r] ? !add_slack_run(r) : rests_[r] && !add_resting_run(r)) return false;
+    // Where another law says the same already, there is nothing to add.
+    for (int j = 0; j < joints(); ++j)
+      if (glides(j) && can_slide(j)) static_cast<void>(map_.set().append(laws_, laws_.gliding(j)));
+    return true;
+  }
+  bool add_slides() {
+    for (const int j : order_)
+      if (!map_.set().append(laws_, laws_.sliding(Candidate::of(j, slides_[j])))) return false;
+    return true;
+  }
+  /// Whether the laws that imply one another agree; if not, a node is free.
+  bool is_held(bool totally) const {
+    if (!map_.is_held()) return true;
+    if (totally) return !(map_.law_violation(laws_, map_.base(), map_.anchor()) > Real(1e-9) * peak_);
+    Inputs dx;
+    directions(dx);
+    Tensions rate;
+    map_.tension_rates(dx, rate);
+    return !(map_.law_violation(laws_, rate, dx) > Real(1e-9) * larger(push_, peak_));
+  }
+  /// Makes the map of the moves at work from totals; they must be frozen at the present state.
+  bool rebuild() {
     for (int i = 0; i < model_->loads; ++i) has_load_[i] = now_.factor[i] != goal_.factor[i];
     return make_map();
   }
-  int make_map() {
-    map_.clear(*model_);
-    for (const JackedEnd& jack : jacks_) add_jack(jack.cable, jack.end);
-    for (int r = 0; r < runs_.size(); ++r)
-      if (slack_[r])
-        add_slack_run(r);
-      else if (rests_[r])
-        add_resting_run(r);
-    for (int j = 0; j < joints(); ++j)
-      if (slides_[j] != JointState::stick) map_.add(laws_.sliding(Candidate::of(j, slides_[j])));
+  bool make_map() {
+    map_.clear_inputs();
+    for (const JackedEnd& jack : jacks_) add_jack_input(jack.cable, jack.end);
     for (int i = 0; i < model_->loads; ++i)
       if (has_load_[i]) map_.add_input(Input::Kind::load, i);
     if (now_.prestrain != goal_.prestrain) map_.add_input(Input::Kind::prestrain, 0);
@@ -757,11 +790,10 @@ class Tracker {
     for (int i = 0; i < map_.active(); ++i) moves[i] = moved_.of(map_.move(i));
     Inputs x;
     values(now_, x);
-    const int loose =
-        map_.make(laws_, totals(), moves, x, [this](const auto& settle) { differentiate(settle); });
-    has_map_ = loose < 0;
+    map_.make(laws_, totals(), moves, x, [this](const auto& settle) { differentiate(settle); });
+    has_map_ = true;
     built_ = now_;
-    return loose;
+    return true;
   }
   template <class Settle>
   void differentiate(const Settle& settle) {
@@ -770,30 +802,32 @@ class Tracker {
     else
       static_cast<void>(settle);
   }
-  void add_jack(int c, std::size_t end) {
+  bool add_jack(int c, std::size_t end) {
+    if (goal_.jack[c][end].locked || is_spare(c, end)) return true;
+    const auto on = static_cast<std::int16_t>(model_->cables[c].end_segment(end));
+    return map_.set().append(laws_, {Map::payout_move(*model_, 2 * c + static_cast<int>(end)), on, 0, -1});
+  }
+  void add_jack_input(int c, std::size_t end) {
     const int index = 2 * c + static_cast<int>(end);
     const auto& start = now_.jack[c][end];
     const auto& goal = goal_.jack[c][end];
-    if (!goal.locked && !is_spare(c, end)) {
-      map_.add({Map::payout_move(*model_, index),
-                static_cast<std::int16_t>(model_->cables[c].end_segment(end)), 0});
-      map_.add_input(Input::Kind::jack_force, index);
-    }
+    if (!goal.locked && !is_spare(c, end)) map_.add_input(Input::Kind::jack_force, index);
     if (goal.locked && start.payout != goal.payout) map_.add_input(Input::Kind::payout, index);
   }
   /// Its tensions are zero; its slips and its excess length follow. A ring keeps the slip of one joint: it
   /// may turn freely.
-  void add_slack_run(int r) {
+  bool add_slack_run(int r) {
     const Run& run = runs_[r];
     for (int i = 0; i < run.count; ++i) {
       const bool last = i == run.count - 1;
-      map_.add({last ? Move::of(Move::Kind::excess, r, run.segment(0)) : laws_.slip(run.joint(i)),
-                static_cast<std::int16_t>(run.segment(i)), 0});
+      const Move move = last ? Move::of(Move::Kind::excess, r, run.segment(0)) : laws_.slip(run.joint(i));
+      if (!map_.set().append(laws_, {move, static_cast<std::int16_t>(run.segment(i)), 0, -1})) return false;
     }
+    return true;
   }
   /// Its jacks keep the end segments at zero, its slips all others. Between two jacks the cable may move as a
   /// whole; one joint keeps its place.
-  void add_resting_run(int r) {
+  bool add_resting_run(int r) {
     const Run& run = runs_[r];
     bool at_start = false, at_end = false;
     for (const JackedEnd& jack : jacks_) {
@@ -801,7 +835,10 @@ class Tracker {
       at_end = at_end || (pulls(jack, run) && jack.end == 1);
     }
     for (int i = at_start && at_end ? 1 : 0; i < run.joints(); ++i)
-      map_.add({laws_.slip(run.joint(i)), static_cast<std::int16_t>(run.segment(at_end ? i : i + 1)), 0});
+      if (!map_.set().append(laws_, {laws_.slip(run.joint(i)),
+                                     static_cast<std::int16_t>(run.segment(at_end ? i : i + 1)), 0, -1}))
+        return false;
+    return true;
   }
   /// Tensions from the present loads and everything that has moved.
   Tensions totals() const {
@@ -839,9 +876,16 @@ class Tracker {
     int stalled = 0;
     for (;;) {
       measure_path();
-      progress.status = decide_for_sure(ending.next);
+      progress.status = decide(ending);
       if constexpr (is_adjustable) derivatives_.pass();
       if (!progress.status) break;
+      if (has_gone_on_) {
+        has_gone_on_ = false;
+        find_forces();
+        ending = {};
+        if (++progress.events >= event_budget) break;
+        continue;
+      }
       Inputs dx;
       directions(dx);
       const Real step = piece(dx, ending);  // of what is left of the path
@@ -855,7 +899,7 @@ class Tracker {
       for (int i = 0; i < model_->segments; ++i) peak_ = larger(peak_, std::fabs(force_[i]));
       last_ = dx;
       if (map_.law_violation(laws_, force_, x) > Real(8) * force_tolerance())
-        progress.status = Status::at(Code::ill_conditioned, Place::none, -1);
+        progress.status = map_.is_held() ? free_node() : Status::at(Code::ill_conditioned, Place::none, -1);
       if (!progress.status || done) break;
       stalled = step > 0 ? 0 : stalled + 1;
       if (stalled > 8 + 4 * joints()) {
@@ -977,7 +1021,7 @@ class Tracker {
       ending = {next, static_cast<std::int16_t>(run), static_cast<std::int16_t>(excess), falling};
     };
     for (int j = 0; j < joints(); ++j) {
-      if (slides_[j] != JointState::stick || !can_slide(j)) continue;
+      if (slides_[j] != JointState::stick || !can_slide(j) || glides(j)) continue;
       for (const JointState way : {JointState::forward, JointState::backward}) {
         const Candidate candidate = Candidate::of(j, way);
         const Law<Real> limit = laws_.limit(candidate);
@@ -985,15 +1029,15 @@ class Tracker {
       }
     }
     for (int r = 0; r < runs_.size(); ++r) {
-      const int segment = runs_[r].segment(0);
+      const int segment = representative_[r];
       if (!slack_[r]) shorten(force_[segment], rate[segment], {}, r, -1);
     }
     Inputs x;
     values(now_, x);
     for (int i = 0; i < map_.active(); ++i)
       if (map_.move(i).kind == Move::Kind::excess)
-        shorten(map_.stiffness(i) * map_.active_move(i, x), map_.stiffness(i) * map_.move_rate(i, dx), {}, -1,
-                i);
+        shorten(map_.stiffness(i) * map_.active_move(i, x), map_.stiffness(i) * map_.move_rate(i, dx), {},
+                map_.move(i).index, i);
     return step;
   }
   /// How much later the piece would end if friction were other.
@@ -1002,7 +1046,7 @@ class Tracker {
     if (ending.excess >= 0)
       derivatives_.meet_move(map_, x, ending.excess, ending.falling);
     else if (ending.run >= 0)
-      derivatives_.meet(map_, x, force_, Law<Real>::on(runs_[ending.run].segment(0)), -1, ending.falling);
+      derivatives_.meet(map_, x, force_, Law<Real>::on(representative_[ending.run]), -1, ending.falling);
     else if (ending.next.joint >= 0)
       derivatives_.meet(map_, x, force_, laws_.limit(ending.next), ending.next.joint, ending.falling);
   }
@@ -1012,139 +1056,98 @@ class Tracker {
     return !model_->is_locked(joint) && !slack_[run] && !rests_[run];
   }
 
+  /// Without friction it slides both ways, and its law always holds.
+  bool glides(int joint) const {
+    if constexpr (is_adjustable)
+      if (derivatives_.depends(joint)) return false;
+    return !(laws_.rho(joint) < 1);
+  }
+
   // The states in the next piece.
 
-  /// Near zero and near two limits at once rounding has a say: if there is no answer, again with more, or
-  /// less, taken for equal.
-  Status decide_for_sure(const Candidate& next) {
-    doubt_ = no_doubt;
+  using Solver = ModeSolver<CondensedType, Laws>;
+  using Candidates = FixedList<Candidate, 2 * Cap::joints>;
+
+  /// Decides what sticks, slides and is slack from here on, and makes the map for it. `ending` is what ended
+  /// the piece before.
+  Status decide(const Ending& ending) {
+    free_joint_ = doubtful_joint_ = -1;
+    find_representatives();
     find_resting();
-    const Status status = decide(next);
-    if (status) return status;
-    for (const Doubt& doubt : doubts) {
-      doubt_ = doubt;
-      find_resting();
-      if (decide({})) return Status::success();
+    Spans zero;
+    const bool any_zero = find_zero(ending, zero);
+    const Candidates candidates = at_limit(ending.next, zero);
+    if (!any_zero) {
+      // Most often all goes on as it was.
+      if (has_map_ && ending.next.joint < 0 && is_consistent(candidates)) return Status::success();
+      freeze();
+      drop_map();
+      if ((is_set_up_ || set_up()) && go_on(candidates)) {
+        rebuild();
+        return Status::success();
+      }
+    } else {
+      freeze();
     }
-    return status;
+    drop_map();
+    return begin_anew(zero, candidates);
   }
-  /// Where all jacks of a run are at zero and stay there, friction has nothing to hold: no segment has
-  /// tension, and the cable moves over every joint as the structure does.
+  /// The segment with the largest tension stands for its span: behind many joints near to self-locking the
+  /// others are rounding.
+  void find_representatives() {
+    for (int r = 0; r < runs_.size(); ++r) {
+      int most = runs_[r].segment(0);
+      for (int i = 1; i < runs_[r].count; ++i)
+        if (force_[runs_[r].segment(i)] > force_[most]) most = runs_[r].segment(i);
+      representative_[r] = static_cast<std::int16_t>(most);
+    }
+  }
+  /// A jack at zero that stays there leaves its span slack: no segment has tension, the cable moves over
+  /// every joint as the structure does, and what is too long is the jack's.
   void find_resting() {
     for (int r = 0; r < runs_.size(); ++r) {
-      bool rests = doubt_.may_rest && is_jacked(runs_[r]);
-      const Real left = left_behind(runs_[r]);
-      for (int i = 0; i < runs_[r].count; ++i) rests = rests && force_[runs_[r].segment(i)] <= left;
+      bool rests = is_jacked(runs_[r]) && force_[representative_[r]] <= force_tolerance();
       for (const JackedEnd& jack : jacks_)
         if (pulls(jack, runs_[r]))
-          rests = rests && now_.jack[jack.cable][jack.end].force <= left &&
-                  goal_.jack[jack.cable][jack.end].force <= equal();
+          rests = rests && now_.jack[jack.cable][jack.end].force <= force_tolerance() &&
+                  goal_.jack[jack.cable][jack.end].force <= force_tolerance();
       if (rests == rests_[r]) continue;
       freeze();
       rests_[r] = rests;
-      drop_map();
-      for (int i = 0; rests && i < runs_[r].joints(); ++i) slides_[runs_[r].joint(i)] = JointState::stick;
+      drop_set();
+      for (int i = 0; rests && i < runs_[r].joints(); ++i) stop(runs_[r].joint(i));
     }
   }
-  /// What all joints of a run together hold against a force that is rounding.
-  Real left_behind(const Run& run) const {
-    Real carried = 1;
-    for (int i = 0; i < run.joints(); ++i) carried *= laws_.rho(run.joint(i));
-    const Real most = doubt_.width * doubt_.width * Real(1e-10) * peak_;
-    return larger(equal(), equal() < carried * most ? equal() / carried : most);
+  void stop(int joint) {
+    if (slides_[joint] == JointState::stick) return;
+    slides_[joint] = JointState::stick;
+    FixedList<std::int16_t, Cap::joints> others;
+    for (const std::int16_t each : order_)
+      if (each != joint) others.add(each);
+    order_ = others;
   }
-  /// Decides which joints slide and which runs are slack from here on, and makes the map for it. `next` is
-  /// the joint that ended the piece before.
-  ///
-  /// A run without tension is first asked whether it would go slack (its excess length grows), and only if
-  /// not what slides.
-  Status decide(const Candidate& next) {
-    FixedList<int, Cap::segments> asked;
-    for (int r = 0; r < runs_.size(); ++r)
-      if (is_without_tension(r)) asked.add(r);
-    if (asked.empty()) return decide_slides(next);
-    freeze();
-    // All combinations of a few, slack first; of many, those that contradict themselves change.
-    const bool few = asked.size() <= 5;
-    const int tries = few ? 1 << asked.size() : 4 * asked.size();
-    for (const int r : asked) slack_[r] = true;
-    Status status;
-    for (int count = 0; count < tries; ++count) {
-      for (int i = 0; few && i < asked.size(); ++i) slack_[asked[i]] = (count >> i & 1) == 0;
-      drop_map();
-      status = decide_slides(next);
-      bool agrees = status.ok();
-      for (const int r : asked) {
-        const bool fits = status.ok() && (slack_[r] ? excess_grows(r) : stays_taut(r));
-        agrees = agrees && fits;
-        if (!few && !fits) slack_[r] = !slack_[r];
-      }
-      if (!agrees) continue;
-      for (const int r : asked)
-        if (!slack_[r]) moved_.excess[r] = 0;
-      return status;
+  /// Spans that are wholly at zero, where what follows is decided from nothing.
+  bool find_zero(const Ending& ending, Spans& zero) const {
+    bool any = false;
+    for (int r = 0; r < runs_.size(); ++r) {
+      zero[r] = !rests_[r] && is_at_zero(r, ending);
+      any = any || zero[r];
     }
-    drop_map();
-    return status ? at_joint(Code::state_iterations, runs_[asked[0]].joint_near()) : status;
+    return any;
   }
-  bool is_without_tension(int r) const {
-    const Run& run = runs_[r];
-    if (is_jacked(run)) return false;
-    if (slack_[r]) return excess(r) * model_->coupling(run.segment(0), run.segment(0)) <= equal();
-    const Real left = left_behind(run);
-    for (int i = 0; i < run.count; ++i)
-      if (force_[run.segment(i)] > left) return false;
-    return true;
+  bool is_at_zero(int r, const Ending& ending) const {
+    if (!slack_[r]) return force_[representative_[r]] <= force_tolerance();
+    const bool closes = ending.excess >= 0 && ending.run == r;
+    return closes ||
+           excess(r) * model_->coupling(runs_[r].segment(0), runs_[r].segment(0)) <= force_tolerance();
   }
   Real excess(int r) const {
     if (!has_map_) return moved_.excess[r];
     Inputs x;
     values(now_, x);
-    const int i = active_excess(r);
-    return i < 0 ? Real(0) : map_.active_move(i, x);
-  }
-  bool excess_grows(int r) const {
-    Inputs dx;
-    directions(dx);
-    const int i = active_excess(r);
-    return i >= 0 && map_.move_rate(i, dx) * map_.stiffness(i) > rate_tolerance();
-  }
-  /// The active move that is the excess length of a run, or -1.
-  int active_excess(int r) const {
     for (int i = 0; i < map_.active(); ++i)
-      if (map_.move(i).kind == Move::Kind::excess && map_.move(i).index == r) return i;
-    return -1;
-  }
-  bool stays_taut(int r) const {
-    Inputs dx;
-    directions(dx);
-    Tensions rate;
-    map_.tension_rates(dx, rate);
-    for (int i = 0; i < runs_[r].count; ++i)
-      if (rate[runs_[r].segment(i)] < -rate_tolerance()) return false;
-    return true;
-  }
-
-  using Rates = Sliding<CondensedType, Laws>;
-  using Candidates = typename Rates::Candidates;
-
-  /// With runs as they are: rates v >= 0 of the joints at their limits, w = T_small - rho T_big kept >= 0, v
-  /// w = 0.
-  Status decide_slides(const Candidate& next) {
-    const States slid = slides_;
-    const Candidates candidates = at_limit(slid);
-    // Most often all goes on as it was, and the joint that reached its limit slides too.
-    if (has_map_ && next.joint < 0 && is_consistent(candidates)) return Status::success();
-    freeze();
-    if (next.joint >= 0) slides_[next.joint] = next.way;
-    if (next.joint >= 0 && rebuild() < 0 && is_consistent(candidates)) return Status::success();
-    if (guess_toward_jacks() && rebuild() < 0 && is_consistent(candidates)) return Status::success();
-    const Status status = solve_slides(candidates);
-    if (!status) {
-      slides_ = slid;
-      drop_map();
-    }
-    return status;
+      if (map_.move(i).kind == Move::Kind::excess && map_.move(i).index == r) return map_.active_move(i, x);
+    return 0;
   }
   /// Whether the rates under the present map agree with its states: v >= 0 where it slides, w >= 0 at the
   /// other limits.
@@ -1159,99 +1162,271 @@ class Tracker {
       if (slides_[candidate.joint] != candidate.way && laws_.limit(candidate).of(rate) < least) return false;
     return true;
   }
-  Candidates at_limit(const States& slid) const {
+  /// Limits that hold: those of joints that slide, the one just reached, and what is as near as rounding. Of
+  /// a joint under tension only the nearer one; where a span is at zero, both.
+  Candidates at_limit(const Candidate& next, const Spans& zero) const {
     Candidates candidates;
     for (int j = 0; j < joints(); ++j) {
-      if (!can_slide(j)) continue;
+      if (model_->is_locked(j) || glides(j)) continue;
+      const auto& sides = laws_.sides(j);
+      const int run = runs_.of(sides[0]);
+      if (!zero[run] && !can_slide(j)) continue;
       const Candidate ahead = Candidate::of(j, JointState::forward),
                       back = Candidate::of(j, JointState::backward);
-      const Real to_forward = laws_.limit(ahead).of(force_), to_backward = laws_.limit(back).of(force_);
-      bool forward = slid[j] == JointState::forward || to_forward <= equal();
-      bool backward = slid[j] == JointState::backward || to_backward <= equal();
-      if (doubt_.nearer_only && forward && backward && force_[laws_.sides(j)[0]] > 0) {
-        forward = slid[j] == JointState::stick ? to_forward <= to_backward : slid[j] == JointState::forward;
-        backward = !forward;
+      if (zero[run]) {
+        candidates.add(ahead);
+        candidates.add(back);
+        continue;
       }
-      if (forward) candidates.add(ahead);
-      if (backward) candidates.add(back);
+      if (slides_[j] != JointState::stick) {
+        candidates.add(slides_[j] == JointState::forward ? ahead : back);
+        continue;
+      }
+      const Real to_forward = laws_.limit(ahead).of(force_), to_backward = laws_.limit(back).of(force_);
+      const Real near = tolerance * larger(force_[sides[0]], force_[sides[1]]) + epsilon * Real(64) * peak_;
+      const Candidate& nearer = to_forward <= to_backward ? ahead : back;
+      if (next.joint == j)
+        candidates.add(next);
+      else if (laws_.rho(j) < 1 ? (nearer.way == JointState::forward ? to_forward : to_backward) <= near
+                                : true)
+        candidates.add(nearer);
+      if (!(laws_.rho(j) < 1)) candidates.add(nearer.way == JointState::forward ? back : ahead);
     }
     return candidates;
   }
-  /// Where a run without tension ends in one jack, the cable moves toward it.
-  bool guess_toward_jacks() {
-    bool any = false;
-    for (const Run& run : runs_) {
-      const JackedEnd* puller = nullptr;
-      int pullers = 0;
-      for (const JackedEnd& jack : jacks_)
-        if (pulls(jack, run)) {
-          puller = &jack;
-          ++pullers;
-        }
-      if (pullers != 1 || force_[run.segment(0)] > force_tolerance()) continue;
-      for (int i = 0; i < run.joints(); ++i) {
-        slides_[run.joint(i)] = puller->end == 1 ? JointState::forward : JointState::backward;
-        any = true;
-      }
+  /// What a jacked end is to have: the rate of its force, or after a jump all of it.
+  Real due_at(const JackedEnd& jack, bool totally) const {
+    const Real now = now_.jack[jack.cable][jack.end].force;
+    return totally ? now : goal_.jack[jack.cable][jack.end].force - now;
+  }
+  void dues(bool totally, typename Map::Moves& due) const {
+    due.fill(Real(0));
+    for (int i = 0; i < map_.active(); ++i) {
+      const Move& move = map_.move(i);
+      if (move.kind == Move::Kind::payout) due[i] = due_at(jacks_[number_[move.index]], totally);
     }
-    return any;
   }
-  Status solve_slides(const Candidates& candidates) {
-    slides_.fill(JointState::stick);
-    const int unresisted = rebuild();
-    if (unresisted >= 0) return no_answer(map_.move(unresisted));
-    if (candidates.empty()) return Status::success();
-    Inputs dx;
-    directions(dx);
-    Tensions rate;
-    map_.tension_rates(dx, rate);
-    const auto others = map_.actives();
-    for (int attempt = 0; attempt < doubt_.attempts; ++attempt)
-      if (find_slides(others, candidates, rate, attempt) && rebuild() < 0) return Status::success();
-    if (change_minds(candidates)) return Status::success();
-    return no_answer(laws_.slip(candidates[0].joint));
+  /// Rates of tension with every joint stuck.
+  void stuck_rates(Tensions& rates) const {
+    rates.fill(Real(0));
+    const Real prestrain = goal_.prestrain - now_.prestrain;
+    for (int i = 0; i < model_->segments; ++i) {
+      rates[i] = prestrain * model_->prestrain[i];
+      for (int k = 0; k < patterns(); ++k)
+        rates[i] += (goal_.factor[k] - now_.factor[k]) * model_->load[k][i];
+    }
+    Tensions e;
+    e.fill(Real(0));
+    for (const JackedEnd& jack : jacks_) {
+      const auto& start = now_.jack[jack.cable][jack.end];
+      const auto& goal = goal_.jack[jack.cable][jack.end];
+      if (goal.locked) e[model_->cables[jack.cable].end_segment(jack.end)] += goal.payout - start.payout;
+    }
+    model_->coupling.add(model_->segments, e, rates);
   }
-  /// Sets slides_. Its frame is large and must be gone when the map is made.
-  [[gnu::noinline]] bool find_slides(const typename Rates::Actives& others, const Candidates& candidates,
-                                     const Tensions& rate, int attempt) {
-    Rates rates;
-    const auto outcome = rates.solve(*model_, laws_, others, candidates, rate, rate_tolerance(), attempt);
-    if (outcome != Rates::Outcome::solved) return false;
-    slides_.fill(JointState::stick);
-    for (int i = 0; i < rates.size(); ++i) slides_[candidates[rates[i]].joint] = candidates[rates[i]].way;
+  /// What slides, begun from what slid: an ordinary event is one pivot.
+  [[gnu::noinline]] bool go_on(const Candidates& candidates) {
+    Tensions stuck;
+    typename Map::Moves due;
+    stuck_rates(stuck);
+    dues(false, due);
+    Solver solver;
+    solver.begin(*model_, laws_, map_.set());
+    for (const Candidate& each : candidates) solver.add_slip(each);
+    if (solver.solve(stuck, due, rate_tolerance(), true) != Solver::Outcome::solved) {
+      remember_ray(solver);
+      drop_set();
+      return false;
+    }
+    read_slides();
     return true;
   }
-  /// Beginning with all that slides toward the jacks, the first joint that disagrees changes its state, until
-  /// none does: seldom needed, and now and then sure where Lemke's method is not.
-  bool change_minds(const Candidates& candidates) {
-    slides_.fill(JointState::stick);
-    guess_toward_jacks();
-    for (int count = 0; count < 8 + 8 * candidates.size(); ++count) {
-      if (rebuild() >= 0) return false;
-      Inputs dx;
-      directions(dx);
-      Tensions rate;
-      map_.tension_rates(dx, rate);
-      int unhappy = -1;
-      for (int i = 0; i < map_.active() && unhappy < 0; ++i)
-        if (!map_.goes_on(i, dx, rate_tolerance())) {
-          unhappy = map_.move(i).index;
-          slides_[unhappy] = JointState::stick;
-        }
-      for (int i = 0; i < candidates.size() && unhappy < 0; ++i) {
-        const Candidate& candidate = candidates[i];
-        if (slides_[candidate.joint] == candidate.way || laws_.limit(candidate).of(rate) >= -rate_tolerance())
-          continue;
-        unhappy = candidate.joint;
-        slides_[unhappy] = candidate.way;
-      }
-      if (unhappy < 0) return true;
+  /// Where no rate was found: a joint that its node would follow freely, and the last one that was tried.
+  void remember_ray(const Solver& solver) {
+    const int p = solver.last_pair();
+    if (p < 0 || solver.pairs()[p].is_segment()) return;
+    doubtful_joint_ = solver.pairs()[p].index;
+    if (solver.is_free()) free_joint_ = doubtful_joint_;
+  }
+  /// What slides and what is slack, begun from nothing. The moves must be frozen.
+  Status begin_anew(const Spans& zero, const Candidates& candidates) {
+    if (solve_anew(zero, candidates, false)) return Status::success();
+    if (const Status why = pulled_through(); !why) return why;
+    if (free_joint_ >= 0) return at_joint(Code::mechanism, free_joint_);
+    return find_further_on();
+  }
+  /// From rates, or from all forces where there are none.
+  [[gnu::noinline]] bool solve_anew(const Spans& zero, const Candidates& candidates, bool totally) {
+    const auto was_slack = slack_;
+    for (int r = 0; r < runs_.size(); ++r)
+      if (zero[r]) slack_[r] = false;
+    map_.begin(*model_);
+    map_.set().hold(held_at_zero);
+    is_set_up_ = false;
+    bool solved = add_equalities();
+    if (solved) {
+      Tensions stuck;
+      typename Map::Moves due;
+      if (totally)
+        stuck = totals();
+      else
+        stuck_rates(stuck);
+      dues(totally, due);
+      Solver solver;
+      solver.begin(*model_, laws_, map_.set());
+      for (int r = 0; r < runs_.size(); ++r)
+        if (zero[r]) add_span(r, totally, solver);
+      for (const Candidate& each : candidates) solver.add_slip(each);
+      const Real none = totally ? Real(16) * epsilon * peak_ : rate_tolerance();
+      solved = solver.solve(stuck, due, none, false) == Solver::Outcome::solved;
+      if (solved)
+        adopt(solver, zero, totally);
+      else
+        remember_ray(solver);
     }
-    return false;
+    solved = solved && set_up();
+    if (solved) {
+      rebuild();
+      solved = is_held(totally);
+    }
+    if (!solved) {
+      slack_ = was_slack;
+      drop_set();
+    }
+    return solved;
+  }
+  /// Rates do not tell how it goes on. All forces, at loads a little further on, are a problem that always
+  /// has an answer: it is taken if it is near. If not, friction gives way here, and the structure would jump.
+  Status find_further_on() {
+    const Real step = push_ > 0 ? small_step * peak_ / push_ : Real(1);
+    const Loads before = now_;
+    const Tensions forces = force_;
+    const Moving moved = moved_;
+    const auto slides = slides_;
+    const auto order = order_;
+    const auto slack = slack_;
+    now_ = Loads::between(now_, goal_, step < Real(0.5) ? step : Real(0.5));
+    Spans all;
+    for (int r = 0; r < runs_.size(); ++r) {
+      all[r] = !rests_[r];
+      if (all[r]) moved_.excess[r] = 0;
+    }
+    Candidates candidates;
+    for (int j = 0; j < joints(); ++j) {
+      if (model_->is_locked(j) || glides(j) || rests_[runs_.of(laws_.sides(j)[0])]) continue;
+      candidates.add(Candidate::of(j, JointState::forward));
+      candidates.add(Candidate::of(j, JointState::backward));
+    }
+    if (solve_anew(all, candidates, true)) {
+      Real farthest = 0;
+      for (int i = 0; i < model_->segments; ++i)
+        farthest = larger(farthest, std::fabs(map_.base()[i] - forces[i]));
+      if (farthest <= nearby * peak_) {
+        has_gone_on_ = true;
+        return Status::success();
+      }
+    }
+    now_ = before;
+    moved_ = moved;
+    slides_ = slides;
+    order_ = order;
+    slack_ = slack;
+    force_ = forces;
+    drop_set();
+    return doubtful_joint_ >= 0 ? at_joint(Code::gives_way, doubtful_joint_) : free_node();
+  }
+  /// The jack that gives a segment of a span at zero the larger tension, by what friction leaves of its force
+  /// on the way; `on_the_way(joint, way)` is called for every joint there.
+  struct Pull {
+    const JackedEnd* jack = nullptr;
+    Real least = 0;
+    bool is_direct = false;  // no joint on the way has friction
+  };
+  Pull pull_on(const Run& run, int i, bool totally) const {
+    Pull strongest;
+    for (const JackedEnd& jack : jacks_) {
+      if (!pulls(jack, run)) continue;
+      Pull pull{&jack, due_at(jack, totally), true};
+      for_each_joint_toward(jack, run, i, [&](int joint, JointState) {
+        pull.least *= laws_.rho(joint);
+        pull.is_direct = pull.is_direct && glides(joint);
+      });
+      if (pull.is_direct) return pull;
+      if (strongest.jack == nullptr || pull.least > strongest.least) strongest = pull;
+    }
+    return strongest;
+  }
+  template <class Visit>
+  void for_each_joint_toward(const JackedEnd& jack, const Run& run, int i, Visit visit) const {
+    if (jack.end == 0)
+      for (int k = i; k > 0; --k) visit(run.joint(k - 1), JointState::backward);
+    else
+      for (int k = i; k < run.count - 1; ++k) visit(run.joint(k), JointState::forward);
+  }
+  /// Segments of a span at zero, but for those that a jack gives their tension; joints without friction make
+  /// one of two.
+  void add_span(int r, bool totally, Solver& solver) const {
+    const Run& run = runs_[r];
+    for (int i = 0; i < run.count; ++i) {
+      if (i > 0 && glides(run.joint(i - 1))) continue;
+      const Pull pull = pull_on(run, i, totally);
+      if (!pull.is_direct) solver.add_segment(run.segment(i), larger(Real(0), pull.least));
+    }
+  }
+  /// Takes over what was decided. What a segment of a jacked span has too much goes out through the jack,
+  /// over all joints on the way.
+  void adopt(const Solver& solver, const Spans& zero, bool totally) {
+    for (int r = 0; r < runs_.size(); ++r)
+      if (zero[r]) moved_.excess[r] = 0;
+    read_slides();
+    FixedArray<Real, Cap::joints> flow;
+    flow.fill(Real(0));
+    for (int p = 0; p < solver.pairs().size(); ++p) {
+      const auto& pair = solver.pairs()[p];
+      if (!solver.is_active(p)) continue;
+      if (!pair.is_segment()) {
+        flow[pair.index] += pair.way == JointState::forward ? solver.value(p) : -solver.value(p);
+        continue;
+      }
+      const int r = runs_.of(pair.index);
+      int i = 0;
+      while (runs_[r].segment(i) != pair.index) ++i;
+      const Pull pull = pull_on(runs_[r], i, totally);
+      if (pull.jack == nullptr) {
+        slack_[r] = true;
+        continue;
+      }
+      for_each_joint_toward(*pull.jack, runs_[r], i, [&](int joint, JointState way) {
+        if (glides(joint)) return;
+        flow[joint] += way == JointState::forward ? solver.value(p) : -solver.value(p);
+        if (slides_[joint] == JointState::stick) order_.add(static_cast<std::int16_t>(joint));
+        slides_[joint] = flow[joint] > 0 ? JointState::forward : flow[joint] < 0 ? JointState::backward : way;
+      });
+    }
+    const auto slid = order_;
+    order_.clear();
+    for (const std::int16_t j : slid) {
+      if (slack_[runs_.of(laws_.sides(j)[0])])
+        slides_[j] = JointState::stick;
+      else
+        order_.add(j);
+    }
+  }
+  /// The slips of the set, in its order.
+  void read_slides() {
+    slides_.fill(JointState::stick);
+    order_.clear();
+    for (int i = 0; i < map_.active(); ++i) {
+      const Active& active = map_.actives()[i];
+      if (!active.slides() || active.sense == 0) continue;
+      slides_[active.move.index] = active.sense > 0 ? JointState::forward : JointState::backward;
+      order_.add(active.move.index);
+    }
   }
 
-  /// Why there is none: two jacks that pull the cable through, or a node that its cable alone had held.
-  Status no_answer(const Move& move) const {
+  /// `pulled_through` if two jacks on one cable differ by all the friction between them, and more so as the
+  /// loads go.
+  Status pulled_through() const {
     for (int c = 0; c < model_->cables.size(); ++c) {
       const auto& cable = model_->cables[c];
       const bool both = !cable.closed && cable.ends[0] == End::jacked && cable.ends[1] == End::jacked &&
@@ -1259,12 +1434,24 @@ class Tracker {
       if (!both) continue;
       Real carried = 1;
       for (int k = 0; k < cable.joints(); ++k) carried *= laws_.rho(cable.first_joint + k);
-      const Real F0 = now_.jack[c][0].force, F1 = now_.jack[c][1].force;
-      const Real margin = 64 * tolerance * larger(F0, F1);
-      if (F0 <= carried * F1 + margin || F1 <= carried * F0 + margin)
-        return Status::at(Code::pulled_through, Place::cable, c);
+      for (std::size_t end = 0; end < 2; ++end) {
+        const auto& small = now_.jack[c][end];
+        const auto& big = now_.jack[c][1 - end];
+        const Real room = small.force - carried * big.force;
+        const Real rate =
+            goal_.jack[c][end].force - small.force - carried * (goal_.jack[c][1 - end].force - big.force);
+        if (room <= Real(64) * tolerance * larger(small.force, big.force) + epsilon * peak_ && rate < 0)
+          return Status::at(Code::pulled_through, Place::cable, c);
+      }
     }
-    return at_joint(Code::mechanism, move.kind == Move::Kind::slip ? move.index : -1);
+    return Status::success();
+  }
+  /// `mechanism`, at a joint of a span that should hold its node and has no tension.
+  Status free_node() const {
+    for (int r = 0; r < runs_.size(); ++r)
+      if ((slack_[r] || rests_[r]) && runs_[r].joint_near() >= 0)
+        return at_joint(Code::mechanism, runs_[r].joint_near());
+    return at_joint(Code::mechanism, 0);
   }
   Status at_joint(Code code, int joint) const {
     for (int c = 0; c < model_->cables.size(); ++c) {
@@ -1276,6 +1463,10 @@ class Tracker {
   }
 
   struct Nothing {};
+  /// Of a segment's own stiffness, in decisions from zero tension.
+  static constexpr Real held_at_zero = Real(1e-8);
+  /// Of the largest force: how much further on an answer is looked for, and how near it must be.
+  static constexpr Real small_step = Real(1e-6), nearby = Real(1e-3);
 
   const CondensedType* model_ = nullptr;
   std::conditional_t<(Parameters > 0), Derivatives, Nothing> derivatives_;
@@ -1285,15 +1476,17 @@ class Tracker {
   FixedArray<std::int16_t, 2 * Cap::cables> number_;  // of an end among them, or -1
 
   Loads now_, goal_;
-  Loads built_;                            // where the map was made
-  Moving moved_;                           // frozen at the anchor of the map
-  States slides_;                          // stick, forward or backward: the law in force
-  FixedArray<bool, Cap::segments> slack_;  // of runs
+  Loads built_;                                             // where the map was made
+  Moving moved_;                                            // frozen at the anchor of the map
+  States slides_;                                           // stick, forward or backward: the law in force
+  FixedList<std::int16_t, Cap::joints> order_;              // joints that slide, as they began
+  FixedArray<std::int16_t, Cap::segments> representative_;  // of runs: the segment with the largest tension
+  bool is_set_up_ = false;                                  // the map's moves are those of these states
+  FixedArray<bool, Cap::segments> slack_;                   // of runs
   FixedArray<bool, Cap::segments> rests_;  // of runs: without tension since its jacks are at zero
   Map map_;
   FixedArray<bool, Cap::loads> has_load_;  // as an input
   bool has_map_ = false;
-  Doubt doubt_{};
   Tensions force_;  // where the last event, or the last call with events, ended
   Inputs last_;     // direction of the inputs on the last piece
   Real peak_ = 0;
@@ -1316,6 +1509,8 @@ class Tracker {
   std::array<Scalar, 2> range_{};
   int only_ = 0;
   bool has_range_ = false;
+  bool has_gone_on_ = false;
+  int free_joint_ = -1, doubtful_joint_ = -1;
   bool arrived_ = false;
   bool has_spare_ = false;
   bool has_resting_ = false;

@@ -1,0 +1,372 @@
+// The moves at work with their laws, and how they follow: a factorization that grows with them.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "taut/numerics/bordered_lu.hpp"
+#include "taut/numerics/larger.hpp"
+#include "taut/tracking/moves.hpp"
+
+namespace taut {
+
+/// The moves that are not frozen, each with the law that it obeys, in the order in which they entered.
+///
+/// With R the coefficients of the laws and W the tensions that unit moves make, settle() solves
+/// R W m = due - R T, Eq. (12). The factors of R W are those of the order of entry: a move that enters costs
+/// one row and one column, and factors made anew in the same order have the same bits.
+///
+/// On a structure every move changes every tension: BorderedLu. Between rigid saddles a segment knows
+/// nothing of the others, and each chain of segments linked by sliding joints has one unknown.
+template <class CondensedType, class Laws>
+class ActiveSet {
+ public:
+  using Real = typename CondensedType::Real;
+  using Cap = typename CondensedType::Capacity;
+  /// Laws are linear in the tensions: no more of them can be independent.
+  static constexpr int capacity = Cap::segments;
+  static constexpr bool has_chains = has_rigid_saddles<Cap>;
+  using Tensions = FixedArray<Real, Cap::segments>;
+  using Moves = FixedArray<Real, capacity>;
+  using Actives = FixedList<Active, capacity>;
+
+  /// Empties the set. The model must outlive it.
+  void begin(const CondensedType& model) {
+    model_ = &model;
+    held_ = 0;
+    clear();
+  }
+  void clear() {
+    active_.clear();
+    renumber();
+  }
+  int size() const { return active_.size(); }
+  bool is_full() const { return size() >= model_->segments; }
+  const Active& operator[](int i) const { return active_[i]; }
+  const Actives& actives() const { return active_; }
+
+  /// Adds a move at the end. False, and nothing is changed, if its law does not depend on it while all others
+  /// follow: their combination moves freely. Structure: O(size^2), saddles: O(segments).
+  bool append(const Laws& laws, const Active& active, Real least_pivot = singular) {
+    if (is_full()) return false;
+    if constexpr (has_chains) {
+      if (closes_a_loop(active)) return false;
+      active_.add(active);
+      renumber();
+      return true;
+    } else {
+      return append_row(laws, active, least_pivot);
+    }
+  }
+  void set_pair(int i, int pair) { active_[i].pair = static_cast<std::int16_t>(pair); }
+  /// Takes a move away: O(size^3) at worst, for the oldest of many.
+  bool remove(const Laws& laws, int i) {
+    return remove_if(laws, [i](int k) { return k == i; });
+  }
+  /// Takes those away of which leaves(number) is true. Those that entered after the first of them are
+  /// appended anew; if one has a small pivot, the others come first. False if they depend on each other
+  /// without them, and then the set is of no use.
+  template <class Leaves>
+  bool remove_if(const Laws& laws, Leaves leaves) {
+    int first = 0;
+    while (first < size() && !leaves(first)) ++first;
+    Actives later;
+    for (int k = first + 1; k < size(); ++k)
+      if (!leaves(k)) later.add(active_[k]);
+    truncate(first);
+    if constexpr (has_chains) {
+      for (const Active& each : later) active_.add(each);
+      renumber();
+      return true;
+    } else {
+      return append_by_pivot(laws, later);
+    }
+  }
+  /// Keeps the first `count` moves.
+  void truncate(int count) {
+    while (size() > count) active_.drop_last();
+    renumber();
+  }
+  /// The factors anew, with the laws' present coefficients. False if they are dependent.
+  bool refactor(const Laws& laws) {
+    if constexpr (!has_chains) {
+      const Actives all = active_;
+      truncate(0);
+      for (const Active& each : all)
+        if (!append(laws, each)) return false;
+    }
+    return true;
+  }
+
+  /// Lets the moves follow until their laws are what is due [N]: T and `moves` (as they are ordered here)
+  /// change. At most `passes` of iterative refinement; each O(size^2 + segments^2), between saddles
+  /// O(segments).
+  void settle(const Laws& laws, const Moves& due, Tensions& T, Moves& moves, int passes = 1) const {
+    if (size() == 0) return;
+    if constexpr (has_chains)
+      settle_chains(laws, due, T, moves);
+    else
+      settle_all(laws, due, T, moves, passes);
+    // What a law gives outright has no rounding.
+    for (int i = 0; i < size(); ++i)
+      if (!active_[i].slides()) T[active_[i].on] = due[i];
+  }
+
+  /// Adds to every segment a spring of this part of its own stiffness: a node that only its cables hold is
+  /// free while they are slack, and a decision at zero tension is well posed nevertheless. To be set while
+  /// the set is empty.
+  void hold(Real part) { held_ = has_chains ? Real(0) : part; }
+  bool is_held() const { return held_ != 0; }
+  /// Adds the tensions that elongations make.
+  void carry(const Tensions& e, Tensions& T) const {
+    model_->coupling.add(model_->segments, e, T);
+    if (held_ == 0) return;
+    for (int i = 0; i < model_->segments; ++i) T[i] += held_ * model_->coupling(i, i) * e[i];
+  }
+  /// What an elongation by an active move is in its own segment [N/m].
+  Real stiffness(int i) const { return stiffness(active_[i].move); }
+  Real stiffness(const Move& move) const { return model_->coupling(move.lengthened, move.lengthened); }
+
+ private:
+  static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
+  /// Pivots, relative to their row and column: no digit is left; the next one would be better first.
+  static constexpr Real singular = Real(1e-12), small = Real(1e-4);
+
+  // A structure.
+
+  Real entry(const Laws& laws, int law, const Active& active) const {
+    const Law<Real> row = laws.of(active_[law]);
+    const Move& move = active.move;
+    return (resistance(*model_, row, move) + held_ * alone(row, move)) / stiffness(move);
+  }
+  /// What a move changes a law by through the segments' own stiffness.
+  Real alone(const Law<Real>& law, const Move& move) const {
+    const auto own = [&](int segment) {
+      const Real by = segment == move.lengthened ? Real(1) : segment == move.shortened ? Real(-1) : Real(0);
+      return by * model_->coupling(segment, segment);
+    };
+    return law.second < 0 ? own(law.first) : own(law.first) - law.weight * own(law.second);
+  }
+  bool append_row(const Laws& laws, const Active& active, Real least_pivot) {
+    const int n = size();
+    active_.add(active);
+    const Real pivot = factors_.append([&](int i) { return entry(laws, i, active); },
+                                       [&](int i) { return entry(laws, n, active_[i]); });
+    if (pivot > least_pivot) return true;
+    truncate(n);
+    return false;
+  }
+  bool append_by_pivot(const Laws& laws, Actives& later) {
+    for (int rounds = 0, count = later.size(); rounds <= count && !later.empty(); ++rounds) {
+      Actives deferred;
+      for (const Active& each : later)
+        if (!append(laws, each, rounds == 0 ? small : singular)) deferred.add(each);
+      later = deferred;
+    }
+    return later.empty();
+  }
+  /// Once with the springs, or, to the last digit, without them: iterative refinement.
+  void settle_all(const Laws& laws, const Moves& due, Tensions& T, Moves& moves, int passes) const {
+    Real before = std::numeric_limits<Real>::max();
+    for (int pass = 0; pass < passes; ++pass) {
+      Moves change;
+      Real most = 0, off = 0;
+      for (int i = 0; i < size(); ++i) {
+        change[i] = due[i] - laws.of(active_[i]).of(T);
+        off = larger(off, std::fabs(change[i]));
+      }
+      for (int i = 0; pass > 0 && i < model_->segments; ++i) most = larger(most, std::fabs(T[i]));
+      if (pass > 0 && (off <= epsilon * most || off > before / 4)) return;
+      before = off;
+      factors_.solve(change);
+      Tensions e;
+      e.fill(Real(0));
+      for (int i = 0; i < size(); ++i) {
+        const Real by = change[i] / stiffness(i);
+        moves[i] += by;
+        active_[i].move.impose(by, e);
+      }
+      if (passes == 1)
+        carry(e, T);
+      else
+        model_->coupling.add(model_->segments, e, T);
+    }
+  }
+
+  // Between rigid saddles.
+
+  struct Links {
+    FixedArray<std::int16_t, Cap::segments> fixed;   // active move whose law gives the segment's tension
+    FixedArray<std::int16_t, Cap::segments> length;  // active move that is no slip
+    FixedArray<std::int16_t, Cap::joints> slip;      // active slip
+  };
+
+  void renumber() {
+    if constexpr (has_chains) {
+      factors_.fixed.fill(-1);
+      factors_.length.fill(-1);
+      factors_.slip.fill(-1);
+      for (int i = 0; i < size(); ++i) {
+        const auto number = static_cast<std::int16_t>(i);
+        const Active& active = active_[i];
+        if (!active.slides()) factors_.fixed[active.on] = number;
+        if (active.move.kind != Move::Kind::slip)
+          factors_.length[active.move.lengthened] = number;
+        else if constexpr (Cap::joints > 0)
+          factors_.slip[active.move.index] = number;
+      }
+    } else {
+      factors_.truncate(size());
+    }
+  }
+  /// One cable as a row of segments that begins where no active slip links the first to the last.
+  struct Row {
+    int first_segment, first_joint, count, begin;
+    bool closed;
+    int segment(int i) const { return first_segment + (begin + i) % count; }
+    /// The joint after segment `i`, -1 at the end of an open cable.
+    int joint(int i) const {
+      if (closed) return first_joint + (begin + i + 1) % count;
+      return i + 1 < count ? first_joint + i : -1;
+    }
+  };
+  Row row_of(int c) const {
+    const auto& cable = model_->cables[c];
+    Row row{cable.first_segment, cable.first_joint, cable.segments(), 0, cable.closed};
+    if constexpr (Cap::joints > 0)
+      for (int i = 0; row.closed && i < row.count; ++i)
+        if (factors_.slip[cable.first_joint + i] < 0) {
+          row.begin = i;
+          break;
+        }
+    return row;
+  }
+  int slip_after(const Row& row, int i) const {
+    const int joint = i + 1 < row.count ? row.joint(i) : -1;
+    return Cap::joints == 0 || joint < 0 ? -1 : factors_.slip[joint];
+  }
+  /// The same if a ratio of tensions links the two segments.
+  int ratio_after(const Row& row, int i) const {
+    const int slip = slip_after(row, i);
+    return slip >= 0 && active_[slip].slides() ? slip : -1;
+  }
+  /// Whether two laws would give the tension of one chain, or a ring slide as a whole.
+  bool closes_a_loop(const Active& active) const {
+    if (!active.slides()) return factors_.fixed[active.on] >= 0 || chain_is_fixed(active.on);
+    const Move& move = active.move;
+    if (chain_is_fixed(move.lengthened) && chain_is_fixed(move.shortened)) return true;
+    return same_chain(move.lengthened, move.shortened);
+  }
+  template <class Visit>
+  void for_each_chain(const Row& row, Visit visit) const {
+    for (int a = 0; a < row.count;) {
+      int b = a;
+      while (ratio_after(row, b) >= 0) ++b;
+      visit(a, b);
+      a = b + 1;
+    }
+  }
+  bool chain_is_fixed(int segment) const {
+    bool fixed = false;
+    for (int c = 0; c < model_->cables.size(); ++c) {
+      const Row row = row_of(c);
+      for_each_chain(row, [&](int a, int b) {
+        bool here = false, any = false;
+        for (int i = a; i <= b; ++i) {
+          here = here || row.segment(i) == segment;
+          any = any || factors_.fixed[row.segment(i)] >= 0;
+        }
+        fixed = fixed || (here && any);
+      });
+    }
+    return fixed;
+  }
+  bool same_chain(int one, int other) const {
+    bool same = false;
+    for (int c = 0; c < model_->cables.size(); ++c) {
+      const Row row = row_of(c);
+      for_each_chain(row, [&](int a, int b) {
+        int found = 0;
+        for (int i = a; i <= b; ++i) found += row.segment(i) == one || row.segment(i) == other ? 1 : 0;
+        same = same || found == 2;
+      });
+    }
+    return same;
+  }
+  void settle_chains(const Laws& laws, const Moves& due, Tensions& T, Moves& moves) const {
+    Tensions e;
+    e.fill(Real(0));
+    for (int c = 0; c < model_->cables.size(); ++c) {
+      const Row row = row_of(c);
+      for_each_chain(row, [&](int a, int b) { settle_chain(laws, row, a, b, due, T, e); });
+      for (int a = 0; a < row.count;) {
+        int b = a;
+        while (slip_after(row, b) >= 0) ++b;
+        follow(row, a, b, e, moves);
+        a = b + 1;
+      }
+    }
+  }
+  /// T_i = ratio_i tau + offset_i along a chain. A law gives one of them; if none does, the elongations
+  /// cancel: Eq. (13).
+  void settle_chain(const Laws& laws, const Row& row, int a, int b, const Moves& due, Tensions& T,
+                    Tensions& e) const {
+    Real ratio = 1, offset = 0, weights = 0, sum = 0, tau = 0;
+    bool found = false;
+    const auto walk = [&](auto visit) {
+      ratio = 1;
+      offset = 0;
+      for (int i = a; i <= b; ++i) {
+        visit(row.segment(i));
+        if (i == b) break;
+        const int k = ratio_after(row, i);
+        const Real rho = laws.rho(active_[k].move.index);
+        const bool forward = active_[k].sense > 0;
+        ratio = forward ? ratio / rho : ratio * rho;
+        offset = forward ? (offset - due[k]) / rho : offset * rho + due[k];
+      }
+    };
+    walk([&](int segment) {
+      const int fixed = factors_.fixed[segment];
+      if (fixed >= 0) {
+        tau = (due[fixed] - offset) / ratio;
+        found = true;
+      }
+      const Real flexibility = Real(1) / model_->coupling(segment, segment);
+      weights += ratio * flexibility;
+      sum += (T[segment] - offset) * flexibility;
+    });
+    if (a == b && !found) return;
+    if (!found) tau = sum / weights;
+    walk([&](int segment) {
+      const Real settled = ratio * tau + offset;
+      e[segment] = (settled - T[segment]) / model_->coupling(segment, segment);
+      T[segment] = settled;
+    });
+  }
+  /// The moves that give segments a to b, linked by active slips, their elongations.
+  void follow(const Row& row, int a, int b, const Tensions& e, Moves& moves) const {
+    int at = b;
+    for (int i = a; i <= b; ++i)
+      if (factors_.length[row.segment(i)] >= 0) at = i;
+    Real before = 0, after = 0;
+    for (int i = a; i < at; ++i) {
+      before += e[row.segment(i)];
+      moves[slip_after(row, i)] += before;
+    }
+    for (int i = b; i > at; --i) {
+      after += e[row.segment(i)];
+      moves[slip_after(row, i - 1)] -= after;
+    }
+    const int length = factors_.length[row.segment(at)];
+    if (length >= 0) moves[length] += before + after + e[row.segment(at)];
+  }
+
+  const CondensedType* model_ = nullptr;
+  Actives active_;
+  Real held_ = 0;
+  std::conditional_t<has_chains, Links, BorderedLu<Real, capacity>> factors_;
+};
+
+}  // namespace taut

@@ -1,0 +1,539 @@
+// Which joints stick or slide, and which segments go slack: the one decision of an event.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "taut/tracking/active_set.hpp"
+
+namespace taut {
+
+/// The rate problem of an event, Eq. (10): for every joint at a limit and every segment of a span without
+/// tension
+///     0 <= v  _|_  w = (T_small - rho T_big)' >= 0,        0 <= h  _|_  t = T' - L >= 0,
+/// where v are rates of slip, h rates of length that a segment has too much, T' = b' + C (v, h) after jacks
+/// and slack spans have followed.
+///
+/// Lemke's path (Cottle, Pang and Stone, The Linear Complementarity Problem, 4.4): a covering variable z
+/// makes the point feasible, and one pair after the other changes sides until z is zero. Values carry a
+/// second, infinitely smaller part, which decides among ties: a lexicographic rule with a perturbation in
+/// general position, so that no basis comes back and the number of bases bounds the path. In the form with
+/// the tensions of all spans at zero as unknowns, M = [F, -U; R, 0] gives z'Mz = T'FT + sum (1 - rho) v T_big
+/// >= 0: copositive, and q'z >= 0 where that vanishes; the path then ends in a solution (theorem 4.4.13).
+/// That covers every start from zero tension for rho in (0, 1] and jacks that satisfy the cones. It does not
+/// cover rates of spans under tension, where friction may leave no rate at all: then the path ends on a ray.
+template <class CondensedType, class Laws>
+class ModeSolver {
+ public:
+  using Real = typename CondensedType::Real;
+  using Cap = typename CondensedType::Capacity;
+  using Set = ActiveSet<CondensedType, Laws>;
+  using Tensions = typename Set::Tensions;
+  using Moves = typename Set::Moves;
+  static constexpr int max_pairs = Cap::segments + 2 * Cap::joints;
+
+  enum class Outcome : std::uint8_t {
+    solved,
+    ray,      ///< no rates satisfy friction and equilibrium at once
+    pivots,   ///< the bound on pivots was reached
+    singular  ///< two states differ by less than rounding
+  };
+
+  /// A slip of a joint at its limit, or a segment (`way` stick) of a span without tension.
+  struct Pair {
+    std::int16_t index = 0;
+    JointState way = JointState::stick;
+    bool is_segment() const { return way == JointState::stick; }
+    Candidate slip() const { return {index, way}; }
+  };
+
+  /// Begins with no pair. `set` has the moves that follow whatever happens, and the slips that go on for
+  /// sure.
+  void begin(const CondensedType& model, const Laws& laws, Set& set) {
+    model_ = &model;
+    laws_ = &laws;
+    set_ = &set;
+    equalities_ = 0;
+    pairs_.clear();
+    least_.fill(Real(0));
+    stiffest_ = 0;
+    for (int i = 0; i < model.segments; ++i) stiffest_ = larger(stiffest_, model.coupling(i, i));
+  }
+  void add_slip(const Candidate& slip) { pairs_.add({slip.joint, slip.way}); }
+  /// `least` is the rate of tension that jacks and friction give it at least.
+  void add_segment(int segment, Real least) {
+    least_[segment] = least;
+    pairs_.add({static_cast<std::int16_t>(segment), JointState::stick});
+  }
+  const FixedList<Pair, max_pairs>& pairs() const { return pairs_; }
+  int pivots() const { return pivots_; }
+  /// After solve(): whether the pair slides, or the segment has more and more length to spare.
+  bool is_active(int pair) const { return place_[pair] != inactive; }
+  Real value(int pair) const { return value_[pair]; }
+  const Tensions& rates() const { return T_; }
+  /// After a ray: whether it is a motion that no tension resists, and the pair that moves, or -1.
+  bool is_free() const { return is_free_; }
+  int last_pair() const { return last_; }
+
+  /// Solves for the rates `stuck` that tensions have with every joint stuck; `due` are the rates of the laws
+  /// in the set. Rates below `none` are zero. `go_on`: slips in the set that have their sign stay, those that
+  /// have not leave, and only the limits that are violated then are covered: an ordinary event is one pivot.
+  /// Otherwise the set has no slips and the problem is solved from zero.
+  ///
+  /// At most 16 pivots a pair, each with two or three solutions of the set. On success the set has the slips
+  /// that slide and the segments that go slack.
+  Outcome solve(const Tensions& stuck, Moves due, Real none, bool go_on) {
+    due_ = due;
+    none_ = none;
+    pivots_ = 0;
+    z_ = z_tie_ = 0;
+    is_pending_ = is_free_ = false;
+    last_ = -1;
+    covers_all_ = !go_on;
+    value_.fill(Real(0));
+    tie_.fill(Real(0));
+    place_.fill(inactive);
+    equalities_ = 0;
+    while (equalities_ < set_->size() && (*set_)[equalities_].sense == 0) ++equalities_;
+    if (go_on) {
+      if (!keep_what_goes_on(stuck)) return Outcome::singular;
+    } else {
+      if (!begin_from_zero(stuck)) return Outcome::singular;
+    }
+    perturb();
+    return follow_path();
+  }
+
+ private:
+  static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
+  static constexpr std::int16_t inactive = -1;
+  /// Pivots of the set, relative to its entries: below, the slip waits until another makes room for it.
+  static constexpr Real least_pivot = Real(1e-10);
+
+  /// Of the covering variable along the path: less is rounding.
+  static constexpr Real least_slope = Real(1e-13);
+  /// A covering variable that is so small a part of what it was at first is zero.
+  static constexpr Real rounding = Real(1e-12);
+
+  // Pairs as moves and rows.
+
+  Active active_of(int p) const {
+    const Pair& pair = pairs_[p];
+    Active active = pair.is_segment()
+                        ? Active{Move::of(Move::Kind::excess, pair.index, pair.index), pair.index, 0}
+                        : laws_->sliding(pair.slip());
+    active.pair = static_cast<std::int16_t>(p);
+    return active;
+  }
+  /// t or w of a pair at tensions T.
+  Real row(int p, const Tensions& T) const {
+    const Pair& pair = pairs_[p];
+    return pair.is_segment() ? T[pair.index] : laws_->limit(pair.slip()).of(T);
+  }
+  Real stiffness(const Active& active) const { return set_->stiffness(active.move); }
+  /// Symmetric scaling to a unit diagonal: what a unit of the covering variable adds to a row [-].
+  Real cover(int p) const {
+    if (!covers_[p]) return 0;
+    return scale(p);
+  }
+  Real scale(int p) const { return std::sqrt(stiffness(active_of(p)) / stiffest_); }
+  /// In general position, and the same everywhere.
+  Real perturbation(int p) const {
+    const auto scattered = (static_cast<std::uint32_t>(p) + 1U) * 2654435769U;
+    return scale(p) * (Real(1) + static_cast<Real>(scattered >> 8) / Real(1 << 24));
+  }
+  static Real sign(const Active& active) { return active.sense < 0 ? Real(-1) : Real(1); }
+
+  // The start.
+
+  /// All segments of the pairs are without tension and take what length they like.
+  bool begin_from_zero(const Tensions& stuck) {
+    covers_.fill(true);
+    set_->truncate(equalities_);
+    for (int p = 0; p < pairs_.size(); ++p)
+      if (pairs_[p].is_segment() && !enter(p)) return false;
+    T_ = stuck;
+    Moves moves, dues;
+    moves.fill(Real(0));
+    dues.fill(Real(0));
+    for (int i = 0; i < set_->size(); ++i) dues[i] = i < equalities_ ? due_[i] : least_[(*set_)[i].on];
+    set_->settle(*laws_, dues, T_, moves);
+    keep_values(moves, value_, Real(1));
+    return true;
+  }
+  bool keep_what_goes_on(const Tensions& stuck) {
+    covers_.fill(false);
+    for (int i = equalities_; i < set_->size(); ++i) name((*set_)[i], i);
+    for (int rounds = set_->size() - equalities_; rounds >= 0; --rounds) {
+      T_ = stuck;
+      Moves moves;
+      moves.fill(Real(0));
+      set_->settle(*laws_, due_, T_, moves);
+      // From the last one on, so that the factors of the first are kept.
+      int gone = set_->size();
+      bool any = false;
+      for (int i = set_->size() - 1; i >= equalities_; --i) {
+        const Active& active = (*set_)[i];
+        if (sign(active) * moves[i] * stiffness(active) >= -none_) continue;
+        any = true;
+        gone = i;
+      }
+      if (!any) {
+        keep_values(moves, value_, Real(1));
+        break;
+      }
+      FixedArray<bool, Set::capacity> leaves;
+      leaves.fill(false);
+      for (int i = gone; i < set_->size(); ++i) {
+        const Active& active = (*set_)[i];
+        leaves[i] = sign(active) * moves[i] * stiffness(active) < -none_;
+      }
+      if (!set_->remove_if(*laws_, [&](int i) { return leaves[i]; })) return false;
+      place_.fill(inactive);
+      for (int i = equalities_; i < set_->size(); ++i) name((*set_)[i], i);
+    }
+    for (int p = 0; p < pairs_.size(); ++p) covers_[p] = place_[p] == inactive && row(p, T_) < -none_;
+    return true;
+  }
+  /// Finds the pair of a slip that is in the set.
+  void name(const Active& active, int at) {
+    for (int p = 0; p < pairs_.size(); ++p)
+      if (!pairs_[p].is_segment() && pairs_[p].index == active.move.index &&
+          (pairs_[p].way == JointState::forward) == (active.sense > 0)) {
+        set_->set_pair(at, p);
+        place_[p] = 0;
+      }
+  }
+  void keep_values(const Moves& moves, FixedArray<Real, max_pairs>& values, Real times) {
+    for (int i = equalities_; i < set_->size(); ++i) {
+      const Active& active = (*set_)[i];
+      if (active.pair >= 0) values[active.pair] += times * sign(active) * moves[i] * stiffness(active);
+    }
+  }
+  /// The second part of all values.
+  void perturb() {
+    Tensions e;
+    e.fill(Real(0));
+    for (int p = 0; p < pairs_.size(); ++p)
+      if (pairs_[p].is_segment()) e[pairs_[p].index] -= perturbation(p) / stiffness(active_of(p));
+    T_tie_.fill(Real(0));
+    set_->carry(e, T_tie_);
+    Moves moves, dues;
+    moves.fill(Real(0));
+    dues.fill(Real(0));
+    set_->settle(*laws_, dues, T_tie_, moves);
+    keep_values(moves, tie_, Real(1));
+    for (int i = equalities_; i < set_->size(); ++i) {
+      const Active& active = (*set_)[i];
+      if (active.slides()) tie_[active.pair] = perturbation(active.pair);
+    }
+  }
+
+  // The path.
+
+  struct Direction {
+    Tensions T;
+    Moves moves;
+    Real z = 0, entering = 0, pending = 0;
+    bool enters = false;  // the entering move, rather than its row
+    int pair = -1;
+  };
+  /// What a unit of a move makes of tensions and moves of the set.
+  struct Response {
+    Tensions T;
+    Moves moves;
+  };
+
+  Outcome follow_path() {
+    int leaving = -1;
+    const auto is_first = [&](Real value, Real tie, Real by, Real& needed, Real& needed_tie) {
+      const Real first = -value / by, second = -tie / by;
+      const bool is = first > needed + none_ || (first >= needed - none_ && second > needed_tie);
+      if (!is) return false;
+      needed = first;
+      needed_tie = second;
+      return true;
+    };
+    Real needed = 0, needed_tie = -std::numeric_limits<Real>::max();
+    Response covering;
+    respond_to_cover(covering);
+    for (int p = 0; p < pairs_.size(); ++p) {
+      if (place_[p] != inactive) continue;
+      const Real by = row(p, covering.T) + (pairs_[p].is_segment() ? Real(0) : cover(p));
+      if (row(p, T_) < -none_ && by > 0 && is_first(row(p, T_), tie_of_row(p), by, needed, needed_tie))
+        leaving = p;
+    }
+    bool leaves_set = false;
+    for (int i = equalities_; i < set_->size(); ++i) {
+      const Active& active = (*set_)[i];
+      if (active.pair < 0) continue;
+      const Real by = sign(active) * covering.moves[i] * stiffness(active);
+      if (value_[active.pair] < -none_ && by > 0 &&
+          is_first(value_[active.pair], tie_[active.pair], by, needed, needed_tie)) {
+        leaving = active.pair;
+        leaves_set = true;
+      }
+    }
+    if (leaving < 0) return Outcome::solved;
+    largest_ = needed;
+    raise_cover(covering, needed, needed_tie);
+    Direction direction;
+    direction.pair = leaving;
+    direction.enters = !leaves_set;
+    if (leaves_set && !leave(leaving)) return Outcome::singular;
+
+    for (pivots_ = 1; pivots_ <= 16 + 16 * pairs_.size(); ++pivots_) {
+      if (!find(direction)) return Outcome::singular;
+      const Outcome outcome = go(direction);
+      if (outcome != Outcome::pivots) return outcome;
+    }
+    return Outcome::pivots;
+  }
+  Real tie_of_row(int p) const {
+    const Real of_tensions = row(p, T_tie_);
+    return pairs_[p].is_segment() ? of_tensions : of_tensions + perturbation(p) + cover(p) * z_tie_;
+  }
+  Real value_of_row(int p) const {
+    const Real of_tensions = row(p, T_);
+    return pairs_[p].is_segment() ? of_tensions - least_[pairs_[p].index] : of_tensions + cover(p) * z_;
+  }
+
+  void respond(const Active& to, Response& response) const {
+    Tensions e;
+    e.fill(Real(0));
+    to.move.impose(sign(to) / stiffness(to), e);
+    response.T.fill(Real(0));
+    set_->carry(e, response.T);
+    settle_rates(response, false);
+  }
+  void respond_to_cover(Response& response) const {
+    Tensions e;
+    e.fill(Real(0));
+    for (int p = 0; covers_all_ && p < pairs_.size(); ++p)
+      if (pairs_[p].is_segment()) e[pairs_[p].index] -= cover(p) / stiffness(active_of(p));
+    response.T.fill(Real(0));
+    set_->carry(e, response.T);
+    settle_rates(response, true);
+  }
+  void settle_rates(Response& response, bool is_cover) const {
+    Moves dues;
+    dues.fill(Real(0));
+    for (int i = equalities_; is_cover && i < set_->size(); ++i) {
+      const Active& active = (*set_)[i];
+      if (active.slides() && active.pair >= 0) dues[i] = -cover(active.pair);
+    }
+    response.moves.fill(Real(0));
+    set_->settle(*laws_, dues, response.T, response.moves);
+  }
+  /// What a unit of the covering variable adds to the row itself.
+  Real direct(int p) const { return pairs_[p].is_segment() ? Real(0) : cover(p); }
+
+  /// Along which the laws of the set hold, that of the pending slip, and that of the entering one.
+  bool find(Direction& direction) {
+    Response covering, entering, pending;
+    respond_to_cover(covering);
+    const int e = direction.pair, k = pending_;
+    if (direction.enters) respond(active_of(e), entering);
+    if (is_pending_) respond(active_of(k), pending);
+    const Real rz = row(e, covering.T) + direct(e);
+    Real by_z = 0, by_entering = 0, by_pending = 0;
+    if (!is_pending_) {
+      if (direction.enters) {
+        const Real re = row(e, entering.T);
+        by_entering = std::fabs(rz);
+        by_z = rz < 0 ? re : -re;
+      } else {
+        by_z = rz < 0 ? Real(-1) : Real(1);
+        if (rz == 0) return false;
+      }
+    } else {
+      const Real kz = row(k, covering.T) + direct(k), kk = row(k, pending.T);
+      const Real rk = row(e, pending.T);
+      if (direction.enters) {
+        const Real re = row(e, entering.T), ke = row(k, entering.T);
+        // The cross product of the two rows, in the order entering, pending, z.
+        by_entering = rk * kz - rz * kk;
+        by_pending = rz * ke - re * kz;
+        by_z = re * kk - rk * ke;
+        if (by_entering < 0) {
+          by_entering = -by_entering;
+          by_pending = -by_pending;
+          by_z = -by_z;
+        }
+      } else {
+        by_pending = kz;
+        by_z = -kk;
+        if (by_pending * rk + by_z * rz < 0) {
+          by_pending = -by_pending;
+          by_z = -by_z;
+        }
+      }
+    }
+    const Real most = larger(std::fabs(by_z), larger(std::fabs(by_entering), std::fabs(by_pending)));
+    if (!(most > 0)) return false;
+    by_z = std::fabs(by_z) > least_slope * most ? by_z / most : Real(0);
+    by_entering /= most;
+    by_pending /= most;
+    direction.z = by_z;
+    direction.entering = by_entering;
+    direction.pending = by_pending;
+    for (int i = 0; i < model_->segments; ++i) direction.T[i] = by_z * covering.T[i];
+    for (int i = 0; i < set_->size(); ++i) direction.moves[i] = by_z * covering.moves[i];
+    const auto add = [&](const Response& response, Real times) {
+      for (int i = 0; i < model_->segments; ++i) direction.T[i] += times * response.T[i];
+      for (int i = 0; i < set_->size(); ++i) direction.moves[i] += times * response.moves[i];
+    };
+    if (direction.enters) add(entering, by_entering);
+    if (is_pending_) add(pending, by_pending);
+    return true;
+  }
+
+  /// Goes along the direction until something is zero; that leaves, and its complement is the next to enter.
+  /// `pivots` means: not at the end yet.
+  Outcome go(Direction& direction) {
+    Real largest_rate = std::fabs(direction.z);
+    for (int i = 0; i < model_->segments; ++i) largest_rate = larger(largest_rate, std::fabs(direction.T[i]));
+    const Real least_rate = Real(1e-11) * largest_rate, zero = Real(1e-13) * largest_ + none_;
+    Blocking blocking;
+    const auto consider = [&](Real value, Real tie, Real rate, Leaves what, int pair) {
+      if (!(rate < -least_rate)) return;
+      const Real step = value > zero ? value / -rate : Real(0), step_tie = tie / -rate;
+      const Real same = Real(1e-13) * larger(step, blocking.step) + zero;
+      const bool is_first = blocking.what == Leaves::nothing || step < blocking.step - same ||
+                            (step <= blocking.step + same && step_tie < blocking.step_tie);
+      if (is_first) blocking = {what, pair, step, step_tie, value / -rate};
+    };
+    for (int i = equalities_; i < set_->size(); ++i) {
+      const Active& active = (*set_)[i];
+      if (active.pair < 0) continue;
+      const Real rate = sign(active) * direction.moves[i] * stiffness(active);
+      consider(value_[active.pair], tie_[active.pair], rate, Leaves::active, active.pair);
+    }
+    if (is_pending_) consider(value_[pending_], tie_[pending_], direction.pending, Leaves::pending, pending_);
+    for (int p = 0; p < pairs_.size(); ++p) {
+      if (place_[p] != inactive || p == direction.pair) continue;
+      const Real rate = row(p, direction.T) + direct(p) * direction.z;
+      consider(value_of_row(p), tie_of_row(p), rate, Leaves::row, p);
+    }
+    // Among ties the cover leaves: the problem is solved.
+    if (direction.z < 0) {
+      const Real step = z_ / -direction.z;
+      const Real same = Real(1e-13) * larger(step, blocking.step) + zero;
+      if (blocking.what == Leaves::nothing || step <= blocking.step + same)
+        blocking = {Leaves::cover, -1, step, Real(0), step};
+    }
+    if (blocking.what == Leaves::nothing) {
+      Real most = 0;
+      for (int i = 0; i < model_->segments; ++i) most = larger(most, std::fabs(direction.T[i]));
+      is_free_ = direction.z == 0 && direction.enters && most <= Real(1e-9);
+      last_ = direction.pair;
+      return Outcome::ray;
+    }
+    step_along(direction, blocking);
+    return change_sides(direction, blocking);
+  }
+  enum class Leaves : std::uint8_t { nothing, active, pending, row, cover };
+  struct Blocking {
+    Leaves what = Leaves::nothing;
+    int pair = -1;
+    Real step = 0, step_tie = 0, exact = 0;
+  };
+  void raise_cover(const Response& response, Real step, Real tie) {
+    for (int i = 0; i < model_->segments; ++i) {
+      T_[i] += step * response.T[i];
+      T_tie_[i] += tie * response.T[i];
+    }
+    keep_values(response.moves, value_, step);
+    keep_values(response.moves, tie_, tie);
+    z_ += step;
+    z_tie_ += tie;
+  }
+  void step_along(const Direction& direction, const Blocking& blocking) {
+    for (int i = 0; i < model_->segments; ++i) {
+      T_[i] += blocking.step * direction.T[i];
+      T_tie_[i] += blocking.step_tie * direction.T[i];
+    }
+    keep_values(direction.moves, value_, blocking.step);
+    keep_values(direction.moves, tie_, blocking.step_tie);
+    z_ += blocking.step * direction.z;
+    z_tie_ += blocking.step_tie * direction.z;
+    if (is_pending_) {
+      value_[pending_] += blocking.step * direction.pending;
+      tie_[pending_] += blocking.step_tie * direction.pending;
+    }
+    if (direction.enters) {
+      value_[direction.pair] += blocking.step * direction.entering;
+      tie_[direction.pair] += blocking.step_tie * direction.entering;
+    }
+  }
+  Outcome change_sides(Direction& direction, const Blocking& blocking) {
+    int waiting[2] = {-1, -1}, count = 0;
+    if (is_pending_ && blocking.what != Leaves::pending) waiting[count++] = pending_;
+    if (direction.enters) waiting[count++] = direction.pair;
+    if (blocking.what == Leaves::pending) place_[pending_] = inactive;
+    is_pending_ = false;
+    if (blocking.what == Leaves::active && !leave(blocking.pair)) return Outcome::singular;
+    // The one with the larger pivot first.
+    for (int i = 0; i < count; ++i) {
+      bool entered = false;
+      for (int k = 0; k < count && !entered; ++k) {
+        if (waiting[k] < 0 || !enter(waiting[k], least_pivot)) continue;
+        waiting[k] = -1;
+        entered = true;
+      }
+      if (!entered) break;
+    }
+    for (int k = 0; k < count; ++k) {
+      if (waiting[k] < 0) continue;
+      if (is_pending_) return Outcome::singular;
+      is_pending_ = true;
+      pending_ = waiting[k];
+      place_[pending_] = 1;
+    }
+    if (blocking.what == Leaves::cover || z_ <= rounding * largest_) {
+      if (!is_pending_) return Outcome::solved;
+      is_pending_ = false;
+      if (enter(pending_)) return Outcome::solved;
+      // A slip that changes nothing need not be.
+      place_[pending_] = inactive;
+      return Outcome::solved;
+    }
+    direction.pair = blocking.pair;
+    direction.enters = blocking.what == Leaves::row;
+    return Outcome::pivots;
+  }
+  bool enter(int p, Real least = Real(1e-12)) {
+    if (!set_->append(*laws_, active_of(p), least)) return false;
+    place_[p] = 0;
+    return true;
+  }
+  bool leave(int p) {
+    place_[p] = inactive;
+    value_[p] = tie_[p] = 0;
+    for (int i = equalities_; i < set_->size(); ++i)
+      if ((*set_)[i].pair == p) return set_->remove(*laws_, i);
+    return false;
+  }
+
+  const CondensedType* model_ = nullptr;
+  const Laws* laws_ = nullptr;
+  Set* set_ = nullptr;
+  FixedList<Pair, max_pairs> pairs_;
+  FixedArray<bool, max_pairs> covers_;
+  FixedArray<std::int8_t, max_pairs> place_;  // inactive, in the set (0), pending (1)
+  FixedArray<Real, max_pairs> value_, tie_;   // of h and v [N]; the second part decides among ties
+  Tensions least_;                            // L
+  Tensions T_, T_tie_;
+  Moves due_;
+  int equalities_ = 0;  // the first moves of the set: they follow whatever happens
+  int pending_ = 0;     // a slip that is at work but would make the set singular
+  int pivots_ = 0;
+  int last_ = -1;
+  bool is_free_ = false;
+  bool is_pending_ = false;
+  bool covers_all_ = true;
+  Real z_ = 0, z_tie_ = 0, none_ = 0, largest_ = 0, stiffest_ = 0;
+};
+
+}  // namespace taut
