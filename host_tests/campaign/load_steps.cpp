@@ -44,7 +44,7 @@ class Pivoting {
     }
     if (!(most > 0)) return true;
     Index entering = 2 * n_;
-    for (Index count = 0; count < 12 * n_ + 24; ++count) {
+    for (Index count = 0; count < 4 * n_ + 24; ++count) {
       const Index leaving = basic_[std::size_t(row)];
       pivot(row, entering);
       if (leaving == 2 * n_) {
@@ -148,11 +148,11 @@ class LoadSteps::Stepper {
     if (!(push > 0)) return Way::none;
     const Moves kept = moved_;
     const Vector before = tension_;
-    Exact last = 0;
+    Exact last = 1;
     bool found = false;
-    for (const Exact size : {1e-4L, 1e-6L, 1e-8L}) {
+    for (const Exact size : {1e-6L, 1e-8L}) {
       const Exact part = std::min(Exact(1), size * peak_ / push);
-      found = nearest(between(now, goal, part), kept, before, 100 * size * peak_);
+      found = nearest(between(now, goal, part), kept, before, 100 * size * peak_, 10 * size * peak_);
       const Exact change = found ? (tension_ - before).cwiseAbs().maxCoeff() / peak_ : 1;
       if (size < Exact(1e-7L))
         found = found && (change <= Exact(1e-6L) || (change <= Exact(1e-4L) && change <= last / 10));
@@ -163,7 +163,11 @@ class LoadSteps::Stepper {
     pivot_ = smallest_pivot();
     if (found) return Way::goes_on;
     const Exact part = std::min(Exact(1), Exact(1e-5L) * peak_ / push);
-    return nearest(between(now, goal, part), kept, before, 2 * peak_) ? Way::jumps : Way::none;
+    found = nearest(between(now, goal, part), kept, before, 2 * peak_, 2 * peak_);
+    // From nothing at all an answer to any part of the way is one to every part.
+    const bool nothing = before.cwiseAbs().maxCoeff() <= Exact(1e-12L) * peak_ &&
+                         *std::max_element(kept.excess.begin(), kept.excess.end()) <= 0;
+    return !found ? Way::none : nothing ? Way::goes_on : Way::jumps;
   }
 
   Exact tension(int segment) const { return tension_[segment]; }
@@ -183,6 +187,11 @@ class LoadSteps::Stepper {
   };
 
   int segments() const { return bars_.segments(); }
+  /// As many as take about a second or two.
+  int attempts() const {
+    const double n = 2.0 * double(joints_.size()) + 1;
+    return int(std::max(8.0, std::min(64.0, 1e8 / (n * n * n))));
+  }
 
   void add_cable(int c) {
     const auto& cable = scene_.cables[c];
@@ -272,7 +281,7 @@ class LoadSteps::Stepper {
       peak_ = std::max(peak_, size_of(there));
       const Vector before = tension_;
       bool good = false;
-      for (int attempt = 0; attempt < 24 && !good; ++attempt) good = step(there, 2 * peak_, attempt);
+      for (int attempt = 0; attempt < attempts() && !good; ++attempt) good = step(there, 2 * peak_, attempt);
       if (!good) return false;
       now_ = there;
       peak_ = std::max(peak_, tension_.cwiseAbs().maxCoeff());
@@ -469,12 +478,12 @@ class LoadSteps::Stepper {
     return true;
   }
 
-  /// Of many answers to one step the one with the least change.
-  bool nearest(const Drive& to, const Moves& from, const Vector& before, Exact reach) {
+  /// Of some answers to one step the one with the least change, or the first with less than `enough`.
+  bool nearest(const Drive& to, const Moves& from, const Vector& before, Exact reach, Exact enough) {
     Moves best;
     Vector best_T;
     Exact least = -1;
-    for (int attempt = 0; attempt < 24; ++attempt) {
+    for (int attempt = 0; attempt < attempts() && !(least >= 0 && least <= enough); ++attempt) {
       moved_ = from;
       tension_ = before;
       if (!step(to, reach, attempt)) continue;

@@ -64,7 +64,7 @@ bool talkative = false;
 bool in_float = true;
 std::atomic<int> slow_judgements{0};  ///< left for this kind
 
-constexpr int most_joints_of_reference = 24, most_places_of_stepwise = 200;
+constexpr int most_joints_of_reference = 16, most_places_of_stepwise = 150;
 constexpr int few_steps = 16, many_steps = 64;
 
 /// Everything that is tried on one scene.

@@ -485,7 +485,7 @@ class WebMaker {
         jacks[0].force = jacks[1].force = F;
       } else if (way == 2) {
         jacks[low].force = jacks[1 - low].force * (carried + (1 - carried) * random_.between(0, 1));
-      } else if (way == 3 && random_.below(4) == 0) {
+      } else if (way == 3 && random_.below(12) == 0) {
         jacks[1 - low].force = F;
         jacks[low].force = F * carried * (1 - spare);
       } else {
