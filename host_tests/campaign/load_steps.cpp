@@ -15,11 +15,51 @@ using reference::Index;
 using reference::Matrix;
 using reference::Vector;
 
-/// w = q + M z >= 0, z >= 0, w z = 0 by Lemke's method, with a covering vector at random.
+/// w = q + M z >= 0, z >= 0, w z = 0. The first pairs belong together in twos, of which only one may have z >
+/// 0: a joint slides one way.
 class Pivoting {
  public:
-  Pivoting(const Matrix& M, const Vector& q) : n_(q.size()), M_(M), q_(q) {}
+  Pivoting(const Matrix& M, const Vector& q, Index twos) : n_(q.size()), twos_(twos), M_(M), q_(q) {}
 
+  /// By changing which z are at work where signs disagree: first all at once, then the first one.
+  bool change_in_turn(support::Random& random, bool from_rest, Vector& z) const {
+    std::vector<bool> at_work(std::size_t(n_), false);
+    for (Index i = 0; !from_rest && i < n_; ++i)
+      at_work[std::size_t(i)] =
+          random.below(3) == 0 && !(i < twos_ && i % 2 == 1 && at_work[std::size_t(i - 1)]);
+    for (Index count = 0; count < 2 * n_ + 16; ++count) {
+      if (!solve_with(at_work, z)) return false;
+      const Vector w = q_ + M_ * z;
+      bool changed = false;
+      for (Index i = 0; i < n_ && !(changed && count >= 8); ++i) {
+        const bool works = at_work[std::size_t(i)];
+        if (works ? z[i] >= 0 : w[i] >= -tiny()) continue;
+        at_work[std::size_t(i)] = !works;
+        if (!works && i < twos_) at_work[std::size_t(i ^ 1)] = false;
+        changed = true;
+      }
+      if (!changed) return holds(z);
+    }
+    return false;
+  }
+
+  /// Whether there are few enough combinations to try them all.
+  bool few() const { return combinations() <= 20000; }
+  /// The answer of all combinations with the least largest z.
+  bool try_all(Vector& z) const {
+    std::vector<bool> at_work(std::size_t(n_), false);
+    bool found = false;
+    Vector trial;
+    do {
+      if (!solve_with(at_work, trial) || !(trial.minCoeff() >= -tiny()) || !holds(trial)) continue;
+      if (found && trial.maxCoeff() >= z.maxCoeff()) continue;
+      z = trial;
+      found = true;
+    } while (next(at_work));
+    return found;
+  }
+
+  /// By Lemke's method, with a covering vector at random unless `even`.
   bool solve(support::Random& random, bool even, Vector& z) {
     z = Vector::Zero(n_);
     if (n_ == 0 || q_.minCoeff() >= 0) return true;
@@ -60,6 +100,42 @@ class Pivoting {
 
  private:
   Exact size() const { return std::max(q_.cwiseAbs().maxCoeff(), Exact(1e-30L)); }
+  Exact tiny() const { return Exact(1e-15L) * size(); }
+  double combinations() const { return std::pow(3.0, double(twos_ / 2)) * std::pow(2.0, double(n_ - twos_)); }
+  bool next(std::vector<bool>& at_work) const {
+    for (Index i = 0; i < twos_; i += 2) {
+      const bool forward = at_work[std::size_t(i)], backward = at_work[std::size_t(i + 1)];
+      at_work[std::size_t(i)] = !forward && !backward;
+      at_work[std::size_t(i + 1)] = forward;
+      if (!backward) return true;
+    }
+    for (Index i = twos_; i < n_; ++i) {
+      at_work[std::size_t(i)] = !at_work[std::size_t(i)];
+      if (at_work[std::size_t(i)]) return true;
+    }
+    return false;
+  }
+  /// w = 0 where z is at work, z = 0 elsewhere; false if that says nothing.
+  bool solve_with(const std::vector<bool>& at_work, Vector& z) const {
+    std::vector<Index> chosen;
+    for (Index i = 0; i < n_; ++i)
+      if (at_work[std::size_t(i)]) chosen.push_back(i);
+    const Index n = Index(chosen.size());
+    z = Vector::Zero(n_);
+    if (n == 0) return true;
+    Matrix A(n, n);
+    Vector b(n);
+    for (Index i = 0; i < n; ++i) {
+      b[i] = -q_[chosen[std::size_t(i)]];
+      for (Index k = 0; k < n; ++k) A(i, k) = M_(chosen[std::size_t(i)], chosen[std::size_t(k)]);
+    }
+    Eigen::FullPivLU<Matrix> factored(A);
+    factored.setThreshold(Exact(1e-16L));
+    const Vector found = factored.solve(b);
+    if (!factored.isInvertible() && !((A * found - b).cwiseAbs().maxCoeff() <= tiny())) return false;
+    for (Index i = 0; i < n; ++i) z[chosen[std::size_t(i)]] = found[i];
+    return true;
+  }
   void pivot(Index row, Index entering) {
     tableau_.row(row) /= tableau_(row, entering);
     for (Index i = 0; i < n_; ++i) {
@@ -96,7 +172,7 @@ class Pivoting {
     return true;
   }
 
-  Index n_;
+  Index n_, twos_;
   const Matrix& M_;
   const Vector& q_;
   Matrix tableau_;
@@ -150,6 +226,7 @@ class LoadSteps::Stepper {
     const Vector before = tension_;
     Exact last = 1;
     bool found = false;
+    exhausted_ = true;
     for (const Exact size : {1e-6L, 1e-8L}) {
       const Exact part = std::min(Exact(1), size * peak_ / push);
       found = nearest(between(now, goal, part), kept, before, 100 * size * peak_, 10 * size * peak_);
@@ -174,6 +251,7 @@ class LoadSteps::Stepper {
   Exact violation() const { return violation_; }
   Exact largest_change() const { return largest_change_; }
   Exact pivot() const { return pivot_; }
+  bool exhausted() const { return exhausted_; }
 
  private:
   struct Joint {
@@ -280,9 +358,10 @@ class LoadSteps::Stepper {
       const Drive there = between(from, to, Exact(k) / Exact(steps));
       peak_ = std::max(peak_, size_of(there));
       const Vector before = tension_;
-      bool good = false;
-      for (int attempt = 0; attempt < attempts() && !good; ++attempt) good = step(there, 2 * peak_, attempt);
-      if (!good) return false;
+      const Moves kept = moved_;
+      const Exact stuck = (total(there, kept) - before).cwiseAbs().maxCoeff() + jack_change(now_, there);
+      // There may be several answers: the forces must not jump where they need not.
+      if (!nearest(there, kept, before, 2 * peak_, 2 * stuck + Exact(1e-12L) * peak_)) return false;
       now_ = there;
       peak_ = std::max(peak_, tension_.cwiseAbs().maxCoeff());
       if (peak_ > 0) {
@@ -447,11 +526,18 @@ class LoadSteps::Stepper {
         }
       });
     Vector z;
-    if (!Pivoting(M, q).solve(random_, attempt == 0, z)) return false;
+    if (!answer(Pivoting(M, q, 2 * m), attempt, z)) return false;
     for (Index k = 0; k < m; ++k) moves.slip[able[std::size_t(k)]] += (z[2 * k] - z[2 * k + 1]) * unit[k];
     for (std::size_t r = 0; r < loose.size(); ++r)
       moves.excess[std::size_t(stretches_[loose[r]].segments[0])] = z[2 * m + Index(r)] * unit[m + Index(r)];
     return settle(to, jacks, moves);
+  }
+  /// Lemke's method, changes in turn, and if there are few combinations all of them.
+  bool answer(Pivoting pivoting, int attempt, Vector& z) {
+    if (attempt == 1 && pivoting.few()) return pivoting.try_all(z);
+    exhausted_ = exhausted_ && pivoting.few();
+    if (pivoting.solve(random_, attempt == 0, z)) return true;
+    return pivoting.change_in_turn(random_, attempt == 0, z);
   }
   /// Takes the state if it is one.
   bool settle(const Drive& to, const Jacks& jacks, Moves& moves) {
@@ -534,6 +620,7 @@ class LoadSteps::Stepper {
   Drive now_;
   Vector tension_;
   Exact peak_ = 0, violation_ = 0, largest_change_ = 0, pivot_ = 1;
+  bool exhausted_ = false;
 };
 
 LoadSteps::LoadSteps(reference::Structure structure)
@@ -549,5 +636,6 @@ LoadSteps::Way LoadSteps::probe(const Drive& now, const Drive& goal, const Moves
   return stepper_->probe(now, goal, moves, peak);
 }
 Exact LoadSteps::pivot() const { return stepper_->pivot(); }
+bool LoadSteps::exhausted() const { return stepper_->exhausted(); }
 
 }  // namespace campaign

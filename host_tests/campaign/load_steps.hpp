@@ -11,8 +11,10 @@ namespace campaign {
 using Exact = reference::Exact;
 
 /// Follows the straight paths between samples in load steps. In a step the slips of all joints, either way,
-/// and the excess lengths of slack stretches solve one linear complementarity problem; Lemke's method is
-/// tried from many random covering vectors. Shares no code with the solvers of the library.
+/// and the excess lengths of slack stretches solve one linear complementarity problem. Tried are Lemke's
+/// method with many random covering vectors, changing in turn what disagrees, and all combinations where they
+/// are few; of several answers the one with the smaller change of forces is taken. Shares no code with the
+/// solvers of the library.
 ///
 /// With few steps the answer is only near to the right one, but every state is one: its forces balance and
 /// are within friction.
@@ -65,6 +67,8 @@ class LoadSteps {
   /// After probe(): of the joints at their limits, what is left of the smallest pivot of the matrix that
   /// takes their slips to their friction, as a part of the largest. Of the order of rounding: a mechanism.
   Exact pivot() const;
+  /// After probe(): whether all combinations of joints that stick or slide were tried.
+  bool exhausted() const;
 
  private:
   class Stepper;

@@ -25,6 +25,7 @@ namespace {
 
 // Parts of the largest force so far.
 constexpr double accepted_double = 1e-9, accepted_float = 1e-5;
+constexpr double wanted_double = 1e-11;
 
 using Seeds = std::map<std::string, std::vector<std::uint64_t>>;
 
@@ -33,7 +34,7 @@ struct Tally {
   long scenes = 0, rows = 0, events = 0, solved = 0, solved_float = 0;
   double worst_double = 0, worst_float = 0, seconds = 0;
   std::uint64_t worst_seed = 0;
-  Seeds refusals, float_refusals, confirmed, failures;
+  Seeds refusals, float_refusals, confirmed, coarse, failures;
 
   void add(const Tally& other) {
     scenes += other.scenes;
@@ -48,6 +49,7 @@ struct Tally {
     append(refusals, other.refusals);
     append(float_refusals, other.float_refusals);
     append(confirmed, other.confirmed);
+    append(coarse, other.coarse);
     append(failures, other.failures);
   }
 
@@ -113,6 +115,10 @@ class Trial {
   }
 
   void follow_in_double() {
+    follow_rows();
+    if (worst_ > wanted_double) tally_.coarse["above 1e-11"].push_back(seed_);
+  }
+  void follow_rows() {
     if (talkative) std::printf("double\n");
     Run<double> run(world_.scene);
     if (!run.condensed()) {
@@ -182,7 +188,7 @@ class Trial {
     if (way == LoadSteps::Way::jumps)
       return say(false, solved ? "load steps jump there" : "all other answers are far away");
     if (from_there.pivot() < Exact(1e-12L)) return say(false, "a mechanism by its rank");
-    say(false, "no other answer found");
+    say(false, from_there.exhausted() ? "no combination of states is an answer" : "no other answer found");
   }
   bool is_pulled_through(const Run<double>& run, int c) const {
     const support::Anatomy<SceneType> anatomy(world_.scene);
@@ -262,6 +268,7 @@ class Trial {
     if (talkative) std::printf("    verify %.1e\n", off);
     double& worst = single ? tally_.worst_float : tally_.worst_double;
     if (!single && !(off <= worst)) tally_.worst_seed = seed_;
+    if (!single) worst_ = std::max(worst_, off);
     worst = off <= worst ? worst : off;
     if (off <= (single ? accepted_float : accepted_double)) return true;
     fail(single ? "verify() in float" : "verify() in double");
@@ -272,6 +279,7 @@ class Trial {
   std::uint64_t seed_;
   Tally& tally_;
   bool solved_ = false;
+  double worst_ = 0;
 };
 
 void try_seed(ManyKind kind, std::uint64_t seed, Tally& tally) {
@@ -326,6 +334,7 @@ bool report(ManyKind kind, Tally& tally) {
               100.0 * double(tally.solved) / double(std::max(1L, tally.scenes)), tally.solved_float);
   std::printf("  worst verify(): double %.1e (seed %llu), float %.1e\n", tally.worst_double,
               static_cast<unsigned long long>(tally.worst_seed), tally.worst_float);
+  print_list("verify() in double:", tally.coarse);
   print_list("refused in double:", tally.refusals);
   print_list("refused in float where double has an answer:", tally.float_refusals);
   print_list("refusals that are right, or that nobody has an answer to:", tally.confirmed);
