@@ -43,6 +43,8 @@ class Pivoting {
     return false;
   }
 
+  /// Whether there is nothing to solve.
+  bool nothing() const { return n_ == 0; }
   /// Whether there are few enough combinations to try them all.
   bool few() const { return combinations() <= 20000; }
   /// The answer of all combinations with the least largest z.
@@ -428,43 +430,83 @@ class LoadSteps::Stepper {
     return worst;
   }
 
-  /// Payouts of the jacks at work follow at once from their forces.
-  struct Jacks {
-    std::vector<int> ends;
-    Matrix columns;  // segments x jacks
+  /// What follows at once from a tension that is given: the payouts of the jacks at work, and the slips of
+  /// the joints of a stretch that such a jack leaves without force, where friction has nothing to hold.
+  struct Followers {
+    struct Law {
+      int end = -1, joint = -1;  ///< what moves
+      int segment = 0;           ///< whose tension is given
+      Exact force = 0;
+    };
+    std::vector<Law> laws;
+    std::vector<bool> rests;  // joints
+    Matrix columns;           // segments x laws
     Eigen::FullPivLU<Matrix> factored;
 
-    Vector payouts(const Vector& missing) const { return factored.solve(missing); }
+    Vector at(const Vector& T) const {
+      Vector forces = Vector::Zero(Index(laws.size()));
+      for (Index k = 0; k < forces.size(); ++k) forces[k] = T[laws[std::size_t(k)].segment];
+      return forces;
+    }
+    Vector given() const {
+      Vector forces = Vector::Zero(Index(laws.size()));
+      for (Index k = 0; k < forces.size(); ++k) forces[k] = laws[std::size_t(k)].force;
+      return forces;
+    }
+    /// Changes T until all laws hold with the given forces; returns by how much everything moves.
+    Vector follow(Vector& T, const Vector& forces) const {
+      if (laws.empty()) return forces;
+      const Vector more = factored.solve(forces - at(T));
+      T += columns * more;
+      for (Index k = 0; k < forces.size(); ++k) T[laws[std::size_t(k)].segment] = forces[k];
+      return more;
+    }
   };
-  void find_jacks(const Drive& drive, Jacks& jacks) const {
+  void find_followers(const Drive& drive, Followers& followers) const {
     for (int end = 0; end < int(drive.ends.size()); ++end)
-      if (pulls(drive, end)) jacks.ends.push_back(end);
-    const Index n = Index(jacks.ends.size());
-    jacks.columns.resize(segments(), n);
+      if (pulls(drive, end))
+        followers.laws.push_back({end, -1, end_segment(end), drive.ends[std::size_t(end)].force});
+    followers.rests.assign(joints_.size(), false);
+    for (const Stretch& stretch : stretches_) {
+      bool rests = is_jacked(drive, stretch);
+      for (const int end : stretch.ends)
+        rests = rests && !(pulls(drive, end) && drive.ends[std::size_t(end)].force > 0);
+      if (!rests) continue;
+      // Between two jacks the cable may move as a whole: the first joint keeps its place.
+      const bool at_end = pulls(drive, stretch.ends[1]), between = at_end && pulls(drive, stretch.ends[0]);
+      for (std::size_t i = 0; i < stretch.joints.size(); ++i) {
+        followers.rests[std::size_t(stretch.joints[i])] = true;
+        if (i == 0 && between) continue;
+        followers.laws.push_back({-1, stretch.joints[i], stretch.segments[at_end ? i : i + 1], 0});
+      }
+    }
+    const Index n = Index(followers.laws.size());
+    followers.columns.resize(segments(), n);
     Matrix system(n, n);
-    for (Index k = 0; k < n; ++k) jacks.columns.col(k) = W_.col(end_segment(jacks.ends[std::size_t(k)]));
-    for (Index k = 0; k < n; ++k) system.row(k) = jacks.columns.row(end_segment(jacks.ends[std::size_t(k)]));
-    jacks.factored.compute(n > 0 ? system : Matrix::Identity(1, 1));
+    for (Index k = 0; k < n; ++k) {
+      const auto& law = followers.laws[std::size_t(k)];
+      if (law.end >= 0)
+        followers.columns.col(k) = W_.col(end_segment(law.end));
+      else
+        followers.columns.col(k) =
+            W_.col(joints_[std::size_t(law.joint)].before) - W_.col(joints_[std::size_t(law.joint)].after);
+    }
+    for (Index k = 0; k < n; ++k)
+      system.row(k) = followers.columns.row(followers.laws[std::size_t(k)].segment);
+    followers.factored.compute(n > 0 ? system : Matrix::Identity(1, 1));
   }
-  Vector at_jacks(const Jacks& jacks, const Vector& T) const {
-    Vector forces(Index(jacks.ends.size()));
-    for (Index k = 0; k < forces.size(); ++k) forces[k] = T[end_segment(jacks.ends[std::size_t(k)])];
-    return forces;
-  }
-  /// What an elongation does to the tensions, the jacks keeping their forces.
-  Vector effect(const Jacks& jacks, const Vector& column) const {
-    if (jacks.ends.empty()) return column;
-    Vector kept = column - jacks.columns * jacks.payouts(at_jacks(jacks, column));
-    for (const int end : jacks.ends) kept[end_segment(end)] = 0;
-    return kept;
+  /// What an elongation does to the tensions when the followers follow.
+  static Vector effect(const Followers& followers, Vector column) {
+    followers.follow(column, Vector::Zero(Index(followers.laws.size())));
+    return column;
   }
 
   /// The next state under `to`; joints further than `reach` from their limit stick. The state changes only if
   /// one is found.
   bool step(const Drive& to, Exact reach, int attempt) {
-    Jacks jacks;
-    find_jacks(to, jacks);
-    if (!jacks.factored.isInvertible()) return false;
+    Followers followers;
+    find_followers(to, followers);
+    if (!followers.factored.isInvertible()) return false;
     Moves moves = moved_;
     std::vector<std::size_t> loose;  // stretches that may be slack
     for (std::size_t r = 0; r < stretches_.size(); ++r) {
@@ -476,17 +518,11 @@ class LoadSteps::Stepper {
       excess = 0;
     }
     Vector T = total(to, moves);
-    Vector missing(Index(jacks.ends.size()));
-    for (Index k = 0; k < missing.size(); ++k) {
-      const int end = jacks.ends[std::size_t(k)];
-      missing[k] = to.ends[std::size_t(end)].force - T[end_segment(end)];
-    }
-    if (missing.size() > 0) T += jacks.columns * jacks.payouts(missing);
-    for (const int end : jacks.ends) T[end_segment(end)] = to.ends[std::size_t(end)].force;
+    followers.follow(T, followers.given());
 
     std::vector<std::size_t> able;
     for (std::size_t j = 0; j < joints_.size(); ++j)
-      if (joints_[j].rho > 0 &&
+      if (joints_[j].rho > 0 && !followers.rests[j] &&
           std::min(room(tension_, joints_[j], 0), room(tension_, joints_[j], 1)) <= reach)
         able.push_back(j);
     const Index m = Index(able.size()), n = 2 * m + Index(loose.size());
@@ -504,7 +540,7 @@ class LoadSteps::Stepper {
         column = W_.col(stiff);
       }
       unit[k] = peak_ / W_(stiff, stiff);
-      effects.col(k) = effect(jacks, column) * (1 / W_(stiff, stiff));
+      effects.col(k) = effect(followers, column) * (1 / W_(stiff, stiff));
     }
     Matrix M(n, n);
     Vector q(n);
@@ -530,28 +566,24 @@ class LoadSteps::Stepper {
     for (Index k = 0; k < m; ++k) moves.slip[able[std::size_t(k)]] += (z[2 * k] - z[2 * k + 1]) * unit[k];
     for (std::size_t r = 0; r < loose.size(); ++r)
       moves.excess[std::size_t(stretches_[loose[r]].segments[0])] = z[2 * m + Index(r)] * unit[m + Index(r)];
-    return settle(to, jacks, moves);
+    return settle(to, followers, moves);
   }
   /// Lemke's method, changes in turn, and if there are few combinations all of them.
   bool answer(Pivoting pivoting, int attempt, Vector& z) {
+    if (attempt > 0 && pivoting.nothing()) return false;
     if (attempt == 1 && pivoting.few()) return pivoting.try_all(z);
     exhausted_ = exhausted_ && pivoting.few();
     if (pivoting.solve(random_, attempt == 0, z)) return true;
     return pivoting.change_in_turn(random_, attempt == 0, z);
   }
   /// Takes the state if it is one.
-  bool settle(const Drive& to, const Jacks& jacks, Moves& moves) {
+  bool settle(const Drive& to, const Followers& followers, Moves& moves) {
     Vector T = total(to, moves);
-    Vector missing(Index(jacks.ends.size()));
-    for (Index k = 0; k < missing.size(); ++k) {
-      const int end = jacks.ends[std::size_t(k)];
-      missing[k] = to.ends[std::size_t(end)].force - T[end_segment(end)];
-    }
-    if (missing.size() > 0) {
-      const Vector more = jacks.payouts(missing);
-      for (Index k = 0; k < missing.size(); ++k)
-        moves.payout[std::size_t(jacks.ends[std::size_t(k)])] += more[k];
-      T += jacks.columns * more;
+    const Vector more = followers.follow(T, followers.given());
+    for (std::size_t k = 0; k < followers.laws.size(); ++k) {
+      const auto& law = followers.laws[k];
+      (law.end >= 0 ? moves.payout[std::size_t(law.end)] : moves.slip[std::size_t(law.joint)]) +=
+          more[Index(k)];
     }
     for (std::size_t end = 0; end < to.ends.size(); ++end)
       if (to.ends[end].locked) moves.payout[end] = to.ends[end].payout;
@@ -586,12 +618,13 @@ class LoadSteps::Stepper {
   }
 
   Exact smallest_pivot() const {
-    Jacks jacks;
-    find_jacks(now_, jacks);
+    Followers followers;
+    find_followers(now_, followers);
     std::vector<std::pair<const Joint*, int>> at_limit;
-    for (const Joint& at : joints_) {
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const Joint& at = joints_[j];
       const Exact forward = room(tension_, at, 0), backward = room(tension_, at, 1);
-      if (at.rho > 0 && std::min(forward, backward) <= Exact(1e-9L) * peak_)
+      if (at.rho > 0 && !followers.rests[j] && std::min(forward, backward) <= Exact(1e-9L) * peak_)
         at_limit.emplace_back(&at, forward <= backward ? 0 : 1);
     }
     const Index n = Index(at_limit.size());
@@ -600,7 +633,7 @@ class LoadSteps::Stepper {
     for (Index k = 0; k < n; ++k) {
       const Joint& at = *at_limit[std::size_t(k)].first;
       const Vector column =
-          effect(jacks, Vector(W_.col(at.before) - W_.col(at.after))) * (1 / W_(at.before, at.before));
+          effect(followers, Vector(W_.col(at.before) - W_.col(at.after))) * (1 / W_(at.before, at.before));
       for (Index i = 0; i < n; ++i)
         A(i, k) = room(column, *at_limit[std::size_t(i)].first, at_limit[std::size_t(i)].second);
     }
