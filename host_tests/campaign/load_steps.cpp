@@ -168,7 +168,7 @@ class Pivoting {
   }
   bool holds(const Vector& z) const {
     const Vector w = q_ + M_ * z;
-    const Exact rounding = Exact(1e-9L) * size() + Exact(1e-15L) * (M_.cwiseAbs() * z).cwiseAbs().maxCoeff();
+    const Exact rounding = tiny() + Exact(1e-16L) * (M_.cwiseAbs() * z).cwiseAbs().maxCoeff();
     for (Index i = 0; i < n_; ++i)
       if (!(w[i] >= -rounding) || (z[i] > 0 && !(std::fabs(w[i]) <= rounding))) return false;
     return true;
@@ -229,13 +229,17 @@ class LoadSteps::Stepper {
     Exact last = 1;
     bool found = false;
     exhausted_ = true;
-    for (const Exact size : {1e-6L, 1e-8L}) {
+    sound_ = Exact(1e-12L);
+    // Behind joints with a small rho forces change by 1 / rho times as much as in front of them.
+    for (const Exact size : {1e-6L, 1e-8L, 1e-10L, 1e-12L}) {
       const Exact part = std::min(Exact(1), size * peak_ / push);
-      found = nearest(between(now, goal, part), kept, before, 100 * size * peak_, 10 * size * peak_);
-      const Exact change = found ? (tension_ - before).cwiseAbs().maxCoeff() / peak_ : 1;
-      if (size < Exact(1e-7L))
-        found = found && (change <= Exact(1e-6L) || (change <= Exact(1e-4L) && change <= last / 10));
+      const Exact reach = std::max(100 * size, Exact(1e-11L));
+      if (!nearest(between(now, goal, part), kept, before, reach * peak_, 10 * size * peak_)) continue;
+      const Exact change = (tension_ - before).cwiseAbs().maxCoeff() / peak_;
+      found =
+          size < Exact(1e-7L) && (change <= 100 * size || (change <= Exact(1e-4L) && change <= last / 10));
       last = change;
+      if (found) break;
     }
     moved_ = kept;
     tension_ = before;
@@ -587,7 +591,7 @@ class LoadSteps::Stepper {
     }
     for (std::size_t end = 0; end < to.ends.size(); ++end)
       if (to.ends[end].locked) moves.payout[end] = to.ends[end].payout;
-    const Exact least = Exact(-1e-10L) * std::max(peak_, T.cwiseAbs().maxCoeff());
+    const Exact least = -sound_ * std::max(peak_, T.cwiseAbs().maxCoeff());
     if (!(T.minCoeff() >= least)) return false;
     for (const Joint& at : joints_)
       if (at.rho > 0 && !(std::min(room(T, at, 0), room(T, at, 1)) >= least)) return false;
@@ -654,6 +658,7 @@ class LoadSteps::Stepper {
   Vector tension_;
   Exact peak_ = 0, violation_ = 0, largest_change_ = 0, pivot_ = 1;
   bool exhausted_ = false;
+  Exact sound_ = 1e-10L;  ///< what a state may violate, as a part of the largest force
 };
 
 LoadSteps::LoadSteps(reference::Structure structure)
