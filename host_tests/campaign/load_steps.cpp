@@ -19,7 +19,8 @@ using reference::Vector;
 /// 0: a joint slides one way.
 class Pivoting {
  public:
-  Pivoting(const Matrix& M, const Vector& q, Index twos) : n_(q.size()), twos_(twos), M_(M), q_(q) {}
+  Pivoting(const Matrix& M, const Vector& q, Index twos, Exact coarsest)
+      : n_(q.size()), twos_(twos), coarsest_(coarsest), M_(M), q_(q) {}
 
   /// By changing which z are at work where signs disagree: first all at once, then the first one.
   bool change_in_turn(support::Random& random, bool from_rest, Vector& z) const {
@@ -168,13 +169,14 @@ class Pivoting {
   }
   bool holds(const Vector& z) const {
     const Vector w = q_ + M_ * z;
-    const Exact rounding = tiny() + Exact(1e-16L) * (M_.cwiseAbs() * z).cwiseAbs().maxCoeff();
+    const Exact rounding = coarsest_ * (size() + Exact(1e-3L) * (M_.cwiseAbs() * z).cwiseAbs().maxCoeff());
     for (Index i = 0; i < n_; ++i)
       if (!(w[i] >= -rounding) || (z[i] > 0 && !(std::fabs(w[i]) <= rounding))) return false;
     return true;
   }
 
   Index n_, twos_;
+  Exact coarsest_;
   const Matrix& M_;
   const Vector& q_;
   Matrix tableau_;
@@ -230,6 +232,7 @@ class LoadSteps::Stepper {
     bool found = false;
     exhausted_ = true;
     sound_ = Exact(1e-12L);
+    coarsest_ = Exact(1e-15L);
     // Behind joints with a small rho forces change by 1 / rho times as much as in front of them.
     for (const Exact size : {1e-6L, 1e-8L, 1e-10L, 1e-12L}) {
       const Exact part = std::min(Exact(1), size * peak_ / push);
@@ -566,7 +569,7 @@ class LoadSteps::Stepper {
         }
       });
     Vector z;
-    if (!answer(Pivoting(M, q, 2 * m), attempt, z)) return false;
+    if (!answer(Pivoting(M, q, 2 * m, coarsest_), attempt, z)) return false;
     for (Index k = 0; k < m; ++k) moves.slip[able[std::size_t(k)]] += (z[2 * k] - z[2 * k + 1]) * unit[k];
     for (std::size_t r = 0; r < loose.size(); ++r)
       moves.excess[std::size_t(stretches_[loose[r]].segments[0])] = z[2 * m + Index(r)] * unit[m + Index(r)];
@@ -658,7 +661,8 @@ class LoadSteps::Stepper {
   Vector tension_;
   Exact peak_ = 0, violation_ = 0, largest_change_ = 0, pivot_ = 1;
   bool exhausted_ = false;
-  Exact sound_ = 1e-10L;  ///< what a state may violate, as a part of the largest force
+  Exact coarsest_ = 1e-10L;  ///< what the solution of a step may violate
+  Exact sound_ = 1e-10L;     ///< what a state may violate, as a part of the largest force
 };
 
 LoadSteps::LoadSteps(reference::Structure structure)
