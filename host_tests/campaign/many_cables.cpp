@@ -31,7 +31,7 @@ using Seeds = std::map<std::string, std::vector<std::uint64_t>>;
 
 /// What came of many scenes of one kind, added up.
 struct Tally {
-  long scenes = 0, rows = 0, events = 0, solved = 0, solved_float = 0;
+  long scenes = 0, rows = 0, events = 0, solved = 0, solved_float = 0, compared = 0;
   double worst_double = 0, worst_float = 0, seconds = 0;
   std::uint64_t worst_seed = 0;
   Seeds refusals, float_refusals, confirmed, coarse, failures;
@@ -42,6 +42,7 @@ struct Tally {
     events += other.events;
     solved += other.solved;
     solved_float += other.solved_float;
+    compared += other.compared;
     if (other.worst_double > worst_double) worst_seed = other.worst_seed;
     worst_double = std::max(worst_double, other.worst_double);
     worst_float = std::max(worst_float, other.worst_float);
@@ -68,6 +69,8 @@ std::atomic<int> slow_judgements{0};  ///< left for this kind
 
 constexpr int most_joints_of_reference = 16, most_places_of_stepwise = 150;
 constexpr int few_steps = 16, many_steps = 64;
+constexpr int compare_every = 4, most_joints_of_comparison = 20;
+constexpr double accepted_deviation = 0.01;  // from load steps, unless more of them come closer
 
 /// Everything that is tried on one scene.
 template <class SceneType>
@@ -144,10 +147,34 @@ class Trial {
       }
       if (progress.fraction < 1) return fail("event budget spent");
       if (!take(run)) return;
+      found_.push_back(run.tensions());
     }
     ++tally_.solved;
     solved_ = true;
+    if ((seed_ % compare_every == 0 || talkative) && world_.scene.mu.size() <= most_joints_of_comparison)
+      compare_with_load_steps(run.peak());
   }
+  /// All laws may hold after a force has jumped: only the path there tells.
+  void compare_with_load_steps(double peak) {
+    const double coarse = off_load_steps(few_steps, peak), fine = off_load_steps(many_steps, peak);
+    if (coarse < 0 || fine < 0) return;
+    ++tally_.compared;
+    if (talkative) std::printf("  off load steps by %.1e and %.1e\n", coarse, fine);
+    if (fine > accepted_deviation && fine > coarse / 2) fail("load steps come to other forces");
+  }
+  /// The largest deviation after any row as a part of the largest force, -1 if load steps stop.
+  double off_load_steps(int count, double peak) const {
+    LoadSteps steps(world_.scene);
+    if (!steps.start(count)) return -1;
+    Exact most = 0;
+    for (std::size_t row = 0; row < world_.samples.size(); ++row) {
+      if (!steps.advance(reference::write_out(world_.samples[row]), count)) return -1;
+      for (std::size_t i = 0; i < found_[row].size(); ++i)
+        most = std::max(most, std::fabs(Exact(found_[row][i]) - steps.tension(int(i))));
+    }
+    return peak > 0 ? double(most) / peak : double(most);
+  }
+
   /// Refusals count only where double has an answer.
   void follow_in_float() {
     if (talkative) std::printf("float\n");
@@ -280,6 +307,7 @@ class Trial {
   Tally& tally_;
   bool solved_ = false;
   double worst_ = 0;
+  std::vector<std::vector<double>> found_;  // tensions after every row
 };
 
 void try_seed(ManyKind kind, std::uint64_t seed, Tally& tally) {
@@ -330,8 +358,9 @@ void print_list(const char* title, Seeds& lists) {
 bool report(ManyKind kind, Tally& tally) {
   std::printf("%s: %ld scenes, %ld rows, %ld events, %.1f s\n", name_of(kind), tally.scenes, tally.rows,
               tally.events, tally.seconds);
-  std::printf("  solved %ld (%.2f %%), in float %ld\n", tally.solved,
-              100.0 * double(tally.solved) / double(std::max(1L, tally.scenes)), tally.solved_float);
+  std::printf("  solved %ld (%.2f %%), in float %ld; %ld compared with load steps\n", tally.solved,
+              100.0 * double(tally.solved) / double(std::max(1L, tally.scenes)), tally.solved_float,
+              tally.compared);
   std::printf("  worst verify(): double %.1e (seed %llu), float %.1e\n", tally.worst_double,
               static_cast<unsigned long long>(tally.worst_seed), tally.worst_float);
   print_list("verify() in double:", tally.coarse);
