@@ -57,6 +57,7 @@ class Run {
   double jack_force(int cable, int end) const;
   /// The worst of verify().
   double verified() const;
+  const Tracker& tracker() const { return *tracker_; }
 
  private:
   std::unique_ptr<Model> model_;

@@ -1,0 +1,224 @@
+// Scenes and logs from files: many prestrained cables over one structure, long lacings, joints near to
+// locking.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "campaign/load_steps.hpp"
+#include "campaign/many_cables_run.hpp"
+#include "lib/log_file.hpp"
+#include "lib/scene_build.hpp"
+#include "lib/scene_file.hpp"
+#include "support/equilibrium.hpp"
+#include "taut/stepwise/stepwise.hpp"
+
+namespace {
+
+using campaign::PlaneWeb;
+using campaign::SpaceWeb;
+
+template <class SceneType>
+using Samples = std::vector<taut::Sample<double, typename SceneType::Capacity>>;
+
+template <class SceneType>
+struct Case {
+  SceneType scene;
+  Samples<SceneType> samples;
+};
+
+template <class SceneType>
+std::unique_ptr<Case<SceneType>> read(const std::string& name) {
+  const std::string file = TAUT_HARD_CASES "/data/" + name;
+  const auto described = taut::host::read_scene_file(file + ".json");
+  auto found = std::make_unique<Case<SceneType>>();
+  taut::host::build(described, found->scene);
+  REQUIRE(taut::validate(found->scene).ok());
+  std::ifstream stream = taut::host::open_log(file + ".csv");
+  taut::host::LogReader log(stream, file + ".csv", described);
+  for (taut::host::LogRow row = log.first_row(); log.next(row);) {
+    taut::Sample<double, typename SceneType::Capacity> sample;
+    for (std::size_t k = 0; k < row.factor.size(); ++k) sample.factor[int(k)] = row.factor[k];
+    for (std::size_t c = 0; c < row.cables.size(); ++c)
+      for (std::size_t end = 0; end < 2; ++end)
+        sample.jack[int(c)][end] = {row.cables[c][end].force, row.cables[c][end].locked};
+    found->samples.push_back(sample);
+  }
+  return found;
+}
+
+/// Tensions at the start and after every row; fewer if there is no answer to all.
+struct Answers {
+  std::vector<std::vector<double>> tensions;
+  double peak = 0;
+  double jump = 0;  ///< largest change of a tension in one piece of a row [N]
+};
+
+/// Between two rows with the same locks.
+template <class Sample>
+Sample between(const Sample& a, const Sample& b, double part) {
+  Sample mixed = b;
+  for (std::size_t i = 0; i < b.factor.items.size(); ++i)
+    mixed.factor.items[i] = a.factor.items[i] + part * (b.factor.items[i] - a.factor.items[i]);
+  for (std::size_t c = 0; c < b.jack.items.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end)
+      mixed.jack.items[c][end].force =
+          a.jack.items[c][end].force + part * (b.jack.items[c][end].force - a.jack.items[c][end].force);
+  return mixed;
+}
+template <class Sample>
+bool same_locks(const Sample& a, const Sample& b) {
+  for (std::size_t c = 0; c < b.jack.items.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end)
+      if (a.jack.items[c][end].locked != b.jack.items[c][end].locked) return false;
+  return true;
+}
+
+double difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::fabs(a[i] - b[i]));
+  return most;
+}
+
+/// The tracker's, every row in so many pieces; checks every state on the way.
+template <class SceneType>
+Answers tracked(const Case<SceneType>& given, int pieces) {
+  Answers answers;
+  support::Run<double, SceneType> run(given.scene);
+  REQUIRE(run.condensed().ok());
+  CAPTURE(std::string(taut::describe(run.started().status.code)));
+  CHECK(run.started().status.ok());
+  if (!run.started().status) return answers;
+  double worst = run.verified(), least = 0;
+  answers.tensions.push_back(run.tensions());
+  taut::Sample<double, typename SceneType::Capacity> before;
+  for (std::size_t row = 0; row < given.samples.size(); ++row) {
+    const auto& goal = given.samples[row];
+    // The seating is drawn in along a whole row.
+    const int parts = same_locks(before, goal) ? pieces : 1;
+    for (int k = 1; k <= parts; ++k) {
+      const std::vector<double> last = run.tensions();
+      const auto progress = run.advance(k == parts ? goal : between(before, goal, double(k) / parts));
+      CAPTURE(row + 1);
+      CAPTURE(k);
+      CAPTURE(progress.fraction);
+      CAPTURE(std::string(taut::describe(progress.status.code)));
+      CHECK(progress.status.ok());
+      if (!progress.status) return answers;
+      CHECK(progress.fraction == 1);
+      worst = std::max(worst, run.verified());
+      const std::vector<double> now = run.tensions();
+      least = std::min(least, *std::min_element(now.begin(), now.end()));
+      if (parts > 1) answers.jump = std::max(answers.jump, difference(now, last));
+    }
+    before = goal;
+    answers.tensions.push_back(run.tensions());
+    answers.peak = run.peak();
+  }
+  CHECK(worst <= 1e-11);
+  CHECK(least >= 0);
+  return answers;
+}
+
+/// Those of the library's load steps, as far as they come.
+template <class SceneType>
+Answers stepped(const Case<SceneType>& given, int substeps) {
+  Answers answers;
+  const auto solver = std::make_unique<taut::Stepwise<double, SceneType>>();
+  support::Watch<SceneType, double> watch(given.scene);
+  const auto keep = [&] {
+    answers.tensions.emplace_back();
+    for (int i = 0; i < given.scene.prestrain.size(); ++i)
+      answers.tensions.back().push_back(solver->response().tension[i]);
+  };
+  if (!solver->start(given.scene, substeps)) return answers;
+  keep();
+  for (const auto& sample : given.samples) {
+    if (!solver->advance(sample, substeps)) return answers;
+    watch.forget_slips();
+    CHECK(watch.check(*solver, sample).worst() <= 1e-9);
+    keep();
+  }
+  return answers;
+}
+/// Those of the complementarity problems in long double, as far as they come.
+template <class SceneType>
+Answers in_load_steps(const Case<SceneType>& given, int substeps) {
+  Answers answers;
+  campaign::LoadSteps steps(given.scene);
+  const auto keep = [&] {
+    answers.tensions.emplace_back();
+    for (int i = 0; i < given.scene.prestrain.size(); ++i)
+      answers.tensions.back().push_back(double(steps.tension(i)));
+  };
+  if (!steps.start(substeps)) return answers;
+  keep();
+  for (const auto& sample : given.samples) {
+    if (!steps.advance(reference::write_out(sample), substeps)) return answers;
+    keep();
+  }
+  CHECK(steps.violation() <= 1e-9);
+  return answers;
+}
+
+/// The deviation from load steps, over the rows that both have, as a part of the largest force.
+double deviation(const Answers& a, const Answers& b) {
+  double most = 0;
+  for (std::size_t row = 0; row < std::min(a.tensions.size(), b.tensions.size()); ++row)
+    most = std::max(most, difference(a.tensions[row], b.tensions[row]));
+  return a.peak > 0 ? most / a.peak : most;
+}
+
+/// Of load steps from what they come closer to, as a part of the largest force.
+constexpr double accepted_deviation = 1e-3;
+
+enum class Compared { with_stepwise, with_load_steps };
+
+/// Everything that must be true of a case. `steps` are those of the library or of the complementarity
+/// problems, many and four times as many; the tracker is what they come closer to.
+template <class SceneType>
+void check(const std::string& name, Compared compared, int steps) {
+  const auto given = read<SceneType>(name);
+  const Answers found = tracked(*given, 1);
+  const auto follow = [&](int n) {
+    return compared == Compared::with_stepwise ? stepped(*given, n) : in_load_steps(*given, n);
+  };
+  const Answers coarse = follow(steps), fine = follow(4 * steps);
+  REQUIRE(fine.tensions.size() == given->samples.size() + 1);
+  REQUIRE(found.tensions.size() == fine.tensions.size());
+  CAPTURE(deviation(found, coarse));
+  CHECK(deviation(found, fine) <= accepted_deviation);
+
+  // The path is the same in pieces, and no piece that is small moves a force far.
+  const Answers in_64 = tracked(*given, 64), in_1024 = tracked(*given, 1024);
+  REQUIRE(in_64.tensions.size() == found.tensions.size());
+  REQUIRE(in_1024.tensions.size() == found.tensions.size());
+  CHECK(deviation(found, in_64) <= 1e-9);
+  CHECK(deviation(found, in_1024) <= 1e-9);
+  CHECK(in_1024.jump <= in_64.jump / 4);
+}
+
+}  // namespace
+
+TEST_CASE("six prestrained cables over one elastic structure have the forces of load steps") {
+  check<SpaceWeb>("six_prestrained", Compared::with_stepwise, 64);
+}
+TEST_CASE("a prestrained suspen-dome has the forces of load steps") {
+  check<SpaceWeb>("dome_prestrained", Compared::with_stepwise, 64);
+}
+TEST_CASE("a lacing of 17 joints on stiff eyelets is jacked, locked and loaded to the end") {
+  check<PlaneWeb>("lacing_stiff", Compared::with_stepwise, 64);
+}
+TEST_CASE("a lacing of 29 joints on soft eyelets is jacked and loaded to the end, where stepwise jams") {
+  check<PlaneWeb>("lacing_soft", Compared::with_load_steps, 64);
+}
+TEST_CASE("joints next to locking never push a segment") {
+  check<SpaceWeb>("near_locking", Compared::with_load_steps, 64);
+}
+TEST_CASE("joints next to locking follow the load without a jump") {
+  check<PlaneWeb>("near_locking_jump", Compared::with_load_steps, 64);
+}
