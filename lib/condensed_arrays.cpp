@@ -1,9 +1,11 @@
 #include "lib/condensed_arrays.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 
 #include "lib/condensed_kind.hpp"
+#include "lib/number_range.hpp"
 #include "lib/valid_scene.hpp"
 
 namespace taut::host {
@@ -40,6 +42,20 @@ CableLayout<double> layout_of(const CableLayout<Scalar>& cable) {
           cable.nodes,  cable.first_segment, cable.first_joint};
 }
 
+bool are_possible(const Row& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double number) { return is_possible(number); });
+}
+bool are_possible(const std::vector<Row>& rows) {
+  return std::all_of(rows.begin(), rows.end(), [](const Row& row) { return are_possible(row); });
+}
+bool are_possible(const CondensedArrays& arrays) {
+  return is_possible(arrays.condensing.condition) && are_possible(arrays.coupling) &&
+         are_possible(arrays.prestrain) && are_possible(arrays.load) && are_possible(arrays.rho) &&
+         are_possible(arrays.cos_alpha) && are_possible(arrays.sin_alpha) &&
+         are_possible(arrays.strut_load) && are_possible(arrays.strut_prestrain) &&
+         are_possible(arrays.strut_elongation);
+}
+
 template <class Scalar, int Dimension, class Cap>
 CondensedArrays condensed_arrays(const SceneDescription& scene) {
   const auto condensed = std::make_unique<Condensed<Scalar, Cap>>();
@@ -60,6 +76,7 @@ CondensedArrays condensed_arrays(const SceneDescription& scene) {
   arrays.strut_load = rows_of(rows->load, loads, struts);
   arrays.strut_prestrain = row_of(rows->prestrain, struts);
   arrays.strut_elongation = rows_of(rows->elongation, segments, struts);
+  if (!are_possible(arrays)) arrays.condensing.status.code = Code::not_finite;
   return arrays;
 }
 

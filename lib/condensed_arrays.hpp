@@ -14,7 +14,7 @@ namespace taut::host {
 struct CondensedArrays {
   using Row = std::vector<double>;
 
-  Condensing condensing;  ///< on failure all else is empty
+  Condensing condensing;  ///< on failure nothing else has a meaning; not_finite: numbers out of all range
   bool rigid = false;     ///< see is_rigid()
   std::vector<CableLayout<double>> cables;
   std::vector<Row> coupling;  ///< of all segments

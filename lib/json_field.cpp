@@ -1,8 +1,10 @@
 #include "lib/json_field.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lib/input_error.hpp"
+#include "lib/number_range.hpp"
 #include "lib/text.hpp"
 
 namespace taut::host {
@@ -39,7 +41,17 @@ void Field::require(JsonValue::Kind kind, const std::string& meaning) const {
 
 double Field::number(const std::string& meaning) const {
   require(JsonValue::Kind::number, meaning);
+  if (std::fabs(value_->number) > largest_input)
+    refuse("the number " + plain(value_->number) + " is too large",
+           "write one of at most " + plain(largest_input) + " in size");
   return value_->number;
+}
+
+double Field::amount(const std::string& meaning) const {
+  const double found = number(meaning);
+  if (found > 0 && found < smallest_amount)
+    refuse("the number " + plain(found) + " is too small", "write one of at least " + plain(smallest_amount));
+  return found;
 }
 
 bool Field::boolean(const std::string& meaning) const {

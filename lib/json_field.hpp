@@ -30,7 +30,10 @@ class Field {
   /// JSON pointer.
   const std::string& place() const { return place_; }
 
+  /// Of at most `largest_input` in size.
   double number(const std::string& meaning) const;
+  /// A number that is at least `smallest_amount` if it is greater than zero.
+  double amount(const std::string& meaning) const;
   bool boolean(const std::string& meaning) const;
   const std::string& text(const std::string& meaning) const;
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lib/input_error.hpp"
+#include "lib/number_range.hpp"
 #include "lib/text.hpp"
 
 namespace taut::host {
@@ -81,7 +82,8 @@ class TreeBuilder {
     const std::string where = line_and_column(text_, offset);
     const auto* known = dynamic_cast<const nlohmann::json::exception*>(&reason);
     if (known != nullptr && known->id == number_overflow) {
-      return stop(where, "the number " + quote(token) + " is too large", "write one below 1.8e308 in size");
+      return stop(where, "the number " + quote(token) + " is too large",
+                  "write one of at most " + plain(largest_input) + " in size");
     }
     if (text_.find_first_not_of(" \t\r\n") == std::string_view::npos) {
       return stop(where, "the file is empty", "write a scene: { \"taut\": 1, ... }");

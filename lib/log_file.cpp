@@ -10,6 +10,7 @@
 
 #include "lib/file_text.hpp"
 #include "lib/input_error.hpp"
+#include "lib/number_range.hpp"
 #include "lib/text.hpp"
 
 namespace taut::host {
@@ -184,15 +185,23 @@ bool LogReader::next(LogRow& row) {
     for (EndRow& end : cable) end.reading = end.stroke = std::nullopt;
   }
   for (std::size_t i = 0; i < columns_.size(); ++i) take(i, row);
-  if (rows_ > 1 && !(row.time > time_before)) {
-    const auto time =
-        static_cast<std::size_t>(std::find(names_.begin(), names_.end(), "time") - names_.begin());
-    refuse_field(time,
-                 "the time " + plain(row.time) + " is not after " + plain(time_before) + " of the row before",
-                 "let the time increase from row to row");
-  }
+  if (rows_ > 1) check_time(row.time, time_before);
   check_jacks(row);
   return true;
+}
+
+void LogReader::check_time(double time, double before) const {
+  if (time > before && time - before >= rules_.shortest_step) return;
+  const auto column =
+      static_cast<std::size_t>(std::find(names_.begin(), names_.end(), "time") - names_.begin());
+  const std::string found = "the time " + plain(time);
+  if (time > before)
+    refuse_field(column,
+                 found + " is less than " + plain(rules_.shortest_step) + " s after " + plain(before) +
+                     " of the row before",
+                 "give the time in seconds");
+  refuse_field(column, found + " is not after " + plain(before) + " of the row before",
+               "let the time increase from row to row");
 }
 
 // Puts a field where it belongs. An empty one keeps what was there.
@@ -231,15 +240,15 @@ double LogReader::number(std::size_t i) const {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc::result_out_of_range) {
     refuse_field(i, "the number " + quote(text) + " is too large or too small",
-                 "write one between 1e-307 and 1e308");
+                 "write one between 1e-307 and " + plain(largest_input) + " in size, or 0");
   }
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
     refuse_field(i, quote(text) + " is not a number",
                  "write a plain decimal such as -1.5 or 2e3, or leave it empty");
   }
-  if (std::fabs(value) > rules_.largest) {
-    refuse_field(i, "the number " + quote(text) + " is too large for single precision",
-                 "use --scalar double");
+  if (std::fabs(value) > largest_input) {
+    refuse_field(i, "the number " + quote(text) + " is too large",
+                 "write one of at most " + plain(largest_input) + " in size");
   }
   return value;
 }

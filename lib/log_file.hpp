@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <fstream>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,8 +33,8 @@ struct LogRow {
 
 /// What a log may hold beyond its format.
 struct LogRules {
-  bool negative_jack_forces = false;                    ///< readings with noise may be below zero
-  double largest = std::numeric_limits<double>::max();  ///< size of the largest usable number
+  bool negative_jack_forces = false;  ///< readings with noise may be below zero
+  double shortest_step = 0;           ///< least time between rows [s]
 };
 
 /// Reads a log from a stream, one row at a time.
@@ -67,6 +66,7 @@ class LogReader {
   [[noreturn]] void refuse_unknown_column(std::size_t i, const std::string& name) const;
   void split();
   void take(std::size_t i, LogRow& row) const;
+  void check_time(double time, double before) const;
   double number(std::size_t i) const;
   void check_jacks(const LogRow& row) const;
   [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) const;

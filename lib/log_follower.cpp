@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdio>
 #include <iostream>
-#include <limits>
 
+#include "lib/number_range.hpp"
 #include "lib/output_file.hpp"
 #include "lib/progress_line.hpp"
 #include "lib/scene_file.hpp"
@@ -17,9 +17,10 @@ namespace {
 
 LogRules rules_for(const RunOptions& options) {
   LogRules rules;
-  rules.negative_jack_forces = options.method == Method::estimate;
-  if (options.numbers.scalar == ScalarType::float32)
-    rules.largest = static_cast<double>(std::numeric_limits<float>::max());
+  if (options.method == Method::estimate) {
+    rules.negative_jack_forces = true;
+    rules.shortest_step = shortest_step;
+  }
   return rules;
 }
 
@@ -71,6 +72,8 @@ std::string LogFollower::follow(const RowVisitor& visit) {
     if (const Followed path = model_->advance(row, options_.substeps); !path.whole())
       return place(row) + part(path.fraction) + ": " + reason_to_stop(path, scene_);
     model_->read(answer);
+    if (const std::string number = impossible_number(scene_, answer); !number.empty())
+      return place(row) + ": " + number + "; " + remedy_of_impossible_numbers;
     visit(row, answer);
     progress.reach(row.row);
   }

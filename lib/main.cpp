@@ -10,6 +10,7 @@
 #include "lib/check.hpp"
 #include "lib/export_scene.hpp"
 #include "lib/input_error.hpp"
+#include "lib/number_range.hpp"
 #include "lib/report.hpp"
 #include "lib/run_log.hpp"
 
@@ -30,6 +31,15 @@ Method method_called(const std::string& name) {
   return std::find_if(methods.begin(), methods.end(), [&](const auto& each) { return each.first == name; })
       ->second;
 }
+
+// A NaN is in no range for CLI11 to refuse.
+const CLI::Validator from_zero_up(
+    [](const std::string& text) -> std::string {
+      double number = 0;
+      if (CLI::detail::lexical_cast(text, number) && number >= 0 && number <= largest_input) return "";
+      return "write a number from 0 to 1e30";
+    },
+    "NUMBER");
 
 // The command line, with what it asks for.
 class CommandLine {
@@ -96,7 +106,7 @@ class CommandLine {
   void add_limits(CLI::App& command) {
     auto& limits = options_.limits;
     const auto add = [&](const char* name, double& limit, const char* meaning) {
-      return command.add_option(name, limit, meaning)->check(CLI::NonNegativeNumber);
+      return command.add_option(name, limit, meaning)->check(from_zero_up);
     };
     add("--least-force", limits.least_force, "Alarm when the force of a segment is below this [N]");
     add("--most-force", limits.most_force, "Alarm when the force of a segment is above this [N]");

@@ -32,7 +32,11 @@ class Prediction {
     if (!run_.reason.empty()) return run_;
     Answer answer;
     model_->read(answer);
-    run_.tension = answer.tension;
+    const std::string number = impossible_number(scene_, answer);
+    if (number.empty())
+      run_.tension = answer.tension;
+    else
+      run_.reason = "it has no answer at the end: " + number;
     return run_;
   }
 

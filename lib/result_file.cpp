@@ -1,9 +1,13 @@
 #include "lib/result_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
+
+#include "lib/number_range.hpp"
+#include "lib/text.hpp"
 
 namespace taut::host {
 namespace {
@@ -54,6 +58,17 @@ class Line {
   std::string text_;
 };
 
+using host::is_possible;
+
+bool is_possible(const Answer& answer) {
+  const auto all = [](const auto& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](double number) { return is_possible(number); });
+  };
+  return all(answer.tension) && all(answer.slip) && all(answer.contact) && all(answer.friction) &&
+         all(answer.strut) && all(answer.deviation) && all(answer.mu) && all(answer.mu_deviation) &&
+         std::all_of(answer.payout.begin(), answer.payout.end(), all);
+}
+
 }  // namespace
 
 const char* state_word(JointState state) {
@@ -82,6 +97,36 @@ void append_number(std::string& text, double value, const NumberFormat& format) 
   } else {
     append_shortest(text, value);
   }
+}
+
+std::string impossible_number(const SceneDescription& scene, const Answer& answer) {
+  if (is_possible(answer)) return "";
+  std::string found;
+  const auto check = [&](const std::string& name, const std::vector<double>& numbers, std::size_t first,
+                         std::size_t count) {
+    for (std::size_t i = 0; i < count && found.empty() && first + i < numbers.size(); ++i)
+      if (const double number = numbers[first + i]; !is_possible(number))
+        found = name + std::to_string(i + 1) + " is " + plain(number);
+  };
+  std::size_t segment = 0, joint = 0;
+  for (std::size_t c = 0; c < scene.cables.size(); ++c) {
+    const CableDescription& cable = scene.cables[c];
+    const std::size_t segments = cable.segments(), joints = cable.joints();
+    check(cable.name + ".T", answer.tension, segment, segments);
+    check(cable.name + ".slip", answer.slip, joint, joints);
+    check(cable.name + ".N", answer.contact, joint, joints);
+    check(cable.name + ".f", answer.friction, joint, joints);
+    check(cable.name + ".sd", answer.deviation, segment, segments);
+    check(cable.name + ".mu", answer.mu, joint, joints);
+    check(cable.name + ".mu_sd", answer.mu_deviation, joint, joints);
+    for (std::size_t end = 0; end < 2; ++end)
+      if (const double payout = answer.payout[c][end]; found.empty() && !is_possible(payout))
+        found = cable.name + "." + end_name(end) + ".payout is " + plain(payout);
+    segment += segments;
+    joint += joints;
+  }
+  check("strut", answer.strut, 0, answer.strut.size());
+  return found;
 }
 
 std::string result_header(const SceneDescription& scene, ResultColumns columns) {

@@ -189,8 +189,8 @@ class SceneReader {
       }
       StrutDescription strut;
       for (std::size_t i = 0; i < 2; ++i) strut.nodes[i] = node(names[i]);
-      strut.E = item.at("E").number("Young's modulus [N/m2] as a number");
-      strut.A = item.at("A").number("the cross-section [m2] as a number");
+      strut.E = item.at("E").amount("Young's modulus [N/m2] as a number");
+      strut.A = item.at("A").amount("the cross-section [m2] as a number");
       scene_.struts.push_back(strut);
     }
   }
@@ -219,8 +219,8 @@ class SceneReader {
       read_cable_name(item.at("name"), cable);
       if (const auto closed = item.find("closed")) cable.closed = closed->boolean("true or false");
       read_path(item.at("path"), cable);
-      cable.E = item.at("E").number("Young's modulus [N/m2] as a number");
-      cable.A = item.at("A").number("the cross-section [m2] as a number");
+      cable.E = item.at("E").amount("Young's modulus [N/m2] as a number");
+      cable.A = item.at("A").amount("the cross-section [m2] as a number");
       for (std::size_t end = 0; end < 2; ++end) read_end(item, end, cable);
       cable.mu.assign(cable.joints(), 0);
       if (const auto friction = item.find("friction")) read_friction(*friction, cable);
@@ -294,7 +294,7 @@ class SceneReader {
       }
     }
     if (const auto sd = field.find("mu_sd")) {
-      cable.mu_sd = sd->number("the standard deviation of mu as a number");
+      cable.mu_sd = sd->amount("the standard deviation of mu as a number");
       cable.has_mu_sd = true;
     }
     if (const auto shared = field.find("shared")) cable.shared_mu = shared->boolean("true or false");
@@ -382,7 +382,7 @@ class SceneReader {
       double& sd = sensor_at(item, name);
       item.require_keys(sensor_keys, "a load cell: { \"sd\": ... }");
       const Field value = item.at("sd");
-      sd = value.number("the standard deviation [N] as a number");
+      sd = value.amount("the standard deviation [N] as a number");
       if (!(sd > 0)) value.refuse("a standard deviation of " + plain(sd), "write one greater than zero");
     }
   }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/number_range.hpp"
 #include "lib/text.hpp"
 
 namespace taut::host {
@@ -281,6 +282,8 @@ std::string subject(const Status& status, const SceneDescription& scene) {
 std::string failure_problem(const Status& status) {
   if (status.code == Code::mechanism && status.place == Place::joint)
     return "mechanism: when the cable slides over this joint, nothing holds its node";
+  if (status.code == Code::not_finite)
+    return "condensed, it has a number that is infinite or out of all range";
   if (status.code == Code::state_iterations) return "jammed: the joint states do not settle";
   return describe(status.code);
 }
@@ -296,6 +299,8 @@ std::string failure_remedy(const Status& status) {
       return "divide the path: add rows in between, or use --method stepwise with --substeps";
     case Code::ill_conditioned:
       return "use --scalar double, or check for stiffnesses that differ by many powers of ten";
+    case Code::not_finite:
+      return remedy_of_impossible_numbers;
     case Code::bad_sample:
       return "write finite numbers and no negative jack forces";
     default:
