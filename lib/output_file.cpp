@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lib/input_error.hpp"
+#include "lib/unfinished_file.hpp"
 
 namespace taut::host {
 namespace fs = std::filesystem;
@@ -35,7 +36,7 @@ void OutputFile::open_beside() {
   final_ = error ? target_ : resolved.string();
   for (int i = 0; i < attempts && stream_ == nullptr; ++i) {
     temporary_ = final_ + ".part" + std::to_string(i);
-    stream_ = std::fopen(temporary_.c_str(), "wbx");
+    stream_ = open_unfinished(temporary_.c_str());
     if (stream_ == nullptr && errno != EEXIST) return;
   }
 }
@@ -43,7 +44,12 @@ void OutputFile::open_beside() {
 OutputFile::~OutputFile() {
   if (stream_ == nullptr || stream_ == stdout) return;
   std::fclose(stream_);
-  if (!temporary_.empty()) std::remove(temporary_.c_str());
+  if (!temporary_.empty()) remove_temporary();
+}
+
+void OutputFile::remove_temporary() {
+  std::remove(temporary_.c_str());
+  forget_unfinished();
 }
 
 void OutputFile::fail() const {
@@ -70,9 +76,12 @@ void OutputFile::finish() {
   std::error_code error;
   const fs::file_status replaced = fs::status(final_, error);
   if (fs::exists(replaced)) fs::permissions(temporary_, replaced.permissions(), error);
-  if (closed && std::rename(temporary_.c_str(), final_.c_str()) == 0) return;
+  if (closed && std::rename(temporary_.c_str(), final_.c_str()) == 0) {
+    forget_unfinished();
+    return;
+  }
   const int reason = errno;
-  std::remove(temporary_.c_str());
+  remove_temporary();
   errno = reason;
   fail();
 }

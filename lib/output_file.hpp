@@ -11,8 +11,8 @@ namespace taut::host {
 /// A stream of text to a file or standard output.
 ///
 /// A file is written beside its target and takes the target's place in finish(); without finish() the target
-/// stays as it was. A device or a pipe is written directly. All functions throw InputError if the output
-/// cannot be written.
+/// stays as it was, also when a signal ends the program. A device or a pipe is written directly. All
+/// functions throw InputError if the output cannot be written.
 class OutputFile {
  public:
   /// An empty path means standard output.
@@ -27,6 +27,7 @@ class OutputFile {
 
  private:
   void open_beside();
+  void remove_temporary();
   [[noreturn]] void fail() const;
 
   std::string target_;     // as given, for messages
