@@ -11,6 +11,7 @@
 #include "lib/export_scene.hpp"
 #include "lib/input_error.hpp"
 #include "lib/number_range.hpp"
+#include "lib/own_stack.hpp"
 #include "lib/report.hpp"
 #include "lib/run_log.hpp"
 
@@ -142,9 +143,7 @@ class CommandLine {
   std::string method_ = methods.front().first, scalar_ = "double";
 };
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   try {
     return CommandLine().run(argc, argv);
   } catch (const InputError& error) {
@@ -155,4 +154,10 @@ int main(int argc, char** argv) {
     std::cerr << "taut: " << error.what() << '\n';
   }
   return unusable_input;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return call_with_own_stack([&] { return run(argc, argv); });
 }
