@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "lib/check.hpp"
-#include "lib/export_scene.hpp"
-#include "lib/input_error.hpp"
-#include "lib/number_range.hpp"
+#include "lib/commands/check.hpp"
+#include "lib/commands/export_scene.hpp"
+#include "lib/commands/report.hpp"
+#include "lib/commands/run_log.hpp"
+#include "lib/files/input_error.hpp"
+#include "lib/files/number_range.hpp"
 #include "lib/own_stack.hpp"
-#include "lib/report.hpp"
-#include "lib/run_log.hpp"
 
 namespace {
 

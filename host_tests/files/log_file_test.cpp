@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "lib/input_error.hpp"
-#include "lib/log_file.hpp"
-#include "lib/scene_file.hpp"
+#include "lib/files/input_error.hpp"
+#include "lib/files/log_file.hpp"
+#include "lib/files/scene_file.hpp"
 
 using namespace taut::host;
 
