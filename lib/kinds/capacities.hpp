@@ -16,13 +16,6 @@ struct Small : Capacity {
   static constexpr int loads = 8, forces = 64, temperatures = 8;
 };
 
-struct Medium : Capacity {
-  static constexpr const char* name = "medium";
-  static constexpr int nodes = 128, struts = 512, cables = 16, segments = 64, joints = 32;
-  static constexpr int substructures = 32, substructure_nodes = 64, substructure_entries = 9216;
-  static constexpr int loads = 16, forces = 512, temperatures = 64;
-};
-
 struct Large : Capacity {
   static constexpr const char* name = "large";
   static constexpr int nodes = 512, struts = 2048, cables = 64, segments = 256, joints = 128;
@@ -35,6 +28,8 @@ struct CapacityList {};
 
 /// The classes that the program is compiled for, the smallest first: CMake's TAUT_CAPACITIES.
 using Capacities = CapacityList<TAUT_CAPACITIES>;
+/// That of the method `stepwise`, which is a reference and need not be fast.
+using LargestCapacity = CapacityList<Large>;
 
 /// Numbers of everything that a capacity counts, in the order of `amount_names`.
 using Amounts = std::array<std::size_t, 11>;
@@ -97,12 +92,12 @@ auto with_capacity(const SceneDescription& scene, Call&& call, CapacityList<Cap,
 
 }  // namespace detail
 
-/// Calls `call` with the SceneKind of the scene's dimension and the smallest capacity that holds it; returns
-/// what it returns, which must be of one type. Throws InputError if none holds it.
-template <class Call>
-auto with_capacity(const SceneDescription& scene, Call&& call) {
-  if (scene.dimension == 2) return detail::with_capacity<2>(scene, call, Capacities{});
-  return detail::with_capacity<3>(scene, call, Capacities{});
+/// Calls `call` with the SceneKind of the scene's dimension and the smallest of the capacities that holds it;
+/// returns what it returns, which must be of one type. Throws InputError if none holds it.
+template <class Call, class List = Capacities>
+auto with_capacity(const SceneDescription& scene, Call&& call, List capacities = {}) {
+  if (scene.dimension == 2) return detail::with_capacity<2>(scene, call, capacities);
+  return detail::with_capacity<3>(scene, call, capacities);
 }
 
 }  // namespace taut::host

@@ -26,12 +26,15 @@ std::unique_ptr<Model> estimator_model(const SceneDescription& scene, ScalarType
 }
 
 std::unique_ptr<Model> stepwise_model(const SceneDescription& scene, ScalarType scalar) {
-  return with_capacity(scene, [&](auto kind) -> std::unique_ptr<Model> {
-    using Kind = decltype(kind);
-    using Cap = typename Kind::Capacity;
-    return scalar == ScalarType::float32 ? make_stepwise<float, Kind::dimension, Cap>(scene)
-                                         : make_stepwise<double, Kind::dimension, Cap>(scene);
-  });
+  return with_capacity(
+      scene,
+      [&](auto kind) -> std::unique_ptr<Model> {
+        using Kind = decltype(kind);
+        using Cap = typename Kind::Capacity;
+        return scalar == ScalarType::float32 ? make_stepwise<float, Kind::dimension, Cap>(scene)
+                                             : make_stepwise<double, Kind::dimension, Cap>(scene);
+      },
+      LargestCapacity{});
 }
 
 }  // namespace
