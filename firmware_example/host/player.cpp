@@ -13,6 +13,7 @@
 #include "lib/files/answer.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/log_file.hpp"
+#include "lib/files/number_range.hpp"
 #include "lib/files/output_file.hpp"
 #include "lib/files/result_file.hpp"
 #include "lib/files/scene_file.hpp"
@@ -207,7 +208,7 @@ int play(const Options& options) {
   const SceneDescription scene = read_scene_file(options.scene);
   LogRules rules;
   rules.negative_jack_forces = true;
-  rules.largest = static_cast<double>(std::numeric_limits<float>::max());
+  rules.shortest_step = shortest_step;
   check_log(options.log, scene, rules);
   keep_inputs(options.output, {options.scene, options.log});
   std::ifstream stream = open_log(options.log);
