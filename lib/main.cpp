@@ -7,11 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "lib/check.hpp"
-#include "lib/export_scene.hpp"
-#include "lib/input_error.hpp"
-#include "lib/report.hpp"
-#include "lib/run_log.hpp"
+#include "lib/commands/check.hpp"
+#include "lib/commands/export_scene.hpp"
+#include "lib/commands/report.hpp"
+#include "lib/commands/run_log.hpp"
+#include "lib/files/input_error.hpp"
+#include "lib/files/number_range.hpp"
+#include "lib/own_stack.hpp"
 
 namespace {
 
@@ -30,6 +32,15 @@ Method method_called(const std::string& name) {
   return std::find_if(methods.begin(), methods.end(), [&](const auto& each) { return each.first == name; })
       ->second;
 }
+
+// A NaN is in no range for CLI11 to refuse.
+const CLI::Validator from_zero_up(
+    [](const std::string& text) -> std::string {
+      double number = 0;
+      if (CLI::detail::lexical_cast(text, number) && number >= 0 && number <= largest_input) return "";
+      return "write a number from 0 to 1e30";
+    },
+    "NUMBER");
 
 // The command line, with what it asks for.
 class CommandLine {
@@ -96,7 +107,7 @@ class CommandLine {
   void add_limits(CLI::App& command) {
     auto& limits = options_.limits;
     const auto add = [&](const char* name, double& limit, const char* meaning) {
-      return command.add_option(name, limit, meaning)->check(CLI::NonNegativeNumber);
+      return command.add_option(name, limit, meaning)->check(from_zero_up);
     };
     add("--least-force", limits.least_force, "Alarm when the force of a segment is below this [N]");
     add("--most-force", limits.most_force, "Alarm when the force of a segment is above this [N]");
@@ -132,9 +143,7 @@ class CommandLine {
   std::string method_ = methods.front().first, scalar_ = "double";
 };
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   try {
     return CommandLine().run(argc, argv);
   } catch (const InputError& error) {
@@ -145,4 +154,10 @@ int main(int argc, char** argv) {
     std::cerr << "taut: " << error.what() << '\n';
   }
   return unusable_input;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return call_with_own_stack([&] { return run(argc, argv); });
 }

@@ -9,15 +9,16 @@
 
 #include "host/device.hpp"
 #include "host/process_link.hpp"
-#include "lib/alarm_words.hpp"
-#include "lib/answer.hpp"
-#include "lib/input_error.hpp"
-#include "lib/log_file.hpp"
-#include "lib/output_file.hpp"
-#include "lib/result_file.hpp"
-#include "lib/scene_file.hpp"
-#include "lib/status_text.hpp"
-#include "lib/text.hpp"
+#include "lib/files/alarm_words.hpp"
+#include "lib/files/answer.hpp"
+#include "lib/files/input_error.hpp"
+#include "lib/files/log_file.hpp"
+#include "lib/files/number_range.hpp"
+#include "lib/files/output_file.hpp"
+#include "lib/files/result_file.hpp"
+#include "lib/files/scene_file.hpp"
+#include "lib/files/status_text.hpp"
+#include "lib/files/text.hpp"
 #include "monitor/estimator_alarm.hpp"
 #include "monitor/frame.hpp"
 
@@ -207,7 +208,7 @@ int play(const Options& options) {
   const SceneDescription scene = read_scene_file(options.scene);
   LogRules rules;
   rules.negative_jack_forces = true;
-  rules.largest = static_cast<double>(std::numeric_limits<float>::max());
+  rules.shortest_step = shortest_step;
   check_log(options.log, scene, rules);
   keep_inputs(options.output, {options.scene, options.log});
   std::ifstream stream = open_log(options.log);

@@ -13,11 +13,11 @@
 #include <string>
 
 #include "files/run_program.hpp"
-#include "lib/log_file.hpp"
-#include "lib/result_file.hpp"
-#include "lib/scene_build.hpp"
-#include "lib/scene_file.hpp"
-#include "lib/solver_values.hpp"
+#include "lib/files/log_file.hpp"
+#include "lib/files/result_file.hpp"
+#include "lib/files/scene_file.hpp"
+#include "lib/kinds/scene_build.hpp"
+#include "lib/kinds/solver_values.hpp"
 #include "taut/condensation/condense.hpp"
 #include "taut/estimation/estimator.hpp"
 #include "taut/estimation/find_knowledge.hpp"

@@ -8,9 +8,9 @@
 #include "arch.hpp"
 #include "export/loose_scene.hpp"
 #include "files/run_program.hpp"
-#include "lib/condensed_size.hpp"
-#include "lib/scene_file.hpp"
-#include "lib/scene_header.hpp"
+#include "lib/commands/scene_header.hpp"
+#include "lib/files/scene_file.hpp"
+#include "lib/kinds/condensed_size.hpp"
 #include "saddles.hpp"
 #include "taut/tracking/tracker.hpp"
 

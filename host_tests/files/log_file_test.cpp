@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "lib/input_error.hpp"
-#include "lib/log_file.hpp"
-#include "lib/scene_file.hpp"
+#include "lib/files/input_error.hpp"
+#include "lib/files/log_file.hpp"
+#include "lib/files/scene_file.hpp"
 
 using namespace taut::host;
 
@@ -141,13 +141,21 @@ TEST_CASE("a negative jack force is refused, unless readings may carry noise") {
   CHECK(rows(log, noisy)[0].cables[0][0].reading == -3.0);
 }
 
-TEST_CASE("numbers beyond single precision are refused for a computation in float") {
-  LogRules single;
-  single.largest = static_cast<double>(std::numeric_limits<float>::max());
-  CHECK(refusal("time,Fy\n0,1e39\n", single) ==
-        "log: line 2, column 2 (Fy): the number \"1e39\" is too large for single precision; use --scalar "
-        "double");
-  CHECK(rows("time,Fy\n0,1e38\n", single).size() == 1);
+TEST_CASE("readings that follow each other faster than any instrument are refused") {
+  LogRules of_instruments;
+  of_instruments.shortest_step = 1e-9;
+  CHECK(refusal("time\n0\n1e-30\n", of_instruments) ==
+        "log: line 3, column 1 (time): the time 1e-30 is less than 1e-09 s after 0 of the row before; give "
+        "the time in seconds");
+  CHECK(rows("time\n0\n1e-9\n", of_instruments).size() == 2);
+}
+
+TEST_CASE("numbers that no structure has are refused") {
+  for (const char* const number : {"1.1e30", "-1.1e30", "1e308"})
+    CHECK(refusal("time,Fy\n0," + std::string(number) + "\n") ==
+          "log: line 2, column 2 (Fy): the number \"" + std::string(number) +
+              "\" is too large; write one of at most 1e+30 in size");
+  CHECK(rows("time,Fy\n0,-1e30\n").size() == 1);
 }
 
 TEST_CASE("a line without end is refused before it takes all memory") {

@@ -13,7 +13,7 @@
 
 #include "files/result_table.hpp"
 #include "files/run_program.hpp"
-#include "lib/capacities.hpp"
+#include "lib/kinds/capacities.hpp"
 
 namespace fs = std::filesystem;
 

@@ -15,10 +15,10 @@
 #include <string>
 
 #include "files/run_program.hpp"
-#include "lib/input_error.hpp"
-#include "lib/output_file.hpp"
-#include "lib/result_file.hpp"
-#include "lib/scene_file.hpp"
+#include "lib/files/input_error.hpp"
+#include "lib/files/output_file.hpp"
+#include "lib/files/result_file.hpp"
+#include "lib/files/scene_file.hpp"
 
 namespace fs = std::filesystem;
 using namespace taut;

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "lib/capacities.hpp"
-#include "lib/input_error.hpp"
-#include "lib/scene_build.hpp"
-#include "lib/scene_file.hpp"
-#include "lib/status_text.hpp"
-#include "lib/valid_scene.hpp"
+#include "lib/files/input_error.hpp"
+#include "lib/files/scene_file.hpp"
+#include "lib/files/status_text.hpp"
+#include "lib/kinds/capacities.hpp"
+#include "lib/kinds/scene_build.hpp"
+#include "lib/kinds/valid_scene.hpp"
 
 using namespace taut;
 using namespace taut::host;

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <string>
 
-#include "lib/input_error.hpp"
-#include "lib/log_file.hpp"
-#include "lib/scene_file.hpp"
+#include "lib/files/input_error.hpp"
+#include "lib/files/log_file.hpp"
+#include "lib/files/scene_file.hpp"
 
 namespace {
 

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "lib/input_error.hpp"
-#include "lib/scene_file.hpp"
-#include "lib/valid_scene.hpp"
+#include "lib/files/input_error.hpp"
+#include "lib/files/scene_file.hpp"
+#include "lib/kinds/valid_scene.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

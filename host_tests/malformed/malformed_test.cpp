@@ -6,10 +6,10 @@
 #include <string>
 
 #include "expected_messages.hpp"
-#include "lib/input_error.hpp"
-#include "lib/log_file.hpp"
-#include "lib/scene_file.hpp"
-#include "lib/valid_scene.hpp"
+#include "lib/files/input_error.hpp"
+#include "lib/files/log_file.hpp"
+#include "lib/files/scene_file.hpp"
+#include "lib/kinds/valid_scene.hpp"
 
 namespace fs = std::filesystem;
 using namespace taut::host;

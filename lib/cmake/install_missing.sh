@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# For the run scripts: say(), cores, and install_missing() for all that building taut needs.
+# For the run scripts: say(), cores, and install_missing() for what building taut needs.
 
 say() { printf '\n== %s\n' "$*"; }
 
@@ -14,26 +14,30 @@ has_cmake() {
 
 compiler() { command -v "${CXX:-c++}" || command -v g++ || command -v clang++; }
 
-has_header() {
-  echo "#include <$1>" | "$(compiler)" -std=c++17 -E -x c++ -I/usr/include/eigen3 -I/usr/local/include \
+# Whether the header of a Debian package is there, from wherever it is.
+has_header_of() {
+  local header
+  case "$1" in
+    libeigen3-dev) header=Eigen/Core ;;
+    nlohmann-json3-dev) header=nlohmann/json.hpp ;;
+    libcli11-dev) header=CLI/CLI.hpp ;;
+    doctest-dev) header=doctest/doctest.h ;;
+  esac
+  [ -n "$(compiler)" ] && echo "#include <$header>" | "$(compiler)" -std=c++17 -E -x c++ -I/usr/include/eigen3 -I/usr/local/include \
     -I/usr/local/include/eigen3 -I/opt/homebrew/include -I/opt/homebrew/include/eigen3 - >/dev/null 2>&1
 }
 
-# Sets `missing_tools` and `missing_headers` to the Debian packages of what is missing.
+# Sets `missing_tools` and `missing_headers` to the Debian packages of what is missing of the tools and of these.
 find_missing() {
+  local package
   missing_tools=""
   missing_headers=""
   has_cmake || missing_tools+=" cmake"
   command -v make >/dev/null || command -v ninja >/dev/null || missing_tools+=" make"
-  if [ -z "$(compiler)" ]; then
-    missing_tools+=" g++"
-    missing_headers=" libeigen3-dev nlohmann-json3-dev libcli11-dev doctest-dev" # not to be checked without it
-    return
-  fi
-  has_header Eigen/Core || missing_headers+=" libeigen3-dev"
-  has_header nlohmann/json.hpp || missing_headers+=" nlohmann-json3-dev"
-  has_header CLI/CLI.hpp || missing_headers+=" libcli11-dev"
-  has_header doctest/doctest.h || missing_headers+=" doctest-dev"
+  [ -n "$(compiler)" ] || missing_tools+=" g++"
+  for package in "$@"; do
+    has_header_of "$package" || missing_headers+=" $package"
+  done
 }
 
 # Installs Debian packages, as root or with sudo.
@@ -47,16 +51,19 @@ apt_install() {
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@"
 }
 
-# Installs what is missing with apt-get if that is possible. Ends the script if a tool stays missing;
-# header libraries that stay missing are downloaded by CMake.
+# install_missing [program] [tests]: installs what is missing for the library, for the program and for the tests, with
+# apt-get if that is possible. Ends the script if a tool stays missing; header libraries that stay missing are
+# downloaded by CMake.
 install_missing() {
-  local missing_tools missing_headers
-  find_missing
+  local missing_tools missing_headers packages=(libeigen3-dev)
+  [[ " $* " != *" program "* ]] || packages+=(nlohmann-json3-dev libcli11-dev)
+  [[ " $* " != *" tests "* ]] || packages+=(doctest-dev)
+  find_missing "${packages[@]}"
   if [ -n "$missing_tools$missing_headers" ]; then
     say "Installing what is missing:$missing_tools$missing_headers"
-    # shellcheck disable=SC2086  # words, not one name
+    # shellcheck disable=SC2086  # words
     if command -v apt-get >/dev/null && apt_install $missing_tools $missing_headers; then
-      find_missing
+      find_missing "${packages[@]}"
     fi
   fi
   # CMake itself does not look for ninja.

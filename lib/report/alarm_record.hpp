@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/log_file.hpp"
+#include "lib/files/log_file.hpp"
 
 namespace taut::host {
 

@@ -1,6 +1,6 @@
 #include "lib/report/html.hpp"
 
-#include "lib/text.hpp"
+#include "lib/files/text.hpp"
 
 namespace taut::host {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "lib/scene_description.hpp"
+#include "lib/files/scene_description.hpp"
 
 namespace taut::host {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "lib/files/scene_description.hpp"
 #include "lib/report/curve.hpp"
-#include "lib/scene_description.hpp"
 
 namespace taut::host {
 

@@ -1,5 +1,6 @@
 #include "lib/report/report_page.hpp"
 
+#include "lib/files/result_file.hpp"
 #include "lib/report/colour_scale.hpp"
 #include "lib/report/html.hpp"
 #include "lib/report/names.hpp"
@@ -9,7 +10,6 @@
 #include "lib/report/report_tables.hpp"
 #include "lib/report/state_strip.hpp"
 #include "lib/report/structure_drawing.hpp"
-#include "lib/result_file.hpp"
 
 namespace taut::host {
 namespace {

@@ -1,10 +1,10 @@
 #include "lib/report/report_tables.hpp"
 
+#include "lib/files/result_file.hpp"
 #include "lib/report/alarm_meaning.hpp"
 #include "lib/report/html.hpp"
 #include "lib/report/names.hpp"
 #include "lib/report/number_text.hpp"
-#include "lib/result_file.hpp"
 
 namespace taut::host {
 namespace {

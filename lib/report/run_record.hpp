@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "lib/answer.hpp"
-#include "lib/log_file.hpp"
+#include "lib/files/answer.hpp"
+#include "lib/files/log_file.hpp"
 #include "lib/report/alarm_record.hpp"
 #include "lib/report/curve.hpp"
 #include "lib/report/thinned.hpp"

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 
+#include "lib/files/result_file.hpp"
 #include "lib/report/chart.hpp"
 #include "lib/report/html.hpp"
 #include "lib/report/names.hpp"
 #include "lib/report/number_text.hpp"
-#include "lib/result_file.hpp"
 
 namespace taut::host {
 namespace {

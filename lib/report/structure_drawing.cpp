@@ -3,12 +3,12 @@
 #include <array>
 #include <cmath>
 
+#include "lib/files/result_file.hpp"
 #include "lib/report/chart.hpp"
 #include "lib/report/colour_scale.hpp"
 #include "lib/report/html.hpp"
 #include "lib/report/names.hpp"
 #include "lib/report/projection.hpp"
-#include "lib/result_file.hpp"
 
 namespace taut::host {
 namespace {

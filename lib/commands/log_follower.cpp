@@ -1,0 +1,121 @@
+#include "lib/commands/log_follower.hpp"
+
+#include <array>
+#include <cstdio>
+#include <iostream>
+
+#include "lib/commands/progress_line.hpp"
+#include "lib/commands/usual_deviations.hpp"
+#include "lib/files/number_range.hpp"
+#include "lib/files/output_file.hpp"
+#include "lib/files/scene_file.hpp"
+#include "lib/files/status_text.hpp"
+#include "lib/files/text.hpp"
+
+namespace taut::host {
+namespace {
+
+LogRules rules_for(const RunOptions& options) {
+  LogRules rules;
+  if (options.method == Method::estimate) {
+    rules.negative_jack_forces = true;
+    rules.shortest_step = shortest_step;
+  }
+  return rules;
+}
+
+// Where on the path the answer ends, if that is known.
+std::string part(double fraction) {
+  if (fraction <= 0 || fraction > 1) return "";
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), ", after %.4g %% of the path to it", 100 * fraction);
+  return text.data();
+}
+
+// Rows on a terminal show themselves how far the run is.
+bool wants_progress(const RunOptions& options) {
+  return standard_error_is_terminal() && !(options.output.empty() && standard_output_is_terminal());
+}
+
+}  // namespace
+
+std::string reason_to_stop(const Followed& path, const SceneDescription& scene) {
+  if (!path.status) return failure_text(path.status, scene);
+  return "the event budget is spent: too many changes between sticking and sliding; add rows in between";
+}
+
+LogFollower::LogFollower(const RunOptions& options)
+    : options_(options),
+      scene_(read_scene_file(options.scene)),
+      model_(make_model(scene_, options.method, options.numbers.scalar, options.limits)),
+      rules_(rules_for(options)),
+      rows_(check_log(options.log, scene_, rules_)) {
+  keep_inputs(options.output, {options.scene, options.log});
+  std::ifstream stream = open_log(options.log);
+  remark_on_columns(LogReader(stream, options.log, scene_, rules_));
+  if (options.method == Method::estimate) {
+    for (const std::string& text : fill_in_deviations(options.log, rules_, scene_)) remark(text);
+  }
+  remark_on_substeps();
+}
+
+std::string LogFollower::follow(const RowVisitor& visit) {
+  if (const Followed start = model_->start(options_.substeps); !start.whole())
+    return options_.scene + ": before the first row" + part(start.fraction) + ": " +
+           reason_to_stop(start, scene_);
+  std::ifstream stream = open_log(options_.log);
+  LogReader log(stream, options_.log, scene_, rules_);
+  LogRow row = log.first_row();
+  Answer answer;
+  ProgressLine progress(rows_, wants_progress(options_));
+  while (log.next(row)) {
+    if (const Followed path = model_->advance(row, options_.substeps); !path.whole())
+      return place(row) + part(path.fraction) + ": " + reason_to_stop(path, scene_);
+    model_->read(answer);
+    if (const std::string number = impossible_number(scene_, answer); !number.empty())
+      return place(row) + ": " + number + "; " + remedy_of_impossible_numbers;
+    visit(row, answer);
+    progress.reach(row.row);
+  }
+  return "";
+}
+
+void LogFollower::remark(const std::string& text) {
+  std::cerr << "remark: " << text << '\n';
+  remarks_.push_back(text);
+}
+
+// Columns that are not there, and columns without effect.
+void LogFollower::remark_on_columns(const LogReader& log) {
+  const bool measures = options_.method == Method::estimate;
+  for (const LoadDescription& load : scene_.loads) {
+    if (!log.has(load.name))
+      remark("the log has no column " + quote(load.name) + ": the factor of this load stays 0");
+  }
+  for (const CableDescription& cable : scene_.cables) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::string column = cable.name + "." + end_name(end);
+      if (cable.is_jacked(end) && !log.has(column)) {
+        remark("the log has no column " + quote(column) + ": this jack force stays 0");
+      }
+      if (!measures && !cable.is_jacked(end) && log.has(column)) {
+        remark("column " + quote(column) + " is a measurement at an anchored end: simulate does not use it");
+      }
+      if (!measures && log.has(column + ".stroke")) {
+        remark("column " + quote(column + ".stroke") + " is a measurement: simulate does not use it");
+      }
+    }
+  }
+}
+
+void LogFollower::remark_on_substeps() {
+  if (options_.method == Method::tracker && options_.substeps > 1)
+    remark("--substeps has no effect: the method tracker follows a row from event to event, not in steps");
+}
+
+std::string LogFollower::place(const LogRow& row) const {
+  return options_.log + ": line " + std::to_string(row.line) + " (row " + std::to_string(row.row) +
+         ", time " + plain(row.time) + " s)";
+}
+
+}  // namespace taut::host

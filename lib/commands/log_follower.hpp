@@ -1,0 +1,60 @@
+// What all commands that go through a log have in common: reading, checking, following it row by row.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/kinds/make_model.hpp"
+
+namespace taut::host {
+
+/// What is followed, how, and where the result goes.
+struct RunOptions {
+  std::string scene, log;
+  std::string output;  ///< empty: standard output
+  Method method = methods.front().second;
+  NumberFormat numbers;
+  int substeps = 1;  ///< load steps a row, for the method stepwise
+  AlarmLimits<double> limits;
+};
+
+/// Gets every row that has an answer, in order.
+using RowVisitor = std::function<void(const LogRow&, const Answer&)>;
+
+/// A scene and a log that have been read and checked, ready to be followed.
+class LogFollower {
+ public:
+  /// Remarks go to standard error. Throws InputError for unusable input. The options must outlive it.
+  explicit LogFollower(const RunOptions& options);
+  ~LogFollower() = default;
+  LogFollower(const LogFollower&) = delete;
+  LogFollower& operator=(const LogFollower&) = delete;
+
+  const SceneDescription& scene() const { return scene_; }
+  /// What a reader of the result may not expect.
+  const std::vector<std::string>& remarks() const { return remarks_; }
+
+  /// Follows the log to its last row or to the first that has no answer. Returns where and why the answer
+  /// ends; empty if the log is whole.
+  std::string follow(const RowVisitor& visit);
+
+ private:
+  void remark(const std::string& text);
+  void remark_on_columns(const LogReader& log);
+  void remark_on_substeps();
+  std::string place(const LogRow& row) const;
+
+  const RunOptions& options_;
+  SceneDescription scene_;
+  std::unique_ptr<Model> model_;
+  LogRules rules_;
+  std::size_t rows_ = 0;
+  std::vector<std::string> remarks_;
+};
+
+/// Why a model came no further.
+std::string reason_to_stop(const Followed& path, const SceneDescription& scene);
+
+}  // namespace taut::host

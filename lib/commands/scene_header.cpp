@@ -1,0 +1,496 @@
+#include "lib/commands/scene_header.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <set>
+#include <vector>
+
+#include "lib/files/text.hpp"
+#include "lib/kinds/condensed_size.hpp"
+#include "taut/estimation/estimator.hpp"
+
+namespace taut::host {
+namespace {
+
+using Row = CondensedArrays::Row;
+
+constexpr std::size_t widest = 110;
+
+bool is_letter_or_digit(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+// Keywords, what the standard library or this one own, and macros of common compilers.
+bool has_a_meaning(const std::string& word) {
+  static const std::set<std::string> words = {"alignas",
+                                              "alignof",
+                                              "and",
+                                              "asm",
+                                              "assert",
+                                              "auto",
+                                              "bitand",
+                                              "bitor",
+                                              "bool",
+                                              "break",
+                                              "case",
+                                              "catch",
+                                              "char",
+                                              "class",
+                                              "compl",
+                                              "concept",
+                                              "const",
+                                              "constexpr",
+                                              "constinit",
+                                              "continue",
+                                              "decltype",
+                                              "default",
+                                              "delete",
+                                              "do",
+                                              "double",
+                                              "else",
+                                              "enum",
+                                              "errno",
+                                              "explicit",
+                                              "export",
+                                              "extern",
+                                              "false",
+                                              "float",
+                                              "for",
+                                              "friend",
+                                              "goto",
+                                              "if",
+                                              "import",
+                                              "inline",
+                                              "int",
+                                              "linux",
+                                              "long",
+                                              "main",
+                                              "module",
+                                              "mutable",
+                                              "namespace",
+                                              "new",
+                                              "noexcept",
+                                              "not",
+                                              "nullptr",
+                                              "operator",
+                                              "or",
+                                              "posix",
+                                              "private",
+                                              "protected",
+                                              "public",
+                                              "register",
+                                              "requires",
+                                              "return",
+                                              "short",
+                                              "signed",
+                                              "sizeof",
+                                              "static",
+                                              "std",
+                                              "struct",
+                                              "switch",
+                                              "taut",
+                                              "template",
+                                              "this",
+                                              "throw",
+                                              "true",
+                                              "try",
+                                              "typedef",
+                                              "typeid",
+                                              "typename",
+                                              "union",
+                                              "unix",
+                                              "unsigned",
+                                              "using",
+                                              "virtual",
+                                              "void",
+                                              "volatile",
+                                              "while",
+                                              "xor",
+                                              "and_eq",
+                                              "char8_t",
+                                              "char16_t",
+                                              "char32_t",
+                                              "co_await",
+                                              "co_return",
+                                              "co_yield",
+                                              "const_cast",
+                                              "consteval",
+                                              "dynamic_cast",
+                                              "not_eq",
+                                              "or_eq",
+                                              "static_cast",
+                                              "wchar_t",
+                                              "xor_eq",
+                                              "static_assert",
+                                              "reinterpret_cast",
+                                              "thread_local",
+                                              "i386",
+                                              "arm",
+                                              "EOF",
+                                              "NULL",
+                                              "NAN",
+                                              "INFINITY"};
+  return words.count(word) > 0;
+}
+
+// Printable ASCII as it is, every other byte as an octal escape, so that the literal has the same bytes under
+// every compiler; a question mark could be part of a trigraph.
+std::string literal(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte >= 0x7F || c == '?') {
+      std::array<char, 8> escape{};
+      std::snprintf(escape.data(), escape.size(), "\\%03o", static_cast<unsigned>(byte));
+      quoted += escape.data();
+    } else {
+      if (c == '"' || c == '\\') quoted += '\\';
+      quoted += c;
+    }
+  }
+  return quoted + "\"";
+}
+
+// Grows lines of a list in braces, none wider than the rest of the file.
+class List {
+ public:
+  explicit List(std::size_t indent) : indent_(indent) {}
+
+  void item(const std::string& text) {
+    const bool fits = !text_.empty() && column_ + text.size() + 2 <= widest;
+    text_ += fits ? " " : "\n" + std::string(indent_, ' ');
+    column_ = (fits ? column_ + 1 : indent_) + text.size() + 1;
+    text_ += text + ",";
+  }
+  /// Without its last comma.
+  std::string finished() const { return text_.substr(0, text_.size() - 1); }
+
+ private:
+  std::size_t indent_, column_ = 0;
+  std::string text_;
+};
+
+// A FixedArray: braces for itself, for the array inside, and for what is inside that.
+std::string fixed_array(const std::vector<std::string>& items, std::size_t indent) {
+  if (items.empty()) return "{}";
+  List list(indent + 2);
+  for (const std::string& item : items) list.item(item);
+  return "{{{" + list.finished() + "}}}";
+}
+
+std::string layout(const CableLayout<double>& cable, const std::string& seating) {
+  const auto end = [&](std::size_t i) {
+    return std::string("::taut::End::") + (cable.ends[i] == End::jacked ? "jacked" : "anchored");
+  };
+  return "{" + std::string(cable.closed ? "true" : "false") + ", {" + end(0) + ", " + end(1) + "}, " +
+         seating + ", " + std::to_string(cable.nodes) + ", " + std::to_string(cable.first_segment) + ", " +
+         std::to_string(cable.first_joint) + "}";
+}
+
+// Writes the constants of one floating-point type for a capacity that holds the scene.
+class Constants {
+ public:
+  Constants(const ExportedArrays& arrays, const CondensedCounts& capacity, ScalarType scalar)
+      : arrays_(arrays.condensed),
+        knowledge_(arrays.knowledge),
+        capacity_(capacity),
+        single_(scalar == ScalarType::float32) {}
+
+  std::string condensed() const {
+    const CondensedArrays& a = arrays_;
+    return type() + " make_cables(" + name() + ") {\n" + cables() + "}\n" + "constexpr ::taut::Condensed<" +
+           name() + ", Capacity> make_condensed(" + name() + ") {\n" + "  return {make_cables(" + name() +
+           "()), " + count(a.prestrain) + ", " + count(a.rho) + ", " + std::to_string(a.load.size()) + ",\n" +
+           field("coupling", "{" + coupling() + "}") + field("prestrain", numbers(a.prestrain, 10)) +
+           field("load", rows(a.load)) + field("rho", numbers(a.rho, 10)) +
+           field("cos_alpha", scalars(a.cos_alpha, 10)) + "          /*sin_alpha*/ " +
+           scalars(a.sin_alpha, 10) + "};\n}\n";
+  }
+  std::string struts() const {
+    const CondensedArrays& a = arrays_;
+    return "constexpr ::taut::CondensedStruts<" + name() + ", Capacity> make_struts(" + name() + ") {\n" +
+           "  return {/*load*/ " + rows(a.strut_load) + ",\n" +
+           field("prestrain", numbers(a.strut_prestrain, 10)) + "          /*elongation*/ " +
+           rows(a.strut_elongation) + "};\n}\n";
+  }
+  std::string knowledge() const {
+    const KnowledgeArrays& k = knowledge_;
+    return "constexpr ::taut::Knowledge<" + name() + ", Capacity> make_knowledge(" + name() + ") {\n" +
+           "  return {/*mu*/ " + numbers(k.mu, 10) + ",\n" + field("grip", numbers(k.grip, 10)) +
+           field("capstan", truths(k.capstan)) + field("mu_sd", scalars(k.mu_sd, 10)) +
+           field("shared", truths(k.shared)) + "          /*sensor_sd*/ " + pairs(k.sensor_sd) + "};\n}\n";
+  }
+
+ private:
+  std::string name() const { return single_ ? "float" : "double"; }
+  std::string type() const {
+    return "constexpr ::taut::FixedList<::taut::CableLayout<" + name() + ">, Capacity::cables>";
+  }
+  static std::string count(const Row& row) { return std::to_string(row.size()); }
+  static std::string field(const std::string& label, const std::string& value) {
+    return "          /*" + label + "*/ " + value + ",\n";
+  }
+
+  // Hexadecimal digits give back the very value.
+  static std::string number(double value) {
+    std::array<char, 40> digits{};
+    std::snprintf(digits.data(), digits.size(), "%a", value);
+    return digits.data();
+  }
+  // Of the scene's own scalar type; all that tensions are added up from is double.
+  std::string scalar(double value) const { return number(value) + (single_ ? "F" : ""); }
+  std::string scalars(const Row& row, std::size_t indent) const {
+    std::vector<std::string> items;
+    for (const double value : row) items.push_back(scalar(value));
+    return fixed_array(items, indent);
+  }
+  static std::string truths(const std::vector<bool>& row) {
+    std::vector<std::string> items;
+    for (const bool value : row) items.emplace_back(value ? "true" : "false");
+    return fixed_array(items, 10);
+  }
+  std::string pairs(const std::vector<std::array<double, 2>>& table) const {
+    std::vector<std::string> items;
+    for (const auto& pair : table) items.push_back("{" + scalar(pair[0]) + ", " + scalar(pair[1]) + "}");
+    return fixed_array(items, 10);
+  }
+  static std::string numbers(const Row& row, std::size_t indent) {
+    std::vector<std::string> items;
+    for (const double value : row) items.push_back(number(value));
+    return fixed_array(items, indent);
+  }
+  static std::string rows(const std::vector<Row>& table) {
+    std::string text;
+    for (const Row& row : table)
+      text += (text.empty() ? "{{{\n" : ",\n") + std::string(14, ' ') + numbers(row, 14);
+    return text.empty() ? "{}" : text + "}}}";
+  }
+  // Between rigid saddles the diagonal is all there is; otherwise every row is as long as the capacity says.
+  std::string coupling() const {
+    Row entries;
+    for (std::size_t i = 0; i < arrays_.coupling.size(); ++i) {
+      const Row& row = arrays_.coupling[i];
+      if (capacity_.has_rigid_saddles()) {
+        entries.push_back(row[i]);
+        continue;
+      }
+      entries.insert(entries.end(), row.begin(), row.end());
+      if (i + 1 < arrays_.coupling.size())
+        entries.resize((i + 1) * static_cast<std::size_t>(capacity_.segments));
+    }
+    return numbers(entries, 10);
+  }
+  std::string cables() const {
+    std::string text = "  ::taut::FixedList<::taut::CableLayout<" + name() + ">, Capacity::cables> cables;\n";
+    for (const auto& cable : arrays_.cables)
+      text += "  cables.add(" + layout(cable, scalar(cable.seating)) + ");\n";
+    return text + "  return cables;\n";
+  }
+
+  const CondensedArrays& arrays_;
+  const KnowledgeArrays& knowledge_;
+  const CondensedCounts& capacity_;
+  bool single_;
+};
+
+int unknown_mus(const CableLayout<double>& cable, const Row& rho, bool shared) {
+  int free = 0;
+  for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
+    free += rho[static_cast<std::size_t>(j)] > 0 ? 1 : 0;
+  return shared ? std::min(free, 1) : free;
+}
+
+// As Estimator counts them.
+int unknowns(const ExportedArrays& arrays) {
+  using AnyEstimator = Estimator<Condensed<double, Capacity>, 1>;
+  int count = 0;
+  for (std::size_t c = 0; c < arrays.condensed.cables.size(); ++c) {
+    const CableLayout<double>& cable = arrays.condensed.cables[c];
+    const KnowledgeArrays& known = arrays.knowledge;
+    if (known.mu_sd[c] > 0) count += unknown_mus(cable, arrays.condensed.rho, known.shared[c]);
+    for (std::size_t end = 0; end < 2; ++end)
+      if (!cable.closed && cable.ends[end] == End::jacked && known.sensor_sd[c][end] > 0)
+        count += AnyEstimator::memories;
+  }
+  return count;
+}
+
+std::string space_of(const ExportedScene& scene) { return identifier(scene.description.name); }
+
+std::string sizes(const CondensedCounts& counts, ScalarType scalar) {
+  const CondensedSize size = condensed_size(counts, scalar);
+  return std::string(scalar == ScalarType::float32 ? "float" : "double") + ": " + std::to_string(size.scene) +
+         " bytes of flash" +
+         (size.strut_rows > 0 ? ", " + std::to_string(size.strut_rows) + " more for strut forces" : "") +
+         "; the tracker takes " + std::to_string(size.tracker) + " bytes of RAM";
+}
+
+std::string head(const std::vector<ExportedScene>& scenes, const CondensedCounts& capacity) {
+  std::string text;
+  if (scenes.size() == 1) {
+    text = "// The scene " + literal(scenes[0].description.name) +
+           " after static condensation, written by `taut export`: do not edit.\n";
+  } else {
+    text =
+        "// Scenes after static condensation with one Capacity, so that one Tracker or Estimator serves them "
+        "all;\n"
+        "// written by `taut export`: do not edit.\n//\n";
+    for (const ExportedScene& scene : scenes)
+      text += "// - " + literal(scene.description.name) + ": namespace " + space_of(scene) + "\n";
+  }
+  const std::string each = scenes.size() == 1 ? "" : ", flash for each scene";
+  return text +
+         "//\n"
+         "// What is not used takes no room. About, where pointers have 64 bits" +
+         each + ":\n// " + sizes(capacity, ScalarType::float32) + ".\n// " +
+         sizes(capacity, ScalarType::float64) +
+         ".\n"
+         "#pragma once\n"
+         "\n"
+         "#include \"taut/condensation/condensed.hpp\"\n"
+         "#include \"taut/estimation/knowledge.hpp\"\n";
+}
+
+std::string capacity_of(const CondensedCounts& counts) {
+  const auto is = [](const char* name, int count) {
+    return std::string(name) + " = " + std::to_string(count);
+  };
+  return "struct Capacity : ::taut::Capacity {\n"
+         "  static constexpr int " +
+         is("nodes", 0) + ", " + is("struts", counts.struts) + ", " + is("cables", counts.cables) + ", " +
+         is("jacks", counts.jacks) + ", " + is("segments", counts.segments) + ", " +
+         is("joints", counts.joints) + ", " + is("substructures", counts.substructures) + ", " +
+         is("loads", counts.loads) + ";\n};\n";
+}
+
+// A list of names that costs nothing unless it is used.
+std::string list_of_names(const std::string& comment, const std::string& size, const std::string& name,
+                          const std::vector<std::string>& names) {
+  std::vector<std::string> literals;
+  for (const std::string& each : names) literals.push_back(literal(each));
+  return "/// " + comment + "\ninline constexpr ::taut::FixedArray<const char*, " + size + "> " + name +
+         " = " + fixed_array(literals, 2) + ";\n";
+}
+
+std::string names(const SceneDescription& scene) {
+  std::vector<std::string> cables, loads, nodes;
+  for (const LoadDescription& load : scene.loads) loads.push_back(load.name);
+  for (const CableDescription& cable : scene.cables) {
+    cables.push_back(cable.name);
+    for (std::size_t j = 0; j < cable.joints(); ++j)
+      nodes.push_back(scene.nodes[static_cast<std::size_t>(cable.path[cable.closed ? j : j + 1])].name);
+  }
+  return "/// Names, by the numbers that samples, responses and statuses use.\nnamespace names {\n\n" +
+         list_of_names("Cables, as in Sample::jack.", "Capacity::cables", "cables", cables) +
+         list_of_names("Load patterns, as in Sample::factor.", "Capacity::loads", "loads", loads) +
+         list_of_names("The nodes at which the joints lie.", "Capacity::joints", "joint_nodes", nodes) +
+         "\n}  // namespace names\n";
+}
+
+// What all scenes of a header have in common.
+struct Shared {
+  explicit Shared(const std::vector<ExportedScene>& scenes)
+      : is_one(scenes.size() == 1), space(space_of(scenes[0])) {
+    for (const ExportedScene& scene : scenes) {
+      capacity = larger(capacity, condensed_counts(scene.description));
+      most_unknowns = std::max({most_unknowns, unknowns(scene.in_float), unknowns(scene.in_double)});
+    }
+  }
+
+  bool is_one;
+  std::string space;  // of the first scene, where the capacity is
+  CondensedCounts capacity;
+  int most_unknowns = 1;
+};
+
+std::string capacity(const ExportedScene& scene, const Shared& shared) {
+  if (shared.is_one) return "/// Fits the condensed scene exactly.\n" + capacity_of(shared.capacity);
+  if (space_of(scene) == shared.space)
+    return "/// Holds every scene of this header.\n" + capacity_of(shared.capacity);
+  return "/// The same for every scene of this header.\nusing Capacity = ::" + shared.space + "::Capacity;\n";
+}
+
+std::string constants(const ExportedScene& scene, const CondensedCounts& capacity, bool has_struts) {
+  std::string text;
+  for (const ScalarType scalar : {ScalarType::float32, ScalarType::float64}) {
+    const ExportedArrays& arrays = scalar == ScalarType::float32 ? scene.in_float : scene.in_double;
+    if (!arrays.condensed.condensing.status) continue;
+    const Constants written(arrays, capacity, scalar);
+    text += written.condensed() + (has_struts ? written.struts() : "") + written.knowledge() + "\n";
+  }
+  return text;
+}
+
+std::string objects(const Shared& shared) {
+  return "/// The scene for Tracker and Estimator, as condensed<float> or condensed<double>.\n"
+         "template <class Scalar>\n"
+         "inline constexpr ::taut::Condensed<Scalar, Capacity> condensed = "
+         "detail::make_condensed(Scalar());\n\n"
+         "/// What is known of friction and load cells, for Estimator. Where the scene has no mu_sd it is "
+         "half "
+         "of "
+         "the mean mu.\n"
+         "/// A load cell without sd has 0 here: at a jack its readings are exact, at an anchored end they "
+         "are "
+         "not "
+         "used.\n"
+         "template <class Scalar>\n"
+         "inline constexpr ::taut::Knowledge<Scalar, Capacity> knowledge = "
+         "detail::make_knowledge(Scalar());\n\n"
+         "/// The Parameters of an Estimator of " +
+         std::string(shared.is_one ? "this scene" : "every scene of this header") +
+         ".\n"
+         "constexpr int unknowns = " +
+         std::to_string(shared.most_unknowns) + ";\n\n";
+}
+
+std::string strut_objects(std::size_t struts, const Shared& shared) {
+  std::string text;
+  if (!shared.is_one)
+    text +=
+        "/// How many struts this scene has; the capacity may have room for more.\n"
+        "constexpr int strut_count = " +
+        std::to_string(struts) + ";\n\n";
+  if (struts > 0)
+    text +=
+        "/// The rows that give strut forces, for Tracker::respond().\n"
+        "template <class Scalar>\n"
+        "inline constexpr ::taut::CondensedStruts<Scalar, Capacity> struts = "
+        "detail::make_struts(Scalar());\n\n";
+  return text;
+}
+
+std::string namespace_of(const ExportedScene& scene, const Shared& shared) {
+  const std::size_t struts = scene.description.struts.size();
+  return "namespace " + space_of(scene) + " {\n\n" + capacity(scene, shared) + "\nnamespace detail {\n\n" +
+         constants(scene, shared.capacity, struts > 0) + "}  // namespace detail\n\n" + objects(shared) +
+         strut_objects(struts, shared) + names(scene.description) + "\n}  // namespace " + space_of(scene) +
+         "\n";
+}
+
+}  // namespace
+
+std::string identifier(const std::string& name) {
+  std::string word;
+  for (const char c : name) {
+    if (is_letter_or_digit(c))
+      word += c;
+    else if (!word.empty() && word.back() != '_')
+      word += '_';
+  }
+  if (!word.empty() && word.back() == '_') word.pop_back();
+  const bool starts_with_digit = !word.empty() && word[0] >= '0' && word[0] <= '9';
+  if (word.empty()) return "scene";
+  return starts_with_digit || has_a_meaning(word) ? "scene_" + word : word;
+}
+
+std::string scene_header(const std::vector<ExportedScene>& scenes) {
+  const Shared shared(scenes);
+  std::string text = head(scenes, shared.capacity);
+  for (const ExportedScene& scene : scenes) text += "\n" + namespace_of(scene, shared);
+  return text;
+}
+
+}  // namespace taut::host

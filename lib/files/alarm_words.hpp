@@ -1,0 +1,56 @@
+// Alarms in words.
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include "lib/files/scene_description.hpp"
+#include "taut/estimation/alarms.hpp"
+
+namespace taut::host {
+
+/// `outlier:C.end`, `sensor:C.start`, `mu:C`, `mu:C.3`, `stuck:C.3`, `elongation:C.end`, `force-high:C.T3`,
+/// `force-low:C.T3`, `no-information:C.start`, `gauge:strut3` or `lift-off:C.end`; joints, segments and
+/// struts are counted from 1, blanks in a name are `_`.
+inline std::string alarm_word(const Alarm& alarm, const SceneDescription& scene) {
+  const std::string number = std::to_string(alarm.place + 1);
+  const bool is_at_strut = alarm.cable < 0;
+  std::string cable = is_at_strut ? "" : scene.cables[static_cast<std::size_t>(alarm.cable)].name;
+  std::replace(cable.begin(), cable.end(), ' ', '_');
+  const std::string end = is_at_strut
+                              ? "strut" + number
+                              : cable + "." + end_name(static_cast<std::size_t>(alarm.place == 0 ? 0 : 1));
+  switch (alarm.kind) {
+    case Alarm::Kind::outlier:
+      return "outlier:" + end;
+    case Alarm::Kind::sensor:
+      return "sensor:" + end;
+    case Alarm::Kind::mu_band:
+      return "mu:" + cable + (alarm.place < 0 ? "" : "." + number);
+    case Alarm::Kind::stuck_joint:
+      return "stuck:" + cable + "." + number;
+    case Alarm::Kind::elongation:
+      return "elongation:" + end;
+    case Alarm::Kind::force_high:
+      return "force-high:" + cable + ".T" + number;
+    case Alarm::Kind::force_low:
+      return "force-low:" + cable + ".T" + number;
+    case Alarm::Kind::no_information:
+      return "no-information:" + end;
+    case Alarm::Kind::strut:
+      return "gauge:" + end;
+    case Alarm::Kind::lift_off:
+      return "lift-off:" + end;
+  }
+  return "";
+}
+
+/// All of a list, separated by blanks.
+template <class Alarms>
+std::string alarm_words(const Alarms& alarms, const SceneDescription& scene) {
+  std::string words;
+  for (const Alarm& alarm : alarms) words += (words.empty() ? "" : " ") + alarm_word(alarm, scene);
+  return words;
+}
+
+}  // namespace taut::host

@@ -1,0 +1,290 @@
+#include "lib/files/log_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <istream>
+#include <system_error>
+#include <utility>
+
+#include "lib/files/file_text.hpp"
+#include "lib/files/input_error.hpp"
+#include "lib/files/number_range.hpp"
+#include "lib/files/text.hpp"
+
+namespace taut::host {
+namespace {
+
+constexpr std::size_t longest_line = std::size_t{1} << 20;
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+bool is_utf16(std::string_view text) {
+  return text.size() >= 2 && (text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF");
+}
+
+}  // namespace
+
+LogReader::LogReader(std::istream& stream, std::string file, const SceneDescription& scene,
+                     const LogRules& rules)
+    : stream_(stream), file_(std::move(file)), scene_(scene), rules_(rules), known_(scene) {
+  read_header();
+}
+
+void LogReader::refuse(const std::string& problem, const std::string& remedy) const {
+  throw InputError(file_, "line " + std::to_string(line_), problem, remedy);
+}
+
+void LogReader::refuse_field(std::size_t column, const std::string& problem,
+                             const std::string& remedy) const {
+  std::string place = "line " + std::to_string(line_) + ", column " + std::to_string(column + 1);
+  if (column < names_.size()) place += " (" + names_[column] + ")";
+  throw InputError(file_, place, problem, remedy);
+}
+
+// The next line without its end; false if there is none.
+bool LogReader::read_line() {
+  text_.clear();
+  ++line_;
+  std::streambuf* const bytes = stream_.rdbuf();
+  constexpr int end_of_file = std::char_traits<char>::eof();
+  int byte = bytes->sbumpc();
+  const bool any = byte != end_of_file;
+  for (; byte != end_of_file && byte != '\n'; byte = bytes->sbumpc()) {
+    if (text_.size() == longest_line) refuse("the line is longer than 1 MiB", "write one line a row");
+    text_ += static_cast<char>(byte);
+  }
+  if (!text_.empty() && text_.back() == '\r') text_.pop_back();
+  return any;
+}
+
+// Splits the line at its commas, minding quotes.
+void LogReader::split() {
+  fields_.clear();
+  std::string_view rest = text_;
+  for (bool more = true; more;) {
+    const std::size_t column = fields_.size();
+    while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
+    std::string& field = fields_.emplace_back();
+    if (!rest.empty() && rest.front() == '"') {
+      std::size_t at = 1;
+      for (; at < rest.size(); ++at) {
+        if (rest[at] != '"') {
+          field += rest[at];
+        } else if (at + 1 < rest.size() && rest[at + 1] == '"') {
+          field += rest[at++];
+        } else {
+          break;
+        }
+      }
+      if (at >= rest.size()) refuse_field(column, "the quotes are not closed", "close them on the same line");
+      rest.remove_prefix(at + 1);
+      while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
+      if (!rest.empty() && rest.front() != ',') {
+        refuse_field(column, "there is text after the closing quote", "put a comma after it");
+      }
+      field = trimmed(std::string(field));
+    } else {
+      field = trimmed(rest.substr(0, rest.find(',')));
+      rest.remove_prefix(std::min(rest.find(','), rest.size()));
+    }
+    more = !rest.empty();
+    if (more) rest.remove_prefix(1);
+  }
+}
+
+void LogReader::read_header() {
+  if (!read_line())
+    refuse("the log is empty", "write a header, \"time\" and further columns, and rows below it");
+  if (is_utf16(text_)) refuse("the file is UTF-16", "save it as UTF-8 text");
+  if (text_.compare(0, byte_order_mark.size(), byte_order_mark) == 0) text_.erase(0, byte_order_mark.size());
+  split();
+  const std::vector<std::string> header = fields_;
+  for (std::size_t i = 0; i < header.size(); ++i) {
+    const LogColumn column = known_column(i, header[i]);
+    const auto twin = std::find(names_.begin(), names_.end(), header[i]);
+    if (twin != names_.end()) {
+      const std::string first = std::to_string(twin - names_.begin() + 1);
+      refuse_field(i, "the column " + quote(header[i]) + " is there twice, first as column " + first,
+                   "remove one of the two");
+    }
+    names_.push_back(header[i]);
+    columns_.push_back(column);
+  }
+  if (!has("time")) refuse("there is no column \"time\"", "add one, in seconds");
+}
+
+LogColumn LogReader::known_column(std::size_t i, const std::string& name) const {
+  if (name.empty()) refuse_field(i, "the column has no name", "name it, or remove it");
+  const LogColumn* column = known_.find(name);
+  if (column == nullptr) refuse_unknown_column(i, name);
+  const bool about_jack = column->quantity == Quantity::locked || column->quantity == Quantity::stroke;
+  if (about_jack && !scene_.cables[column->index].is_jacked(column->end)) {
+    const std::string end = end_name(column->end), cable = quote(scene_.cables[column->index].name);
+    refuse_field(i, "the " + end + " of cable " + cable + " has no jack",
+                 "remove the column, or make the end \"jacked\" in the scene");
+  }
+  return *column;
+}
+
+void LogReader::refuse_unknown_column(std::size_t i, const std::string& name) const {
+  if (name.find(';') != std::string::npos) {
+    refuse_field(i, "the columns are separated by semicolons",
+                 "separate them by commas, with decimal points");
+  }
+  for (const CableDescription& cable : scene_.cables) {
+    if (cable.closed && name.compare(0, cable.name.size() + 1, cable.name + ".") == 0) {
+      refuse_field(i, "cable " + quote(cable.name) + " is closed and has no ends", "remove the column");
+    }
+  }
+  refuse_field(i, "unknown column " + quote(name), suggestion(name, known_.names(), "the columns can be"));
+}
+
+bool LogReader::has(const std::string& column) const {
+  return std::find(names_.begin(), names_.end(), column) != names_.end();
+}
+
+LogRow LogReader::first_row() const {
+  LogRow row;
+  row.factor.assign(scene_.loads.size(), 0);
+  row.cables.assign(scene_.cables.size(), {});
+  return row;
+}
+
+bool LogReader::next(LogRow& row) {
+  std::size_t blank_line = 0;
+  while (true) {
+    if (!read_line()) {
+      if (rows_ == 0) refuse("the log has no rows", "write at least one below the header");
+      return false;
+    }
+    if (!trimmed(text_).empty()) break;
+    if (blank_line == 0) blank_line = line_;
+  }
+  if (blank_line != 0) {
+    line_ = blank_line;
+    refuse("the line is blank", "remove it: only the end of a log may have blank lines");
+  }
+  split();
+  if (fields_.size() != columns_.size()) {
+    refuse("the row has " + counted(fields_.size(), "field") + " under " + counted(columns_.size(), "column"),
+           "write one field a column, with decimal points and commas between them");
+  }
+  const double time_before = row.time;
+  row.row = ++rows_;
+  row.line = line_;
+  for (auto& cable : row.cables) {
+    for (EndRow& end : cable) end.reading = end.stroke = std::nullopt;
+  }
+  for (std::size_t i = 0; i < columns_.size(); ++i) take(i, row);
+  if (rows_ > 1) check_time(row.time, time_before);
+  check_jacks(row);
+  return true;
+}
+
+void LogReader::check_time(double time, double before) const {
+  if (time > before && time - before >= rules_.shortest_step) return;
+  const auto column =
+      static_cast<std::size_t>(std::find(names_.begin(), names_.end(), "time") - names_.begin());
+  const std::string found = "the time " + plain(time);
+  if (time > before)
+    refuse_field(column,
+                 found + " is less than " + plain(rules_.shortest_step) + " s after " + plain(before) +
+                     " of the row before",
+                 "give the time in seconds");
+  refuse_field(column, found + " is not after " + plain(before) + " of the row before",
+               "let the time increase from row to row");
+}
+
+// Puts a field where it belongs. An empty one keeps what was there.
+void LogReader::take(std::size_t i, LogRow& row) const {
+  const LogColumn& column = columns_[i];
+  if (fields_[i].empty()) {
+    if (column.quantity == Quantity::time) refuse_field(i, "the row has no time", "write one, in seconds");
+    return;
+  }
+  if (column.quantity == Quantity::time) {
+    row.time = number(i);
+    return;
+  }
+  if (column.quantity == Quantity::factor) {
+    row.factor[column.index] = number(i);
+    return;
+  }
+  EndRow& end = row.cables[column.index][column.end];
+  if (column.quantity == Quantity::stroke) {
+    end.stroke = number(i);
+  } else if (column.quantity == Quantity::locked) {
+    if (fields_[i] != "0" && fields_[i] != "1") {
+      refuse_field(i, quote(fields_[i]) + " is neither locked nor unlocked",
+                   "write 1 for locked, 0 for unlocked");
+    }
+    end.locked = fields_[i] == "1";
+  } else {
+    end.force = number(i);
+    end.reading = end.force;
+  }
+}
+
+double LogReader::number(std::size_t i) const {
+  const std::string& text = fields_[i];
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc::result_out_of_range) {
+    refuse_field(i, "the number " + quote(text) + " is too large or too small",
+                 "write one between 1e-307 and " + plain(largest_input) + " in size, or 0");
+  }
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+    refuse_field(i, quote(text) + " is not a number",
+                 "write a plain decimal such as -1.5 or 2e3, or leave it empty");
+  }
+  if (std::fabs(value) > largest_input) {
+    refuse_field(i, "the number " + quote(text) + " is too large",
+                 "write one of at most " + plain(largest_input) + " in size");
+  }
+  return value;
+}
+
+// A jack can only pull. What counts is the force while the end is not locked, also one kept from a row
+// before.
+void LogReader::check_jacks(const LogRow& row) const {
+  if (rules_.negative_jack_forces) return;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const LogColumn& column = columns_[i];
+    if (column.quantity != Quantity::force) continue;
+    const EndRow& end = row.cables[column.index][column.end];
+    if (!scene_.cables[column.index].is_jacked(column.end) || end.locked || end.force >= 0) continue;
+    refuse_field(
+        i,
+        "the jack force " + plain(end.force) + (end.reading ? "" : " from a row before") + " is below zero",
+        "write zero or more: a jack can only pull");
+  }
+}
+
+std::ifstream open_log(const std::string& path) {
+  require_readable(path, "log file");
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) {
+    throw InputError(path, "", "is a pipe or a device", "save the log as a file: it is read twice");
+  }
+  return std::ifstream(path, std::ios::binary);
+}
+
+std::size_t check_log(const std::string& path, const SceneDescription& scene, const LogRules& rules) {
+  std::ifstream stream = open_log(path);
+  LogReader reader(stream, path, scene, rules);
+  LogRow row = reader.first_row();
+  while (reader.next(row)) {
+  }
+  return row.row;
+}
+
+}  // namespace taut::host

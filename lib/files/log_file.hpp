@@ -1,0 +1,96 @@
+// Reads a log row by row.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lib/files/log_columns.hpp"
+#include "lib/files/scene_description.hpp"
+
+namespace taut::host {
+
+/// What a log says of one end of a cable.
+struct EndRow {
+  double force = 0;               ///< last force given [N]
+  bool locked = false;            ///< last word on the wedge
+  std::optional<double> reading;  ///< force given in this row [N]
+  std::optional<double> stroke;   ///< payout given in this row [m]
+};
+
+/// A row of a log, with what it keeps from the rows before.
+struct LogRow {
+  std::size_t row = 0;                        ///< counted from 1 without the header
+  std::size_t line = 0;                       ///< of the file, from 1
+  double time = 0;                            ///< [s]
+  std::vector<double> factor;                 ///< of every load pattern
+  std::vector<std::array<EndRow, 2>> cables;  ///< start and end of every cable
+};
+
+/// What a log may hold beyond its format.
+struct LogRules {
+  bool negative_jack_forces = false;  ///< readings with noise may be below zero
+  double shortest_step = 0;           ///< least time between rows [s]
+};
+
+/// Reads a log from a stream, one row at a time.
+///
+/// Lines end in LF or CRLF; a byte order mark and blank lines at the end are skipped. Blanks around a field
+/// do not count, and a field may be in double quotes. Every function throws InputError for what does not fit,
+/// with the line and the column as numbers from 1 and the column's name.
+class LogReader {
+ public:
+  /// Reads the header. The scene and the stream must outlive the reader; `file` is the name for messages.
+  LogReader(std::istream& stream, std::string file, const SceneDescription& scene,
+            const LogRules& rules = {});
+
+  /// Reads the next row into `row`, which must be the one of the call before; false at the end.
+  bool next(LogRow& row);
+
+  /// A row before the first: no load, no force, nothing locked.
+  LogRow first_row() const;
+
+  /// Whether the log has this column.
+  bool has(const std::string& column) const;
+  /// The columns in the order of the file.
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  bool read_line();
+  void read_header();
+  LogColumn known_column(std::size_t i, const std::string& name) const;
+  [[noreturn]] void refuse_unknown_column(std::size_t i, const std::string& name) const;
+  void split();
+  void take(std::size_t i, LogRow& row) const;
+  void check_time(double time, double before) const;
+  double number(std::size_t i) const;
+  void check_jacks(const LogRow& row) const;
+  [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) const;
+  [[noreturn]] void refuse_field(std::size_t column, const std::string& problem,
+                                 const std::string& remedy) const;
+
+  std::istream& stream_;
+  std::string file_;
+  const SceneDescription& scene_;
+  LogRules rules_;
+  LogColumns known_;
+  std::vector<LogColumn> columns_;  // of the file
+  std::vector<std::string> names_;  // of the file
+  std::string text_;                // the present line
+  std::size_t line_ = 0;            // its number
+  std::vector<std::string> fields_;
+  std::size_t rows_ = 0;
+};
+
+/// Reads the whole log and throws InputError for the first thing in it that does not fit; returns the number
+/// of rows.
+std::size_t check_log(const std::string& path, const SceneDescription& scene, const LogRules& rules);
+
+/// Opens a log for reading. Throws InputError if it is not a file that can be read twice.
+std::ifstream open_log(const std::string& path);
+
+}  // namespace taut::host

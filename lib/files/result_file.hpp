@@ -1,0 +1,41 @@
+// Writes a result.
+#pragma once
+
+#include <string>
+
+#include "lib/files/answer.hpp"
+#include "lib/files/scene_description.hpp"
+
+namespace taut::host {
+
+/// The floating-point type of a computation.
+enum class ScalarType { float32, float64 };
+
+/// How the numbers of a result are written.
+struct NumberFormat {
+  ScalarType scalar = ScalarType::float64;
+  bool hex =
+      false;  ///< the bits of the IEEE value, 8 or 16 lower-case digits, in place of the shortest decimal
+};
+
+/// Appends a number in the format; a value of a float computation is rounded to float first.
+void append_number(std::string& text, double value, const NumberFormat& format);
+
+/// The first number of an answer that no structure can have, a NaN for one, as `C.T1 is nan`; empty if there
+/// is none.
+std::string impossible_number(const SceneDescription& scene, const Answer& answer);
+
+/// The word for a state.
+const char* state_word(JointState state);
+
+/// The columns of a result: what every method finds, or also what `estimate` says of its certainty.
+enum class ResultColumns { state, estimate };
+
+/// Header line of a result of the scene.
+std::string result_header(const SceneDescription& scene, ResultColumns columns = ResultColumns::state);
+
+/// Line of a result: the time [s] and the answer, in the columns of result_header().
+std::string result_row(const SceneDescription& scene, double time, const Answer& answer,
+                       const NumberFormat& format, ResultColumns columns = ResultColumns::state);
+
+}  // namespace taut::host

@@ -1,0 +1,421 @@
+#include "lib/files/scene_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "lib/files/file_text.hpp"
+#include "lib/files/input_error.hpp"
+#include "lib/files/json_field.hpp"
+#include "lib/files/log_columns.hpp"
+#include "lib/files/text.hpp"
+
+namespace taut::host {
+namespace {
+
+constexpr int format_version = 1;
+constexpr std::size_t largest_file = std::size_t{16} << 20;
+
+const Keys scene_keys = {
+    {"taut", true, "1, the version of the format"},
+    {"name", true, "a title for the scene"},
+    {"dimension", true, "2 or 3"},
+    {"nodes", true, "an object that gives every node name its coordinates [m]"},
+    {"supports", false, ""},
+    {"struts", false, ""},
+    {"cables", false, ""},
+    {"substructures", false, ""},
+    {"loads", false, ""},
+    {"sensors", false, ""},
+};
+const Keys strut_keys = {
+    {"nodes", true, "a list of two node names"},
+    {"E", true, "Young's modulus [N/m2]"},
+    {"A", true, "the cross-section [m2]"},
+};
+const Keys cable_keys = {
+    {"name", true, "a name for the columns of the log and the result"},
+    {"path", true, "a list of node names"},
+    {"E", true, "Young's modulus [N/m2]"},
+    {"A", true, "the cross-section [m2]"},
+    {"start", false, "\"anchored\" or \"jacked\""},
+    {"end", false, "\"anchored\" or \"jacked\""},
+    {"closed", false, ""},
+    {"friction", false, ""},
+    {"prestrain", false, ""},
+    {"alpha", false, ""},
+    {"seating", false, ""},
+};
+const Keys friction_keys = {
+    {"law", true, "\"point\" or \"capstan\""},
+    {"mu", true, "one number, or a list of one a joint"},
+    {"wobble", false, ""},
+    {"mu_sd", false, ""},
+    {"shared", false, ""},
+};
+const Keys substructure_keys = {
+    {"name", true, "a name for messages"},
+    {"nodes", true, "a list of node names"},
+    {"stiffness", true, "a symmetric matrix as a list of rows [N/m]"},
+};
+const Keys load_keys = {{"forces", false, ""}, {"temperature", false, ""}};
+const Keys sensor_keys = {{"sd", true, "the standard deviation of the load cell [N]"}};
+
+// Turns the tree of a scene file into a description, part by part in the order in which one refers to
+// another.
+class SceneReader {
+ public:
+  SceneReader(const Field& root, const std::string& file) : root_(root) { scene_.file = file; }
+
+  SceneDescription read() {
+    read_head();
+    read_nodes();
+    if (const auto supports = root_.find("supports")) read_supports(*supports);
+    if (const auto struts = root_.find("struts")) read_struts(*struts);
+    if (const auto cables = root_.find("cables")) read_cables(*cables);
+    if (const auto substructures = root_.find("substructures")) read_substructures(*substructures);
+    if (const auto loads = root_.find("loads")) read_loads(*loads);
+    if (const auto sensors = root_.find("sensors")) read_sensors(*sensors);
+    return std::move(scene_);
+  }
+
+ private:
+  using NameIndex = std::unordered_map<std::string, int>;
+
+  std::size_t dimension() const { return static_cast<std::size_t>(scene_.dimension); }
+  // The axes of the scene as letters.
+  std::string axes() const { return scene_.dimension == 2 ? "xy" : "xyz"; }
+  std::string vector_shape() const { return scene_.dimension == 2 ? "[x, y]" : "[x, y, z]"; }
+
+  void read_head() {
+    if (!root_.is_object()) root_.members("a scene: { \"taut\": 1, ... }");
+    // The version first: all that follows may differ in another one.
+    if (const auto version = root_.find("taut")) {
+      const double found = version->number("1, the version of the format");
+      if (found != format_version) {
+        version->refuse("version " + plain(found) + " of the format is not known",
+                        "write a scene of version 1");
+      }
+    }
+    root_.require_keys(scene_keys, "");
+    scene_.name = root_.at("name").text("a title for the scene");
+    const Field field = root_.at("dimension");
+    const double found = field.number("2 or 3");
+    if (found != 2 && found != 3)
+      field.refuse("dimension " + plain(found) + " is not possible", "write 2 or 3");
+    scene_.dimension = static_cast<int>(found);
+  }
+
+  // As many numbers as the scene has axes.
+  std::array<double, 3> read_vector(const Field& field, const std::string& unit) const {
+    const std::string wanted = counted(dimension(), "number") + " " + vector_shape() + " in " + unit;
+    const auto items = field.elements(wanted);
+    if (items.size() != dimension()) {
+      field.refuse("found " + counted(items.size(), "number") + " in a scene of dimension " +
+                       std::to_string(scene_.dimension),
+                   "write " + wanted);
+    }
+    std::array<double, 3> vector{};
+    for (std::size_t i = 0; i < items.size(); ++i) vector[i] = items[i].number("a number in " + unit);
+    return vector;
+  }
+
+  void read_nodes() {
+    const Field field = root_.at("nodes");
+    for (const auto& [name, at] : field.members("an object that gives every node name its coordinates [m]")) {
+      if (name.empty()) at.refuse("the node has an empty name", "give it a name");
+      node_index_.emplace(name, static_cast<int>(scene_.nodes.size()));
+      scene_.nodes.push_back({name, read_vector(at, "m"), held_none});
+    }
+    if (scene_.nodes.empty())
+      field.refuse("the scene has no nodes", "add nodes: \"name\": " + vector_shape());
+  }
+
+  // The number of the item called `name`, or a refusal with the name that was probably meant.
+  template <class Items>
+  static int index_of(const Field& field, const std::string& name, const NameIndex& index, const Items& items,
+                      const std::string& noun) {
+    const auto found = index.find(name);
+    if (found != index.end()) return found->second;
+    std::vector<std::string> known;
+    for (const auto& item : items) known.push_back(item.name);
+    field.refuse("there is no " + noun + " " + quote(name), suggestion(name, known, "the " + noun + "s are"));
+  }
+
+  int node(const Field& field, const std::string& name) const {
+    return index_of(field, name, node_index_, scene_.nodes, "node");
+  }
+  int node(const Field& field) const { return node(field, field.text("the name of a node")); }
+  int cable(const Field& field, const std::string& name) const {
+    return index_of(field, name, cable_index_, scene_.cables, "cable");
+  }
+
+  void read_supports(const Field& field) {
+    for (const auto& [name, held] : field.members("an object that gives node names their supports")) {
+      const int index = node(held, name);
+      scene_.nodes[static_cast<std::size_t>(index)].held = read_support(held);
+    }
+  }
+
+  std::uint8_t read_support(const Field& field) const {
+    const std::string allowed = "write letters out of " + quote(axes()) + ", each at most once";
+    const std::string& letters = field.text("letters out of " + quote(axes()));
+    if (letters.empty()) field.refuse("the support holds nothing", allowed + ", or leave the node out");
+    unsigned held = held_none;
+    for (const char letter : letters) {
+      const std::size_t axis = axes().find(letter);
+      if (axis == std::string::npos) {
+        field.refuse(
+            quote(letters) + " is not a support in a scene of dimension " + std::to_string(scene_.dimension),
+            allowed);
+      }
+      if ((held >> axis & 1U) != 0) {
+        field.refuse("the support " + quote(letters) + " names axis " + letter + " twice", allowed);
+      }
+      held |= 1U << axis;
+    }
+    return static_cast<std::uint8_t>(held);
+  }
+
+  void read_struts(const Field& field) {
+    for (const Field& item : field.elements("a list of struts")) {
+      item.require_keys(strut_keys, "a strut: { \"nodes\": [..., ...], \"E\": ..., \"A\": ... }");
+      const Field nodes = item.at("nodes");
+      const auto names = nodes.elements("a list of two node names");
+      if (names.size() != 2) {
+        nodes.refuse("a strut between " + counted(names.size(), "node"), "write a list of two node names");
+      }
+      StrutDescription strut;
+      for (std::size_t i = 0; i < 2; ++i) strut.nodes[i] = node(names[i]);
+      strut.E = item.at("E").amount("Young's modulus [N/m2] as a number");
+      strut.A = item.at("A").amount("the cross-section [m2] as a number");
+      scene_.struts.push_back(strut);
+    }
+  }
+
+  // Cables and loads name columns of CSV files.
+  static void require_column_name(const Field& field, const std::string& name, const std::string& noun) {
+    const auto breaks = [](char c) {
+      return c == ',' || c == '"' || static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+    };
+    if (name.empty())
+      field.refuse("the " + noun + " has an empty name", "give it a name: it heads columns of CSV files");
+    if (std::any_of(name.begin(), name.end(), breaks)) {
+      field.refuse("the name " + quote(name) + " would break the header of a CSV file",
+                   "leave commas, quotes and control characters out of the name of a " + noun);
+    }
+    if (name.front() == ' ' || name.back() == ' ') {
+      field.refuse("the name " + quote(name) + " begins or ends with a blank", "remove the blank");
+    }
+  }
+
+  void read_cables(const Field& field) {
+    for (const Field& item : field.elements("a list of cables")) {
+      item.require_keys(cable_keys,
+                        "a cable: { \"name\": ..., \"path\": [...], \"E\": ..., \"A\": ..., ... }");
+      CableDescription cable;
+      read_cable_name(item.at("name"), cable);
+      if (const auto closed = item.find("closed")) cable.closed = closed->boolean("true or false");
+      read_path(item.at("path"), cable);
+      cable.E = item.at("E").amount("Young's modulus [N/m2] as a number");
+      cable.A = item.at("A").amount("the cross-section [m2] as a number");
+      for (std::size_t end = 0; end < 2; ++end) read_end(item, end, cable);
+      cable.mu.assign(cable.joints(), 0);
+      if (const auto friction = item.find("friction")) read_friction(*friction, cable);
+      cable.prestrain.assign(cable.segments(), 0);
+      if (const auto prestrain = item.find("prestrain")) {
+        cable.prestrain = one_or_each(*prestrain, cable.segments(), "segment");
+        cable.prestrain_is_list = prestrain->is_array();
+      }
+      if (const auto alpha = item.find("alpha"))
+        cable.alpha = alpha->number("the thermal expansion [1/K] as a number");
+      if (const auto seating = item.find("seating")) {
+        cable.seating = seating->number("the wedge draw-in [m] as a number");
+      }
+      scene_.cables.push_back(std::move(cable));
+    }
+  }
+
+  void read_cable_name(const Field& field, CableDescription& cable) {
+    cable.name = field.text("the name of the cable as a string");
+    require_column_name(field, cable.name, "cable");
+    if (!cable_index_.emplace(cable.name, static_cast<int>(scene_.cables.size())).second) {
+      field.refuse("there are two cables " + quote(cable.name), "give every cable its own name");
+    }
+  }
+
+  void read_path(const Field& field, CableDescription& cable) const {
+    for (const Field& name : field.elements("a list of node names")) cable.path.push_back(node(name));
+    if (cable.closed && cable.path.size() > 1 && cable.path.front() == cable.path.back()) {
+      field.refuse("the path of a closed cable ends with its first node",
+                   "leave out the last: it closes by itself");
+    }
+    const std::size_t least = cable.closed ? 3 : 2;
+    if (cable.path.size() < least) {
+      field.refuse("the path has " + counted(cable.path.size(), "node"),
+                   "write at least " + std::to_string(least) + " for " +
+                       (cable.closed ? "a closed" : "an open") + " cable");
+    }
+  }
+
+  static void read_end(const Field& item, std::size_t end, CableDescription& cable) {
+    const std::string key = end_name(end);
+    const auto field = item.find(end_name(end));
+    const std::string allowed = "\"anchored\" or \"jacked\"";
+    if (cable.closed) {
+      if (field) field->refuse("a closed cable has no " + key, "remove the key " + quote(key));
+      return;
+    }
+    if (!field) item.refuse("the key " + quote(key) + " is missing", "add " + quote(key) + ": " + allowed);
+    const std::string& kind = field->text(allowed);
+    if (kind != "anchored" && kind != "jacked") {
+      field->refuse("an end cannot be " + quote(kind), "write " + allowed);
+    }
+    cable.ends[end] = kind == "jacked" ? End::jacked : End::anchored;
+  }
+
+  static void read_friction(const Field& field, CableDescription& cable) {
+    field.require_keys(friction_keys, "a friction law: { \"law\": \"point\", \"mu\": ... }");
+    const Field law_field = field.at("law");
+    const std::string& law = law_field.text("\"point\" or \"capstan\"");
+    if (law != "point" && law != "capstan") {
+      law_field.refuse("there is no friction law " + quote(law), "write \"point\" or \"capstan\"");
+    }
+    cable.law = law == "point" ? FrictionLaw::point : FrictionLaw::capstan;
+    const Field mu = field.at("mu");
+    cable.mu = one_or_each(mu, cable.joints(), "joint");
+    cable.mu_is_list = mu.is_array();
+    if (const auto wobble = field.find("wobble")) {
+      cable.wobble = wobble->number("the wobble [rad/m] as a number");
+      if (cable.law == FrictionLaw::point) {
+        wobble->refuse("a point contact has no wobble", "remove it, or set \"law\" to \"capstan\"");
+      }
+    }
+    if (const auto sd = field.find("mu_sd")) {
+      cable.mu_sd = sd->amount("the standard deviation of mu as a number");
+      cable.has_mu_sd = true;
+    }
+    if (const auto shared = field.find("shared")) cable.shared_mu = shared->boolean("true or false");
+  }
+
+  // One number for all, or a list with one for each.
+  static std::vector<double> one_or_each(const Field& field, std::size_t count, const std::string& noun) {
+    const std::string wanted = "one number, or a list of " + counted(count, "number") + ": one a " + noun;
+    if (field.is_number()) return std::vector<double>(count, field.number(wanted));
+    const auto items = field.elements(wanted);
+    if (items.size() != count) {
+      field.refuse("the list has " + counted(items.size(), "number") + " for " + counted(count, noun),
+                   "write " + wanted);
+    }
+    std::vector<double> numbers;
+    for (const Field& item : items) numbers.push_back(item.number("a number"));
+    return numbers;
+  }
+
+  void read_substructures(const Field& field) {
+    for (const Field& item : field.elements("a list of substructures")) {
+      item.require_keys(substructure_keys,
+                        "a substructure: { \"name\": ..., \"nodes\": [...], \"stiffness\": [[...], ...] }");
+      SubstructureDescription substructure;
+      const Field name = item.at("name");
+      substructure.name = name.text("the name of the substructure as a string");
+      if (substructure.name.empty()) name.refuse("the substructure has an empty name", "give it a name");
+      const Field nodes = item.at("nodes");
+      for (const Field& each : nodes.elements("a list of node names"))
+        substructure.nodes.push_back(node(each));
+      if (substructure.nodes.empty()) nodes.refuse("the substructure has no nodes", "name at least one");
+      read_stiffness(item.at("stiffness"), substructure);
+      scene_.substructures.push_back(std::move(substructure));
+    }
+  }
+
+  void read_stiffness(const Field& field, SubstructureDescription& substructure) const {
+    const std::size_t size = substructure.nodes.size() * dimension();
+    const std::string shape = counted(size, "row") + " of " + counted(size, "number") + " [N/m] for " +
+                              counted(substructure.nodes.size(), "node");
+    const auto rows = field.elements(shape);
+    if (rows.size() != size) field.refuse("the matrix has " + counted(rows.size(), "row"), "write " + shape);
+    for (const Field& row : rows) {
+      const auto entries = row.elements("a row of " + counted(size, "number") + " [N/m]");
+      if (entries.size() != size)
+        row.refuse("the row has " + counted(entries.size(), "number"), "write " + shape);
+      for (const Field& entry : entries) substructure.stiffness.push_back(entry.number("a number [N/m]"));
+    }
+  }
+
+  void read_loads(const Field& field) {
+    LogColumns reserved(scene_);
+    for (const auto& [name, item] : field.members("an object that gives every load pattern a name")) {
+      require_column_name(item, name, "load pattern");
+      if (reserved.find(name) != nullptr) {
+        item.refuse("the name " + quote(name) + " already heads another column of the log",
+                    "give the load pattern another name");
+      }
+      item.require_keys(load_keys, "a load pattern: { \"forces\": { ... }, \"temperature\": { ... } }");
+      LoadDescription load;
+      load.name = name;
+      if (const auto forces = item.find("forces")) read_forces(*forces, load);
+      if (const auto temperature = item.find("temperature")) read_temperature(*temperature, load);
+      scene_.loads.push_back(std::move(load));
+    }
+  }
+
+  void read_forces(const Field& field, LoadDescription& load) const {
+    for (const auto& [name, force] : field.members("an object that gives node names their forces [N]")) {
+      const int index = node(force, name);
+      load.forces.push_back({index, read_vector(force, "N")});
+    }
+  }
+
+  void read_temperature(const Field& field, LoadDescription& load) const {
+    for (const auto& [name, kelvin] :
+         field.members("an object that gives cable names their temperatures [K]")) {
+      const int index = cable(kelvin, name);
+      load.temperatures.push_back({index, kelvin.number("a temperature change [K] as a number")});
+    }
+  }
+
+  void read_sensors(const Field& field) {
+    for (const auto& [name, item] : field.members("an object that gives cable ends their load cells")) {
+      double& sd = sensor_at(item, name);
+      item.require_keys(sensor_keys, "a load cell: { \"sd\": ... }");
+      const Field value = item.at("sd");
+      sd = value.amount("the standard deviation [N] as a number");
+      if (!(sd > 0)) value.refuse("a standard deviation of " + plain(sd), "write one greater than zero");
+    }
+  }
+
+  // Where the standard deviation of the load cell `<cable>.start` or `<cable>.end` goes.
+  double& sensor_at(const Field& item, const std::string& name) {
+    std::vector<std::string> known;
+    for (CableDescription& cable : scene_.cables) {
+      if (cable.closed && (name == cable.name + ".start" || name == cable.name + ".end")) {
+        item.refuse("cable " + quote(cable.name) + " is closed and has no ends", "remove the load cell");
+      }
+      for (std::size_t end = 0; !cable.closed && end < 2; ++end) {
+        known.push_back(cable.name + "." + end_name(end));
+        if (name == known.back()) return cable.sensor_sd[end];
+      }
+    }
+    item.refuse("there is no cable end " + quote(name), suggestion(name, known, "the cable ends are"));
+  }
+
+  Field root_;
+  SceneDescription scene_;
+  NameIndex node_index_, cable_index_;
+};
+
+}  // namespace
+
+SceneDescription read_scene(std::string_view text, const std::string& file) {
+  const JsonValue tree = parse_json(text, file);
+  return SceneReader(Field(tree, "", file), file).read();
+}
+
+SceneDescription read_scene_file(const std::string& path) {
+  return read_scene(read_text(path, largest_file), path);
+}
+
+}  // namespace taut::host

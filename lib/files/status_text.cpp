@@ -1,0 +1,329 @@
+#include "lib/files/status_text.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "lib/files/number_range.hpp"
+#include "lib/files/text.hpp"
+
+namespace taut::host {
+namespace {
+
+// An item of a list by a number of the core; null if the core means none.
+template <class Item>
+const Item* item_at(const std::vector<Item>& items, int index) {
+  if (index < 0 || static_cast<std::size_t>(index) >= items.size()) return nullptr;
+  return &items[static_cast<std::size_t>(index)];
+}
+
+std::string step(int index) { return "/" + std::to_string(index); }
+
+bool breaks(Code code, double value) {
+  if (code == Code::not_finite) return !std::isfinite(value);
+  if (code == Code::not_positive) return !(value > 0);
+  if (code == Code::negative) return value < 0;
+  return false;
+}
+
+// A number of the file that a code may be about.
+struct Value {
+  std::string place;
+  double value = 0;
+};
+
+// The one of several numbers that the code is about; a place only if the code names none of them.
+Value guilty(Code code, const std::string& place, const std::vector<Value>& candidates) {
+  for (const Value& candidate : candidates) {
+    if (breaks(code, candidate.value)) return {place + candidate.place, candidate.value};
+  }
+  return {place, std::nan("")};
+}
+
+// Finds the place of a status in the scene file.
+class PlaceFinder {
+ public:
+  PlaceFinder(const Status& status, const SceneDescription& scene) : status_(status), scene_(scene) {}
+
+  // JSON pointer, and the number there if the code is about one.
+  Value find() const {
+    const int i = status_.index;
+    switch (status_.place) {
+      case Place::none:
+        return {"", std::nan("")};
+      case Place::node:
+        return node(i);
+      case Place::strut:
+        return strut(i);
+      case Place::cable:
+        return cable(i);
+      case Place::path:
+        return place(cable_place() + "/path" + step(i));
+      case Place::segment:
+        return segment(i);
+      case Place::joint:
+        return joint(i);
+      case Place::cable_end:
+        return place(cable_place() + "/" + end_name(i == 0 ? 0 : 1));
+      case Place::substructure:
+        return substructure(i);
+      case Place::substructure_node:
+      case Place::substructure_entry:
+        return place("/substructures");
+      case Place::load:
+        return place(load_place(i));
+      case Place::force:
+        return force(i);
+      case Place::temperature:
+        return temperature(i);
+    }
+    return place("");
+  }
+
+ private:
+  static Value place(std::string pointer) { return {std::move(pointer), std::nan("")}; }
+  std::string cable_place() const { return "/cables" + step(status_.cable); }
+
+  std::string node_name(int i) const {
+    const NodeDescription* node = item_at(scene_.nodes, i);
+    return node == nullptr ? "" : pointer_step(node->name);
+  }
+  Value node(int i) const { return place("/nodes" + node_name(i)); }
+
+  Value strut(int i) const {
+    const std::string pointer = "/struts" + step(i);
+    const StrutDescription* strut = item_at(scene_.struts, i);
+    if (strut == nullptr) return place(pointer);
+    if (status_.code == Code::repeated_node || status_.code == Code::coincident_nodes)
+      return place(pointer + "/nodes");
+    return guilty(status_.code, pointer, {{"/E", strut->E}, {"/A", strut->A}});
+  }
+
+  Value cable(int i) const {
+    const std::string pointer = "/cables" + step(i);
+    const CableDescription* cable = item_at(scene_.cables, i);
+    if (cable == nullptr) return place(pointer);
+    if (status_.code == Code::path_too_short) return place(pointer + "/path");
+    if (status_.code != Code::negative) {
+      return guilty(status_.code, pointer, {{"/E", cable->E}, {"/A", cable->A}, {"/alpha", cable->alpha}});
+    }
+    return guilty(status_.code, pointer,
+                  {{"/friction/wobble", cable->wobble},
+                   {"/friction/mu_sd", cable->mu_sd},
+                   {"/seating", cable->seating}});
+  }
+
+  Value segment(int i) const {
+    const CableDescription* cable = item_at(scene_.cables, status_.cable);
+    if (cable == nullptr || status_.code == Code::coincident_nodes)
+      return place(cable_place() + "/path" + step(i));
+    const double* prestrain = item_at(cable->prestrain, i);
+    return {cable_place() + "/prestrain" + (cable->prestrain_is_list ? step(i) : ""),
+            prestrain == nullptr ? std::nan("") : *prestrain};
+  }
+
+  Value joint(int j) const {
+    const CableDescription* cable = item_at(scene_.cables, status_.cable);
+    if (cable == nullptr || status_.code == Code::folded_cable) {
+      return place(cable_place() + "/path" + step(cable != nullptr && cable->closed ? j : j + 1));
+    }
+    const double* mu = item_at(cable->mu, j);
+    return {cable_place() + "/friction/mu" + (cable->mu_is_list ? step(j) : ""),
+            mu == nullptr ? std::nan("") : *mu};
+  }
+
+  Value substructure(int i) const {
+    const std::string pointer = "/substructures" + step(i);
+    if (status_.code == Code::repeated_node) return place(pointer + "/nodes");
+    if (status_.code == Code::not_symmetric) return place(pointer + "/stiffness" + step(status_.amount));
+    return place(pointer + "/stiffness");
+  }
+
+  std::string load_place(int i) const {
+    const LoadDescription* load = item_at(scene_.loads, i);
+    return "/loads" + (load == nullptr ? "" : pointer_step(load->name));
+  }
+
+  // The core numbers the forces of all patterns together.
+  Value force(int i) const {
+    for (const LoadDescription& load : scene_.loads) {
+      if (const ForceDescription* force = item_at(load.forces, i)) {
+        return place("/loads" + pointer_step(load.name) + "/forces" + node_name(force->node));
+      }
+      i -= static_cast<int>(load.forces.size());
+    }
+    return place("/loads");
+  }
+
+  Value temperature(int i) const {
+    for (const LoadDescription& load : scene_.loads) {
+      if (const TemperatureDescription* change = item_at(load.temperatures, i)) {
+        const CableDescription* cable = item_at(scene_.cables, change->cable);
+        return place("/loads" + pointer_step(load.name) + "/temperature" +
+                     (cable == nullptr ? "" : pointer_step(cable->name)));
+      }
+      i -= static_cast<int>(load.temperatures.size());
+    }
+    return place("/loads");
+  }
+
+  const Status& status_;
+  const SceneDescription& scene_;
+};
+
+std::string node_text(const SceneDescription& scene, int i) {
+  const NodeDescription* node = item_at(scene.nodes, i);
+  return node == nullptr ? "a node" : "node " + quote(node->name);
+}
+
+std::string cable_text(const SceneDescription& scene, int c) {
+  const CableDescription* cable = item_at(scene.cables, c);
+  return cable == nullptr ? "a cable" : "cable " + quote(cable->name);
+}
+
+// The node at which a joint lies.
+int joint_node(const SceneDescription& scene, int c, int j) {
+  const CableDescription* cable = item_at(scene.cables, c);
+  if (cable == nullptr) return -1;
+  const int* node = item_at(cable->path, cable->closed ? j : j + 1);
+  return node == nullptr ? -1 : *node;
+}
+
+// The two ends of what lies between coincident nodes.
+std::string between(const Status& status, const SceneDescription& scene) {
+  int first = -1;
+  if (status.place == Place::strut) {
+    if (const StrutDescription* strut = item_at(scene.struts, status.index)) first = strut->nodes[0];
+  } else if (const CableDescription* cable = item_at(scene.cables, status.cable)) {
+    if (const int* node = item_at(cable->path, status.index)) first = *node;
+  }
+  return node_text(scene, first) + " and " + node_text(scene, status.amount);
+}
+
+// Problem and remedy of a scene that validate() has refused.
+std::pair<std::string, std::string> explain(const Status& status, const SceneDescription& scene,
+                                            double value) {
+  const std::string number = std::isnan(value) ? "the number" : plain(value);
+  switch (status.code) {
+    case Code::not_finite:
+      return {"the number is not finite", "write a plain decimal"};
+    case Code::not_positive:
+      return {number + " is not greater than zero", "write a number greater than zero"};
+    case Code::negative:
+      return {number + " is below zero", "write zero or more"};
+    case Code::repeated_node:
+      if (status.place == Place::strut) {
+        return {"both ends are at " + node_text(scene, status.amount), "name two different nodes"};
+      }
+      return {node_text(scene, status.amount) + " comes twice", "name every node once"};
+    case Code::coincident_nodes:
+      return {between(status, scene) + " are at the same point",
+              "move one of them, or use one node for both"};
+    case Code::path_too_short:
+      return {"the path is too short", "name at least 2 nodes, 3 for a closed cable"};
+    case Code::folded_cable:
+      return {"the cable folds straight back at " +
+                  node_text(scene, joint_node(scene, status.cable, status.index)),
+              "move this node or a neighbour so that the cable turns by less than 180 degrees"};
+    case Code::unsupported:
+      return {"the supports leave the structure free to move as a rigid body, " +
+                  node_text(scene, status.index) + " with it",
+              "add supports or a substructure that hold it"};
+    case Code::not_symmetric:
+      return {"the stiffness matrix is not symmetric: row " + std::to_string(status.amount + 1) +
+                  " differs from the column of the same number",
+              "give both the same entries"};
+    case Code::not_semidefinite:
+      return {"the stiffness matrix has a negative eigenvalue",
+              "check signs and the order of nodes and axes: a stiffness can only resist"};
+    case Code::out_of_range:
+      if (status.place == Place::segment) {
+        return {"the prestrain " + number + " is out of range", "write a number between -1 and 1"};
+      }
+      break;
+    default:
+      break;
+  }
+  return {describe(status.code), "correct the scene"};
+}
+
+// Who a failure of a run is about.
+std::string subject(const Status& status, const SceneDescription& scene) {
+  const std::string number = std::to_string(status.index + 1);
+  switch (status.place) {
+    case Place::node:
+      return node_text(scene, status.index);
+    case Place::strut:
+      return "strut " + number;
+    case Place::cable:
+      return cable_text(scene, status.index);
+    case Place::path:
+      return "path node " + number + " of " + cable_text(scene, status.cable);
+    case Place::segment:
+      return "segment " + number + " of " + cable_text(scene, status.cable);
+    case Place::joint:
+      return "joint " + number + " of " + cable_text(scene, status.cable) + " at " +
+             node_text(scene, joint_node(scene, status.cable, status.index));
+    case Place::cable_end:
+      return std::string(end_name(status.index == 0 ? 0 : 1)) + " of " + cable_text(scene, status.cable);
+    case Place::substructure:
+      return "substructure " + number;
+    case Place::load: {
+      const LoadDescription* load = item_at(scene.loads, status.index);
+      return load == nullptr ? "a load pattern" : "load pattern " + quote(load->name);
+    }
+    default:
+      return "the scene";
+  }
+}
+
+// What is wrong, where describe() speaks of something else than the place does.
+std::string failure_problem(const Status& status) {
+  if (status.code == Code::mechanism && status.place == Place::joint)
+    return "mechanism: when the cable slides over this joint, nothing holds its node";
+  if (status.code == Code::not_finite)
+    return "condensed, it has a number that is infinite or out of all range";
+  if (status.code == Code::state_iterations) return "jammed: the joint states do not settle";
+  return describe(status.code);
+}
+
+std::string failure_remedy(const Status& status) {
+  switch (status.code) {
+    case Code::mechanism:
+      return status.place == Place::joint ? sliding_remedy
+                                          : "add a strut, a support or a substructure that holds it";
+    case Code::pulled_through:
+      return "bring the jack forces closer together, or anchor one end";
+    case Code::gives_way:
+      return "hold the node of this joint sideways (a second strut, a substructure), or stay below this load";
+    case Code::state_iterations:
+      return "divide the path: add rows in between, or use --method stepwise with --substeps";
+    case Code::ill_conditioned:
+      return "use --scalar double, or check for stiffnesses that differ by many powers of ten";
+    case Code::not_finite:
+      return remedy_of_impossible_numbers;
+    case Code::bad_sample:
+      return "write finite numbers and no negative jack forces";
+    default:
+      return "check the scene with: taut check";
+  }
+}
+
+}  // namespace
+
+InputError scene_error(const Status& status, const SceneDescription& scene) {
+  const Value found = PlaceFinder(status, scene).find();
+  auto [problem, remedy] = explain(status, scene, found.value);
+  return {scene.file, found.place, std::move(problem), std::move(remedy)};
+}
+
+std::string joint_text(const SceneDescription& scene, int cable, int joint) {
+  return subject(Status::along(Code::ok, Place::joint, cable, joint), scene);
+}
+
+std::string failure_text(const Status& status, const SceneDescription& scene) {
+  return subject(status, scene) + ": " + failure_problem(status) + "; " + failure_remedy(status);
+}
+
+}  // namespace taut::host

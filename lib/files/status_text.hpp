@@ -1,0 +1,24 @@
+// What a Status of the core means in terms of the scene file.
+#pragma once
+
+#include <string>
+
+#include "lib/files/input_error.hpp"
+#include "lib/files/scene_description.hpp"
+#include "taut/status.hpp"
+
+namespace taut::host {
+
+/// The error for a scene that validate() has refused: place as a JSON pointer, nodes and cables by name.
+InputError scene_error(const Status& status, const SceneDescription& scene);
+
+/// What helps where a node is held by nothing but the friction of a joint.
+inline constexpr const char* sliding_remedy = "add a second strut, a support or a substructure at that node";
+
+/// `joint 3 of cable "C" at node "top"`, from numbers that count from 0.
+std::string joint_text(const SceneDescription& scene, int cable, int joint);
+
+/// Why there is no answer, as `joint 3 of cable "C": problem; remedy`.
+std::string failure_text(const Status& status, const SceneDescription& scene);
+
+}  // namespace taut::host

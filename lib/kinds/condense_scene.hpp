@@ -1,0 +1,28 @@
+// Condensation of scenes of every kind the program is compiled for.
+#pragma once
+
+#include "lib/files/scene_description.hpp"
+#include "taut/condensation/condensed.hpp"
+#include "taut/estimation/knowledge.hpp"
+#include "taut/status.hpp"
+
+namespace taut::host {
+
+/// What condensation says of a structure.
+struct Condensing {
+  Status status;
+  double condition = 1;  ///< see Structure::condition()
+};
+
+/// Condenses a scene and its strut forces; the factor of the structure is freed. Throws InputError if the
+/// scene cannot be used. `Cap` is a capacity of the program, or Rigid of one. Compiled for each dimension and
+/// capacity in a unit of its own.
+template <class Scalar, int Dimension, class Cap>
+Condensing condense_scene(const SceneDescription& scene, Condensed<Scalar, Cap>& condensed,
+                          CondensedStruts<Scalar, Cap>& struts);
+
+/// What the scene says of friction and load cells, for an Estimator. Compiled with condense_scene().
+template <class Scalar, int Dimension, class Cap>
+void know_scene(const SceneDescription& scene, Knowledge<Scalar, Cap>& knowledge);
+
+}  // namespace taut::host

@@ -1,0 +1,124 @@
+#include "lib/kinds/condensed_arrays.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+
+#include "lib/files/number_range.hpp"
+#include "lib/kinds/condensed_kind.hpp"
+#include "lib/kinds/valid_scene.hpp"
+
+namespace taut::host {
+namespace {
+
+using Row = CondensedArrays::Row;
+
+template <class Values>
+Row row_of(const Values& values, int count) {
+  Row row;
+  for (int i = 0; i < count; ++i) row.push_back(static_cast<double>(values[i]));
+  return row;
+}
+
+template <class Rows>
+std::vector<Row> rows_of(const Rows& rows, int count, int length) {
+  std::vector<Row> copied;
+  for (int k = 0; k < count; ++k) copied.push_back(row_of(rows[k], length));
+  return copied;
+}
+
+template <class Coupling>
+std::vector<Row> coupling_of(const Coupling& coupling, int segments) {
+  std::vector<Row> rows(static_cast<std::size_t>(segments));
+  for (int i = 0; i < segments; ++i)
+    for (int k = 0; k < segments; ++k)
+      rows[static_cast<std::size_t>(i)].push_back(static_cast<double>(coupling(i, k)));
+  return rows;
+}
+
+template <class Scalar>
+CableLayout<double> layout_of(const CableLayout<Scalar>& cable) {
+  return {cable.closed, cable.ends,          static_cast<double>(cable.seating),
+          cable.nodes,  cable.first_segment, cable.first_joint};
+}
+
+bool are_possible(const Row& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double number) { return is_possible(number); });
+}
+bool are_possible(const std::vector<Row>& rows) {
+  return std::all_of(rows.begin(), rows.end(), [](const Row& row) { return are_possible(row); });
+}
+bool are_possible(const CondensedArrays& arrays) {
+  return is_possible(arrays.condensing.condition) && are_possible(arrays.coupling) &&
+         are_possible(arrays.prestrain) && are_possible(arrays.load) && are_possible(arrays.rho) &&
+         are_possible(arrays.cos_alpha) && are_possible(arrays.sin_alpha) &&
+         are_possible(arrays.strut_load) && are_possible(arrays.strut_prestrain) &&
+         are_possible(arrays.strut_elongation);
+}
+
+template <class Scalar, int Dimension, class Cap>
+CondensedArrays condensed_arrays(const SceneDescription& scene) {
+  const auto condensed = std::make_unique<Condensed<Scalar, Cap>>();
+  const auto rows = std::make_unique<CondensedStruts<Scalar, Cap>>();
+  CondensedArrays arrays;
+  arrays.rigid = has_rigid_saddles<Cap>;
+  arrays.condensing = condense_scene<Scalar, Dimension, Cap>(scene, *condensed, *rows);
+  if (!arrays.condensing.status) return arrays;
+  const int segments = condensed->segments, joints = condensed->joints, loads = condensed->loads;
+  const int struts = static_cast<int>(scene.struts.size());
+  for (const auto& cable : condensed->cables) arrays.cables.push_back(layout_of(cable));
+  arrays.coupling = coupling_of(condensed->coupling, segments);
+  arrays.prestrain = row_of(condensed->prestrain, segments);
+  arrays.load = rows_of(condensed->load, loads, segments);
+  arrays.rho = row_of(condensed->rho, joints);
+  arrays.cos_alpha = row_of(condensed->cos_alpha, joints);
+  arrays.sin_alpha = row_of(condensed->sin_alpha, joints);
+  arrays.strut_load = rows_of(rows->load, loads, struts);
+  arrays.strut_prestrain = row_of(rows->prestrain, struts);
+  arrays.strut_elongation = rows_of(rows->elongation, segments, struts);
+  if (!are_possible(arrays)) arrays.condensing.status.code = Code::not_finite;
+  return arrays;
+}
+
+template <class Scalar, int Dimension, class Cap>
+KnowledgeArrays knowledge_arrays(const SceneDescription& scene) {
+  const auto knowledge = std::make_unique<Knowledge<Scalar, Cap>>();
+  know_scene<Scalar, Dimension, Cap>(scene, *knowledge);
+  const auto cables = static_cast<int>(scene.cables.size());
+  std::size_t joints = 0;
+  for (const CableDescription& cable : scene.cables) joints += cable.joints();
+  KnowledgeArrays arrays;
+  arrays.mu = row_of(knowledge->mu, static_cast<int>(joints));
+  arrays.grip = row_of(knowledge->grip, static_cast<int>(joints));
+  arrays.mu_sd = row_of(knowledge->mu_sd, cables);
+  for (int c = 0; c < cables; ++c) {
+    arrays.capstan.push_back(knowledge->capstan[c]);
+    arrays.shared.push_back(knowledge->shared[c]);
+    const auto& sd = knowledge->sensor_sd[c];
+    arrays.sensor_sd.push_back({static_cast<double>(sd[0]), static_cast<double>(sd[1])});
+  }
+  return arrays;
+}
+
+}  // namespace
+
+CondensedArrays condense(const SceneDescription& scene, ScalarType scalar) {
+  require_valid(scene);
+  return with_condensed_capacity(scene, [&](auto kind) {
+    using Kind = decltype(kind);
+    using Cap = typename Kind::Capacity;
+    return scalar == ScalarType::float32 ? condensed_arrays<float, Kind::dimension, Cap>(scene)
+                                         : condensed_arrays<double, Kind::dimension, Cap>(scene);
+  });
+}
+
+KnowledgeArrays know(const SceneDescription& scene, ScalarType scalar) {
+  return with_condensed_capacity(scene, [&](auto kind) {
+    using Kind = decltype(kind);
+    using Cap = typename Kind::Capacity;
+    return scalar == ScalarType::float32 ? knowledge_arrays<float, Kind::dimension, Cap>(scene)
+                                         : knowledge_arrays<double, Kind::dimension, Cap>(scene);
+  });
+}
+
+}  // namespace taut::host

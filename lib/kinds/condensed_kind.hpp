@@ -1,0 +1,36 @@
+// The kinds of condensed scenes that the program is compiled for.
+#pragma once
+
+#include "lib/files/scene_description.hpp"
+#include "lib/kinds/capacities.hpp"
+
+namespace taut::host {
+
+/// The same capacity for rigid saddles. Condensed with it, a scene has the bits that a device finds for a
+/// capacity without struts and substructures.
+template <class Cap>
+struct Rigid : Cap {
+  static constexpr int struts = 0;
+  static constexpr int substructures = 0, substructure_nodes = 0, substructure_entries = 0;
+};
+
+/// Whether nothing of the scene is elastic but its cables: no struts, no substructures, all nodes held.
+inline bool is_rigid(const SceneDescription& scene) {
+  const unsigned all = (1U << scene.dimension) - 1U;
+  for (const NodeDescription& node : scene.nodes)
+    if ((node.held & all) != all) return false;
+  return scene.struts.empty() && scene.substructures.empty();
+}
+
+/// As with_capacity(), for the capacity that the scene is condensed with.
+template <class Call>
+auto with_condensed_capacity(const SceneDescription& scene, Call&& call) {
+  return with_capacity(scene, [&](auto kind) {
+    using Kind = decltype(kind);
+    using Cap = typename Kind::Capacity;
+    if (is_rigid(scene)) return call(SceneKind<Kind::dimension, Rigid<Cap>>{});
+    return call(kind);
+  });
+}
+
+}  // namespace taut::host

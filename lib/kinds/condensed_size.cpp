@@ -1,0 +1,127 @@
+#include "lib/kinds/condensed_size.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "lib/kinds/condensed_kind.hpp"
+#include "taut/condensation/condensed.hpp"
+#include "taut/tracking/tracker.hpp"
+
+namespace taut::host {
+namespace {
+
+// All members of the three types are lists whose lengths are products of at most two counts, so a size is a
+// quadratic function of the counts. It is known from the sizes at a few capacities; with multiples of eight
+// nothing there is padding.
+constexpr int unit = 8;
+constexpr std::size_t variables = 6;     // cables, segments, joints, loads, jacks, struts
+constexpr std::size_t none = variables;  // of the variables
+using Grid = std::array<double, (variables + 1) * (variables + 1)>;
+
+// One unit of everything, and one more of variable A and of variable B.
+template <std::size_t A, std::size_t B, bool IsRigid>
+struct Sampled : Capacity {
+  static constexpr int count(std::size_t variable) {
+    return unit * (1 + (A == variable ? 1 : 0) + (B == variable ? 1 : 0));
+  }
+  static constexpr int cables = count(0), segments = count(1), joints = count(2), loads = count(3);
+  static constexpr int jacks = count(4), struts = IsRigid ? 0 : count(5), substructures = IsRigid ? 0 : 1;
+};
+
+template <template <class> class SizeOf, bool IsRigid, std::size_t... I>
+Grid sampled_sizes(std::index_sequence<I...>) {
+  return {static_cast<double>(SizeOf<Sampled<I / (variables + 1), I % (variables + 1), IsRigid>>::bytes)...};
+}
+
+// Newton's forward interpolation.
+template <template <class> class SizeOf, bool IsRigid>
+std::size_t interpolated(const CondensedCounts& counts) {
+  static const Grid sizes =
+      sampled_sizes<SizeOf, IsRigid>(std::make_index_sequence<std::tuple_size<Grid>::value>());
+  const auto at = [](std::size_t a, std::size_t b) { return sizes[a * (variables + 1) + b]; };
+  const std::array<int, variables> given = {counts.cables, counts.segments, counts.joints,
+                                            counts.loads,  counts.jacks,    counts.struts};
+  const auto steps = [&](std::size_t a) { return static_cast<double>(given[a]) / unit - 1; };
+  const double base = at(none, none);
+  double bytes = base;
+  for (std::size_t a = 0; a < variables; ++a) {
+    bytes += (at(a, none) - base) * steps(a);
+    bytes += (at(a, a) - 2 * at(a, none) + base) * steps(a) * (steps(a) - 1) / 2;
+    for (std::size_t b = 0; b < a; ++b)
+      bytes += (at(a, b) - at(a, none) - at(b, none) + base) * steps(a) * steps(b);
+  }
+  // All of them hold doubles.
+  return sizeof(double) * static_cast<std::size_t>(std::ceil(bytes / sizeof(double)));
+}
+
+template <class Scalar>
+struct Sizes {
+  template <class Cap>
+  struct OfScene {
+    static constexpr std::size_t bytes = sizeof(Condensed<Scalar, Cap>);
+  };
+  template <class Cap>
+  struct OfStrutRows {
+    static constexpr std::size_t bytes = sizeof(CondensedStruts<Scalar, Cap>);
+  };
+  template <class Cap>
+  struct OfTracker {
+    static constexpr std::size_t bytes = sizeof(Tracker<Condensed<Scalar, Cap>>);
+  };
+
+  // The large variables that live at once while the modes are decided, four rows of tensions and moves for a
+  // direction, and a kilobyte for all calls.
+  template <class Cap>
+  struct OfStack {
+    using Model = Condensed<Scalar, Cap>;
+    using Solver = ModeSolver<Model, typename Tracker<Model>::Laws>;
+    static constexpr std::size_t bytes = sizeof(Solver) + 2 * sizeof(FixedList<Candidate, 2 * Cap::joints>) +
+                                         sizeof(typename Tracker<Model>::Moving) +
+                                         8 * sizeof(typename Solver::Tensions) +
+                                         8 * sizeof(typename Solver::Moves) + 1024;
+  };
+
+  template <bool IsRigid>
+  static CondensedSize of(const CondensedCounts& counts) {
+    return {interpolated<OfScene, IsRigid>(counts),
+            counts.struts == 0 ? 0 : interpolated<OfStrutRows, IsRigid>(counts),
+            interpolated<OfTracker, IsRigid>(counts), interpolated<OfStack, IsRigid>(counts)};
+  }
+  static CondensedSize of(const CondensedCounts& counts) {
+    return counts.substructures == 0 ? of<true>(counts) : of<false>(counts);
+  }
+};
+
+}  // namespace
+
+CondensedCounts condensed_counts(const SceneDescription& scene) {
+  CondensedCounts counts;
+  counts.cables = static_cast<int>(scene.cables.size());
+  counts.loads = static_cast<int>(scene.loads.size());
+  counts.struts = static_cast<int>(scene.struts.size());
+  counts.substructures = is_rigid(scene) ? 0 : std::max(1, static_cast<int>(scene.substructures.size()));
+  for (const CableDescription& cable : scene.cables) {
+    counts.segments += static_cast<int>(cable.segments());
+    counts.joints += static_cast<int>(cable.joints());
+    for (std::size_t end = 0; end < 2; ++end) counts.jacks += cable.is_jacked(end) ? 1 : 0;
+  }
+  return counts;
+}
+
+CondensedCounts larger(const CondensedCounts& a, const CondensedCounts& b) {
+  return {std::max(a.cables, b.cables),
+          std::max(a.jacks, b.jacks),
+          std::max(a.segments, b.segments),
+          std::max(a.joints, b.joints),
+          std::max(a.loads, b.loads),
+          std::max(a.struts, b.struts),
+          std::max(a.substructures, b.substructures)};
+}
+
+CondensedSize condensed_size(const CondensedCounts& counts, ScalarType scalar) {
+  return scalar == ScalarType::float32 ? Sizes<float>::of(counts) : Sizes<double>::of(counts);
+}
+
+}  // namespace taut::host

@@ -1,0 +1,36 @@
+// What a condensed scene takes in the memory of a device.
+#pragma once
+
+#include <cstddef>
+
+#include "lib/files/result_file.hpp"
+#include "lib/files/scene_description.hpp"
+
+namespace taut::host {
+
+/// The counts of a capacity that fits a condensed scene exactly. Nodes are not needed any more.
+struct CondensedCounts {
+  int cables = 0, jacks = 0, segments = 0, joints = 0, loads = 0, struts = 0;
+  /// Zero means rigid saddles: no coupling between segments is stored. A structure that consists of cables
+  /// alone counts as one substructure.
+  int substructures = 0;
+
+  bool has_rigid_saddles() const { return struts == 0 && substructures == 0; }
+};
+CondensedCounts condensed_counts(const SceneDescription& scene);
+/// The larger of each count: a capacity that holds either scene.
+CondensedCounts larger(const CondensedCounts& a, const CondensedCounts& b);
+
+/// Bytes, for a capacity that fits exactly, where pointers are as large as here.
+struct CondensedSize {
+  std::size_t scene = 0;       ///< Condensed, in flash
+  std::size_t strut_rows = 0;  ///< CondensedStruts, in flash if it is used
+  std::size_t tracker = 0;     ///< Tracker, in RAM
+  /// What an event takes of the stack. Within a tenth of what gcc needs for a Cortex-M4F
+  /// (firmware_example/SIZES.md); other compilers and options differ.
+  std::size_t stack = 0;
+};
+/// Exact but for the padding of small counts: some ten bytes.
+CondensedSize condensed_size(const CondensedCounts& counts, ScalarType scalar);
+
+}  // namespace taut::host

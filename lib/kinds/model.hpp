@@ -1,0 +1,33 @@
+// A scene and the method that computes it, behind one interface for all their types.
+#pragma once
+
+#include "lib/files/answer.hpp"
+#include "lib/files/log_file.hpp"
+#include "lib/files/scene_description.hpp"
+#include "taut/estimation/alarms.hpp"
+#include "taut/status.hpp"
+
+namespace taut::host {
+
+/// How far a model came on its path.
+struct [[nodiscard]] Followed {
+  Status status;
+  double fraction = 1;  ///< of the path; 0 if it is not known where the path ends for lack of an answer
+
+  bool whole() const { return status.ok() && fraction >= 1; }
+};
+
+/// A valid scene with a solver for it.
+class Model {
+ public:
+  virtual ~Model() = default;
+
+  /// Brings the prestrain on. Methods that need load steps take `substeps`, here and in advance().
+  virtual Followed start(int substeps) = 0;
+  /// Follows the path to the loads and jack forces of the row.
+  virtual Followed advance(const LogRow& row, int substeps) = 0;
+  /// The present state.
+  virtual void read(Answer& answer) const = 0;
+};
+
+}  // namespace taut::host

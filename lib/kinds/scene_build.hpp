@@ -1,0 +1,74 @@
+// Fills a core scene from the description of a file.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "lib/files/scene_description.hpp"
+#include "taut/scene/scene.hpp"
+
+namespace taut::host {
+
+/// The axes of a scene out of a vector with three.
+template <int Dimension>
+std::array<double, static_cast<std::size_t>(Dimension)> shortened(const std::array<double, 3>& vector) {
+  std::array<double, static_cast<std::size_t>(Dimension)> axes{};
+  for (std::size_t i = 0; i < axes.size(); ++i) axes[i] = vector[i];
+  return axes;
+}
+
+/// Adds a cable with the friction of every joint and the prestrain of every segment.
+template <class SceneType>
+void build_cable(const CableDescription& described, SceneType& scene) {
+  Cable<double> cable;
+  cable.E = described.E;
+  cable.A = described.A;
+  cable.closed = described.closed;
+  cable.ends = described.ends;
+  cable.law = described.law;
+  cable.wobble = described.wobble;
+  cable.mu_sd = described.mu_sd;
+  cable.shared_mu = described.shared_mu;
+  cable.alpha = described.alpha;
+  cable.seating = described.seating;
+  cable.sensor_sd = described.sensor_sd;
+  const int index = scene.add_cable(cable, described.path.data(), static_cast<int>(described.path.size()));
+  if (index < 0) return;  // validate() reports what had no room
+  const Cable<double>& added = scene.cables[index];
+  for (int j = 0; j < added.joints() && added.first_joint + j < scene.mu.size(); ++j) {
+    scene.mu[added.first_joint + j] = described.mu[static_cast<std::size_t>(j)];
+  }
+  for (int i = 0; i < added.segments() && added.first_segment + i < scene.prestrain.size(); ++i) {
+    scene.prestrain[added.first_segment + i] = described.prestrain[static_cast<std::size_t>(i)];
+  }
+}
+
+/// Adds a load pattern with its forces and temperatures.
+template <class Cap, int Dimension>
+void build_load(const LoadDescription& described, Scene<double, Dimension, Cap>& scene) {
+  const int load = scene.add_load();
+  for (const ForceDescription& force : described.forces) {
+    scene.add_force(load, force.node, shortened<Dimension>(force.force));
+  }
+  for (const TemperatureDescription& change : described.temperatures) {
+    scene.add_temperature(load, change.cable, change.kelvin);
+  }
+}
+
+/// Fills an empty scene in the order of the file. What does not fit is left for validate() to report.
+template <int Dimension, class Cap>
+void build(const SceneDescription& described, Scene<double, Dimension, Cap>& scene) {
+  for (const NodeDescription& node : described.nodes)
+    scene.add_node(shortened<Dimension>(node.at), node.held);
+  for (const StrutDescription& strut : described.struts) {
+    scene.add_strut(strut.nodes[0], strut.nodes[1], strut.E, strut.A);
+  }
+  for (const CableDescription& cable : described.cables) build_cable(cable, scene);
+  for (const SubstructureDescription& substructure : described.substructures) {
+    scene.add_substructure(substructure.nodes.data(), static_cast<int>(substructure.nodes.size()),
+                           substructure.stiffness.data());
+  }
+  for (const LoadDescription& load : described.loads) build_load(load, scene);
+}
+
+}  // namespace taut::host

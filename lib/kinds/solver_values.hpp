@@ -1,0 +1,95 @@
+// Between the files and the solvers of the core: rows of a log to samples, responses to answers.
+#pragma once
+
+#include <cstddef>
+
+#include "lib/files/alarm_words.hpp"
+#include "lib/files/answer.hpp"
+#include "lib/files/log_file.hpp"
+#include "lib/files/scene_description.hpp"
+#include "taut/estimation/readings.hpp"
+#include "taut/scene/sample.hpp"
+
+namespace taut::host {
+
+/// The sample of a row. Forces of load cells at anchored ends are measurements, not part of what drives the
+/// model.
+template <class Scalar, class Cap>
+Sample<Scalar, Cap> sample_of(const LogRow& row, const SceneDescription& scene) {
+  Sample<Scalar, Cap> sample;
+  for (std::size_t i = 0; i < row.factor.size(); ++i)
+    sample.factor[static_cast<int>(i)] = static_cast<Scalar>(row.factor[i]);
+  for (std::size_t c = 0; c < scene.cables.size(); ++c) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (!scene.cables[c].is_jacked(end)) continue;
+      const EndRow& given = row.cables[c][end];
+      sample.jack[static_cast<int>(c)][end] = {static_cast<Scalar>(given.force), given.locked};
+    }
+  }
+  return sample;
+}
+
+/// The readings of a row; `dt` is the time since the row before [s].
+template <class Scalar, class Cap>
+void read_row(const LogRow& row, const SceneDescription& scene, double dt, Readings<Scalar, Cap>& readings) {
+  readings.sample = sample_of<Scalar, Cap>(row, scene);
+  readings.dt = static_cast<Scalar>(dt);
+  for (std::size_t c = 0; c < scene.cables.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const EndRow& given = row.cables[c][end];
+      readings.ends[static_cast<int>(c)][end] = {given.reading.has_value(), given.stroke.has_value(),
+                                                 static_cast<Scalar>(given.reading.value_or(0)),
+                                                 static_cast<Scalar>(given.stroke.value_or(0))};
+    }
+}
+
+namespace detail {
+
+/// A number of the answer; adding zero makes a positive zero of a negative one.
+template <class Scalar>
+double answered(Scalar value) {
+  return static_cast<double>(value) + 0.0;
+}
+
+template <class Values>
+void copy_numbers(const Values& from, std::size_t count, std::vector<double>& to) {
+  to.resize(count);
+  for (std::size_t i = 0; i < count; ++i) to[i] = answered(from[static_cast<int>(i)]);
+}
+
+}  // namespace detail
+
+/// Copies what the scene holds out of the response.
+template <class Scalar, class Cap>
+void read_response(const Response<Scalar, Cap>& response, const SceneDescription& scene, Answer& answer) {
+  std::size_t segments = 0, joints = 0;
+  answer.payout.resize(scene.cables.size());
+  for (std::size_t c = 0; c < scene.cables.size(); ++c) {
+    segments += scene.cables[c].segments();
+    joints += scene.cables[c].joints();
+    for (std::size_t end = 0; end < 2; ++end)
+      answer.payout[c][end] = detail::answered(response.payout[static_cast<int>(c)][end]);
+  }
+  detail::copy_numbers(response.tension, segments, answer.tension);
+  detail::copy_numbers(response.slip, joints, answer.slip);
+  detail::copy_numbers(response.contact, joints, answer.contact);
+  detail::copy_numbers(response.friction, joints, answer.friction);
+  detail::copy_numbers(response.strut, scene.struts.size(), answer.strut);
+  answer.state.resize(joints);
+  for (std::size_t j = 0; j < joints; ++j) answer.state[j] = response.state[static_cast<int>(j)];
+}
+
+/// Copies what an Estimator finds beyond its response.
+template <class EstimatorType>
+void read_certainty(const EstimatorType& estimator, const SceneDescription& scene, Answer& answer) {
+  const auto copy = [](std::vector<double>& to, std::size_t count, auto number) {
+    to.resize(count);
+    for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<double>(number(static_cast<int>(i)));
+  };
+  copy(answer.deviation, answer.tension.size(), [&](int i) { return estimator.deviation(i); });
+  copy(answer.mu, answer.slip.size(), [&](int j) { return estimator.mu(j); });
+  copy(answer.mu_deviation, answer.slip.size(), [&](int j) { return estimator.mu_deviation(j); });
+  answer.alarms = alarm_words(estimator.alarms(), scene);
+}
+
+}  // namespace taut::host

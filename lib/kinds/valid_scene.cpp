@@ -1,0 +1,12 @@
+#include "lib/kinds/valid_scene.hpp"
+
+namespace taut::host {
+
+void require_valid(const SceneDescription& described) {
+  with_capacity(described, [&](auto kind) {
+    using Kind = decltype(kind);
+    return make_valid_scene<Kind::dimension, typename Kind::Capacity>(described) != nullptr;
+  });
+}
+
+}  // namespace taut::host
