@@ -76,6 +76,36 @@ TEST_CASE("both load cells of one ramp give mu and the forces in between") {
   }
 }
 
+TEST_CASE("after a pause the load is where it is read, not where the ramp would have led") {
+  const auto row = [](double time, double force) {
+    const int noise = static_cast<int>(time) % 2 == 0 ? 300 : -300;
+    return std::to_string(time) + ',' + std::to_string(force + noise) + '\n';
+  };
+  for (const double pause : {10.0, 60.0, 600.0, 3600.0})
+    for (const bool has_empty_rows : {false, true}) {
+      CAPTURE(pause);
+      CAPTURE(has_empty_rows);
+      const Scratch scratch;
+      write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0)", R"("C.end": { "sd": 500 })"));
+      std::string log = "time,C.end\n";
+      for (int i = 1; i <= 100; ++i) log += row(i, 1000.0 * i);
+      const int empty = has_empty_rows ? static_cast<int>(pause) - 1 : 0;
+      for (int i = 1; i <= empty; ++i) log += std::to_string(100 + i) + ",\n";
+      for (int i = 0; i < 20; ++i) log += row(100 + pause + i, 1e5);
+      write(scratch, "log.csv", log);
+      const Outcome outcome = estimate(scratch);
+      REQUIRE(outcome.status == 0);
+      const Table table(outcome.out);
+      REQUIRE(table.rows.size() == 120 + static_cast<std::size_t>(empty));
+      for (std::size_t i = 99; i < table.rows.size(); ++i) {
+        CAPTURE(i);
+        CHECK(std::fabs(table.number(i, "C.T4") - 1e5) < 1500);
+        CHECK(table.number(i, "C.sd4") < 600);
+        CHECK(table.rows[i].back().empty());
+      }
+    }
+}
+
 TEST_CASE("the paper's experiment: mu from both forces, and from one force and that mu the other") {
   // Table 4 of Yan et al. (2015), original state: 40.00 kN at the jack, 33.35 kN at the other end, mu =
   // 0.2189.
