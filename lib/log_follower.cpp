@@ -5,6 +5,7 @@
 #include <iostream>
 #include <limits>
 
+#include "lib/condensed_arrays.hpp"
 #include "lib/output_file.hpp"
 #include "lib/progress_line.hpp"
 #include "lib/scene_file.hpp"
@@ -15,9 +16,13 @@
 namespace taut::host {
 namespace {
 
-LogRules rules_for(const RunOptions& options) {
+LogRules rules_for(const RunOptions& options, const SceneDescription& scene) {
   LogRules rules;
-  rules.negative_jack_forces = options.method == Method::estimate;
+  rules.are_readings = options.method == Method::estimate;
+  // Without an answer, start() says why.
+  const CondensedArrays condensed = condense(scene, options.numbers.scalar);
+  rules.most_factor = condensed.most_factor;
+  rules.most_force = condensed.most_force;
   if (options.numbers.scalar == ScalarType::float32)
     rules.largest = static_cast<double>(std::numeric_limits<float>::max());
   return rules;
@@ -47,10 +52,12 @@ LogFollower::LogFollower(const RunOptions& options)
     : options_(options),
       scene_(read_scene_file(options.scene)),
       model_(make_model(scene_, options.method, options.numbers.scalar, options.limits)),
-      rules_(rules_for(options)),
-      rows_(check_log(options.log, scene_, rules_)) {
+      rules_(rules_for(options, scene_)) {
+  std::vector<std::string> left_out;
+  rows_ = check_log(options.log, scene_, rules_, &left_out);
   keep_inputs(options.output, {options.scene, options.log});
   std::ifstream stream = open_log(options.log);
+  for (const std::string& text : left_out) remark(text);
   remark_on_columns(LogReader(stream, options.log, scene_, rules_));
   if (options.method == Method::estimate) {
     for (const std::string& text : fill_in_deviations(options.log, rules_, scene_)) remark(text);

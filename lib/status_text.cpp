@@ -297,7 +297,7 @@ std::string failure_remedy(const Status& status) {
     case Code::ill_conditioned:
       return "use --scalar double, or check for stiffnesses that differ by many powers of ten";
     case Code::bad_sample:
-      return "write finite numbers and no negative jack forces";
+      return "write finite numbers, no negative jack forces and no more than the cables can carry";
     default:
       return "check the scene with: taut check";
   }
