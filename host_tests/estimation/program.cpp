@@ -76,6 +76,90 @@ TEST_CASE("both load cells of one ramp give mu and the forces in between") {
   }
 }
 
+TEST_CASE("after a pause the load is where it is read, not where the ramp would have led") {
+  const auto row = [](double time, double force) {
+    const int noise = static_cast<int>(time) % 2 == 0 ? 300 : -300;
+    return std::to_string(time) + ',' + std::to_string(force + noise) + '\n';
+  };
+  for (const double pause : {10.0, 60.0, 600.0, 3600.0})
+    for (const bool has_empty_rows : {false, true}) {
+      CAPTURE(pause);
+      CAPTURE(has_empty_rows);
+      const Scratch scratch;
+      write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0)", R"("C.end": { "sd": 500 })"));
+      std::string log = "time,C.end\n";
+      for (int i = 1; i <= 100; ++i) log += row(i, 1000.0 * i);
+      const int empty = has_empty_rows ? static_cast<int>(pause) - 1 : 0;
+      for (int i = 1; i <= empty; ++i) log += std::to_string(100 + i) + ",\n";
+      for (int i = 0; i < 20; ++i) log += row(100 + pause + i, 1e5);
+      write(scratch, "log.csv", log);
+      const Outcome outcome = estimate(scratch);
+      REQUIRE(outcome.status == 0);
+      const Table table(outcome.out);
+      REQUIRE(table.rows.size() == 120 + static_cast<std::size_t>(empty));
+      for (std::size_t i = 99; i < table.rows.size(); ++i) {
+        CAPTURE(i);
+        CHECK(std::fabs(table.number(i, "C.T4") - 1e5) < 1500);
+        CHECK(table.number(i, "C.sd4") < 600);
+        CHECK(table.rows[i].back().empty());
+      }
+    }
+}
+
+TEST_CASE("an absurd reading is refused in its row, and the rest is as without it") {
+  // What a meter says on overload, in a load cell at the jack, at the anchor, and in a load factor.
+  const auto log = [](const std::string& odd_force, const std::string& odd_start,
+                      const std::string& odd_factor) {
+    std::string text = "time,q,C.end,C.start\n";
+    for (int i = 1; i <= 60; ++i) {
+      const bool is_odd = i == 30;
+      const int noise = i % 2 == 0 ? 300 : -300;
+      const std::string force = is_odd ? odd_force : std::to_string(1000 * i + noise),
+                        start = is_odd ? odd_start : std::to_string(900 * i - noise),
+                        factor = is_odd ? odd_factor : "0.5";
+      text += std::to_string(i) + ',' + factor + ',' + force + ',' + start + '\n';
+    }
+    return text;
+  };
+  const std::string loaded = R"("loads": { "q": { "temperature": { "C": 1 } } }, "sensors")";
+  for (const std::string& cells : {both_cells, std::string()}) {
+    std::string text = scene(R"("mu": 0.2, "mu_sd": 0.1, "shared": true)", cells);
+    text.replace(text.find("\"sensors\""), 9, loaded);
+    const std::string law = R"("friction")";
+    text.replace(text.find(law), law.size(), R"("alpha": 1.2e-5, "friction")");
+    const Scratch scratch;
+    write(scratch, "scene.json", text);
+    const auto run = [&](const std::string& of) {
+      write(scratch, "log.csv", of);
+      const Outcome outcome = estimate(scratch);
+      REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+      return outcome;
+    };
+    const Table without(run(log("", "", "")).out);
+    const auto check_rest = [&](const Table& with) {
+      for (std::size_t i = 0; i < 60; ++i) {
+        CAPTURE(i);
+        for (const std::string column : {"C.T1", "C.T2", "C.T3", "C.T4"}) {
+          const double sd = without.number(i, "C.sd" + column.substr(3)),
+                       off = with.number(i, column) - without.number(i, column);
+          // In the row itself the load may have gone on.
+          CHECK(std::fabs(off) <= (i == 29 ? 1300 : 0.5 * sd + 1e-6 * without.number(i, column)));
+        }
+      }
+    };
+    for (const std::string odd : {"9.9e37", "-9.9e37", "2e8"}) {
+      CAPTURE(odd);
+      const Table force(run(log(odd, "", "")).out);
+      check_rest(force);
+      CHECK(force.at(29, "alarms").find("outlier:C.end") != std::string::npos);
+      check_rest(Table(run(log("", odd, "")).out));
+    }
+    const Outcome factor = run(log("", "", "9.9e37"));
+    check_rest(Table(factor.out));
+    CHECK(factor.err.find("line 31, column 2 (q): the factor 9.9e+37") != std::string::npos);
+  }
+}
+
 TEST_CASE("the paper's experiment: mu from both forces, and from one force and that mu the other") {
   // Table 4 of Yan et al. (2015), original state: 40.00 kN at the jack, 33.35 kN at the other end, mu =
   // 0.2189.

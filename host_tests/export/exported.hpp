@@ -81,6 +81,8 @@ void check_bits(const std::string& file, const Condensed<Scalar, Cap>& found,
   CHECK(same_bits(found.rho, expected.rho));
   CHECK(same_bits(found.cos_alpha, expected.cos_alpha));
   CHECK(same_bits(found.sin_alpha, expected.sin_alpha));
+  CHECK(same_bits(found.most_force, expected.most_force));
+  CHECK(same_bits(found.most_factor, expected.most_factor));
   if (rows == nullptr) return;
   CHECK(same_bits(rows->load, expected_rows.load));
   CHECK(same_bits(rows->prestrain, expected_rows.prestrain));

@@ -137,7 +137,7 @@ TEST_CASE("a negative jack force is refused, unless readings may carry noise") {
         "log: line 2, column 2 (C.start): the jack force -3 is below zero; write zero or more: a jack can "
         "only pull");
   LogRules noisy;
-  noisy.negative_jack_forces = true;
+  noisy.are_readings = true;
   CHECK(rows(log, noisy)[0].cables[0][0].reading == -3.0);
 }
 
@@ -156,6 +156,45 @@ TEST_CASE("numbers that no structure has are refused") {
           "log: line 2, column 2 (Fy): the number \"" + std::string(number) +
               "\" is too large; write one of at most 1e+30 in size");
   CHECK(rows("time,Fy\n0,-1e30\n").size() == 1);
+}
+
+TEST_CASE(
+    "what no cable carries is refused by name; of readings it is left out, and a factor that is kept is "
+    "told") {
+  LogRules rules;
+  rules.most_factor = {50, 1e15};
+  rules.most_force = {2e6};
+  CHECK(refusal("time,Fy\n0,1\n1,-51\n", rules) ==
+        "log: line 3, column 2 (Fy): the factor -51 is more than the cables can carry; write one of a size "
+        "below 50: is the unit wrong?");
+  CHECK(refusal("time,C.start\n0,2e6\n1,2.1e6\n", rules) ==
+        "log: line 3, column 2 (C.start): the jack force 2100000 is more than cable \"C\" can carry, a tenth "
+        "of its E A; write a force in N below 2e+06: is the unit wrong?");
+  // Nobody looks at it while the end is locked, nor at an anchored end.
+  CHECK(rows("time,C.start,C.start.locked,C.end\n0,9.9e37,1,9.9e37\n", rules).size() == 1);
+  CHECK(refusal("time,C.start,C.start.locked\n0,9.9e37,1\n1,,0\n", rules)
+            .find("line 3, column 2 (C.start): the jack force 9.9e+37 from a row before is more") !=
+        std::string::npos);
+
+  rules.are_readings = true;
+  std::istringstream stream("time,Fy,C.start\n0,3,1000\n1,9.9e37,9.9e37\n2,,\n3,4,2000\n");
+  LogReader reader(stream, "log", scene(), rules);
+  LogRow row = reader.first_row();
+  REQUIRE(reader.next(row));
+  REQUIRE(reader.next(row));
+  CHECK(row.factor[0] == 3);
+  CHECK(row.cables[0][0].reading == 9.9e37);
+  CHECK(row.cables[0][0].force == 1000);
+  REQUIRE(reader.next(row));
+  CHECK(row.factor[0] == 3);
+  CHECK(row.cables[0][0].force == 1000);
+  REQUIRE(reader.next(row));
+  CHECK(row.factor[0] == 4);
+  CHECK(row.cables[0][0].force == 2000);
+  REQUIRE(reader.remarks().size() == 1);
+  CHECK(reader.remarks()[0] ==
+        "log: line 3, column 2 (Fy): the factor 9.9e+37 is more than the cables can carry; the one before is "
+        "kept");
 }
 
 TEST_CASE("a line without end is refused before it takes all memory") {

@@ -62,6 +62,22 @@ auto lines(const std::string& text) { return std::count(text.begin(), text.end()
 
 }  // namespace
 
+TEST_CASE("a jack force that no cable carries ends a simulation with status 2 before anything is written") {
+  const Scratch scratch;
+  for (const std::string method : {"tracker", "stepwise"}) {
+    CAPTURE(method);
+    const Outcome outcome = run_taut(
+        scratch, simulation(scratch, "time,C.end\n1,1000\n2,9.9e37\n", one_jack) + " --method " + method);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.out.empty());
+    // E A is 2e7 N.
+    CHECK(
+        outcome.err.find("log.csv: line 3, column 2 (C.end): the jack force 9.9e+37 is more than cable \"C\" "
+                         "can carry") != std::string::npos);
+    CHECK(outcome.err.find("write a force in N below 2e+06: is the unit wrong?") != std::string::npos);
+  }
+}
+
 TEST_CASE("check describes a usable scene on standard output") {
   const Scratch scratch;
   const Outcome outcome = run_taut(scratch, "check '" + scene + "'");

@@ -246,6 +246,41 @@ TEST_CASE("an event budget of one ends in the same state: hard because a call st
   CHECK(difference(run, in_calls) <= 1e-12);
 }
 
+TEST_CASE_TEMPLATE(
+    "more than a cable can carry is refused by name: hard because one such number sets what counts as equal",
+    Scalar, double, float) {
+  truss_string(plane, steel_cable(0.3), 6);
+  Run<Scalar, Plane> run(plane), without(plane);
+  REQUIRE(run.status().ok());
+  REQUIRE(without.status().ok());
+  auto good = Samples<Plane>(1)[0];
+  good.factor[0] = 1;
+  const double most = 0.1 * cable_E * cable_A;
+  // By small steps too, which need no events.
+  for (const double force : {0.01 * most, 0.02 * most, 0.1 * most, 0.9 * most, 0.5 * most, 0.1 * most}) {
+    CAPTURE(force);
+    good.jack[0][1].force = force;
+    REQUIRE(run.advance(good).status.ok());
+    REQUIRE(without.advance(good).status.ok());
+    const auto before = run.tensions();
+    CHECK(before == without.tensions());
+    for (const double wrong : {1.001 * most, 10 * most, 9.9e37}) {
+      CAPTURE(wrong);
+      auto sample = good;
+      sample.jack[0][1].force = wrong;
+      CHECK_STATUS(run.advance(sample).status, Code::bad_sample, Place::cable_end, 1, 0);
+      CHECK(run.tensions() == before);
+    }
+    for (const double wrong : {1e9, -1e9, 9.9e37}) {
+      CAPTURE(wrong);
+      auto sample = good;
+      sample.factor[1] = wrong;
+      CHECK_STATUS(run.advance(sample).status, Code::bad_sample, Place::load, 1);
+      CHECK(run.tensions() == before);
+    }
+  }
+}
+
 TEST_CASE_TEMPLATE("samples that cannot be used change nothing: hard because half of a sample may be good",
                    Scalar, double, float) {
   truss_string(plane, steel_cable(0.3), 6);

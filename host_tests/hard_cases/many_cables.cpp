@@ -11,9 +11,9 @@
 
 #include "campaign/load_steps.hpp"
 #include "campaign/many_cables_run.hpp"
-#include "lib/log_file.hpp"
-#include "lib/scene_build.hpp"
-#include "lib/scene_file.hpp"
+#include "lib/files/log_file.hpp"
+#include "lib/kinds/scene_build.hpp"
+#include "lib/files/scene_file.hpp"
 #include "support/equilibrium.hpp"
 #include "taut/stepwise/stepwise.hpp"
 

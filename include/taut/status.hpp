@@ -25,7 +25,7 @@ enum class Code : std::uint8_t {
   out_of_range,       ///< prestrain not in (-1, 1), or a reference to a load, cable or end that is not there
 
   // The sample cannot be used: nothing was changed.
-  bad_sample,  ///< non-finite factor or force, or a negative jack force
+  bad_sample,  ///< non-finite factor or force, a negative jack force, or more than the cable can carry
 
   // The scene has no answer at this load.
   mechanism,         ///< nothing holds this node: add a strut, a support or a substructure

@@ -11,16 +11,19 @@
 #include "lib/files/scene_file.hpp"
 #include "lib/files/status_text.hpp"
 #include "lib/files/text.hpp"
+#include "lib/kinds/condensed_arrays.hpp"
 
 namespace taut::host {
 namespace {
 
-LogRules rules_for(const RunOptions& options) {
+LogRules rules_for(const RunOptions& options, const SceneDescription& scene) {
   LogRules rules;
-  if (options.method == Method::estimate) {
-    rules.negative_jack_forces = true;
-    rules.shortest_step = shortest_step;
-  }
+  rules.are_readings = options.method == Method::estimate;
+  if (rules.are_readings) rules.shortest_step = shortest_step;
+  // Without an answer, start() says why.
+  const CondensedArrays condensed = condense(scene, options.numbers.scalar);
+  rules.most_factor = condensed.most_factor;
+  rules.most_force = condensed.most_force;
   return rules;
 }
 
@@ -48,10 +51,12 @@ LogFollower::LogFollower(const RunOptions& options)
     : options_(options),
       scene_(read_scene_file(options.scene)),
       model_(make_model(scene_, options.method, options.numbers.scalar, options.limits)),
-      rules_(rules_for(options)),
-      rows_(check_log(options.log, scene_, rules_)) {
+      rules_(rules_for(options, scene_)) {
+  std::vector<std::string> left_out;
+  rows_ = check_log(options.log, scene_, rules_, &left_out);
   keep_inputs(options.output, {options.scene, options.log});
   std::ifstream stream = open_log(options.log);
+  for (const std::string& text : left_out) remark(text);
   remark_on_columns(LogReader(stream, options.log, scene_, rules_));
   if (options.method == Method::estimate) {
     for (const std::string& text : fill_in_deviations(options.log, rules_, scene_)) remark(text);

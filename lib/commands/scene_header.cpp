@@ -205,8 +205,9 @@ class Constants {
            "()), " + count(a.prestrain) + ", " + count(a.rho) + ", " + std::to_string(a.load.size()) + ",\n" +
            field("coupling", "{" + coupling() + "}") + field("prestrain", numbers(a.prestrain, 10)) +
            field("load", rows(a.load)) + field("rho", numbers(a.rho, 10)) +
-           field("cos_alpha", scalars(a.cos_alpha, 10)) + "          /*sin_alpha*/ " +
-           scalars(a.sin_alpha, 10) + "};\n}\n";
+           field("cos_alpha", scalars(a.cos_alpha, 10)) + field("sin_alpha", scalars(a.sin_alpha, 10)) +
+           field("most_force", scalars(a.most_force, 10)) + "          /*most_factor*/ " +
+           scalars(a.most_factor, 10) + "};\n}\n";
   }
   std::string struts() const {
     const CondensedArrays& a = arrays_;

@@ -27,7 +27,9 @@ std::vector<std::array<double, 2>> largest_readings(const std::string& path, con
   while (log.next(row))
     for (std::size_t c = 0; c < largest.size(); ++c)
       for (std::size_t end = 0; end < 2; ++end)
-        largest[c][end] = std::max(largest[c][end], std::fabs(row.cables[c][end].reading.value_or(0)));
+        if (const double reading = std::fabs(row.cables[c][end].reading.value_or(0));
+            rules.is_possible_force(c, reading))
+          largest[c][end] = std::max(largest[c][end], reading);
   return largest;
 }
 

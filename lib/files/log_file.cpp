@@ -45,9 +45,13 @@ void LogReader::refuse(const std::string& problem, const std::string& remedy) co
 
 void LogReader::refuse_field(std::size_t column, const std::string& problem,
                              const std::string& remedy) const {
+  throw InputError(file_, place_of(column), problem, remedy);
+}
+
+std::string LogReader::place_of(std::size_t column) const {
   std::string place = "line " + std::to_string(line_) + ", column " + std::to_string(column + 1);
   if (column < names_.size()) place += " (" + names_[column] + ")";
-  throw InputError(file_, place, problem, remedy);
+  return place;
 }
 
 // The next line without its end; false if there is none.
@@ -205,7 +209,7 @@ void LogReader::check_time(double time, double before) const {
 }
 
 // Puts a field where it belongs. An empty one keeps what was there.
-void LogReader::take(std::size_t i, LogRow& row) const {
+void LogReader::take(std::size_t i, LogRow& row) {
   const LogColumn& column = columns_[i];
   if (fields_[i].empty()) {
     if (column.quantity == Quantity::time) refuse_field(i, "the row has no time", "write one, in seconds");
@@ -216,7 +220,7 @@ void LogReader::take(std::size_t i, LogRow& row) const {
     return;
   }
   if (column.quantity == Quantity::factor) {
-    row.factor[column.index] = number(i);
+    take_factor(i, row.factor[column.index]);
     return;
   }
   EndRow& end = row.cables[column.index][column.end];
@@ -229,9 +233,30 @@ void LogReader::take(std::size_t i, LogRow& row) const {
     }
     end.locked = fields_[i] == "1";
   } else {
-    end.force = number(i);
-    end.reading = end.force;
+    end.reading = number(i);
+    // A reading that is impossible is for the estimator to refuse.
+    if (!rules_.are_readings || rules_.is_possible_force(column.index, *end.reading))
+      end.force = *end.reading;
   }
+}
+
+void LogReader::take_factor(std::size_t i, double& factor) {
+  const double given = number(i);
+  const std::size_t load = columns_[i].index;
+  if (rules_.is_possible_factor(load, given)) {
+    factor = given;
+    return;
+  }
+  const std::string problem = "the factor " + plain(given) + " is more than the cables can carry";
+  if (!rules_.are_readings)
+    refuse_field(i, problem,
+                 "write one of a size below " + plain(rules_.most_factor[load]) + ": is the unit wrong?");
+  constexpr std::size_t most_remarks = 20;
+  if (++left_out_ <= most_remarks)
+    remarks_.push_back(file_ + ": " + place_of(i) + ": " + problem + "; the one before is kept");
+  else if (left_out_ == most_remarks + 1)
+    remarks_.push_back(file_ + ": " + place_of(i) + ": " + problem +
+                       ", as are perhaps more; the ones before are kept");
 }
 
 double LogReader::number(std::size_t i) const {
@@ -246,26 +271,34 @@ double LogReader::number(std::size_t i) const {
     refuse_field(i, quote(text) + " is not a number",
                  "write a plain decimal such as -1.5 or 2e3, or leave it empty");
   }
-  if (std::fabs(value) > largest_input) {
+  // What an instrument shows when it is overloaded is left out further on, by name.
+  const Quantity quantity = i < columns_.size() ? columns_[i].quantity : Quantity::time;
+  const bool may_be_impossible =
+      rules_.are_readings && (quantity == Quantity::factor || quantity == Quantity::force);
+  if (std::fabs(value) > largest_input && !may_be_impossible) {
     refuse_field(i, "the number " + quote(text) + " is too large",
                  "write one of at most " + plain(largest_input) + " in size");
   }
   return value;
 }
 
-// A jack can only pull. What counts is the force while the end is not locked, also one kept from a row
-// before.
+// A jack can only pull, and no more than the cable carries. What counts is the force while the end is not
+// locked, also one kept from a row before.
 void LogReader::check_jacks(const LogRow& row) const {
-  if (rules_.negative_jack_forces) return;
+  if (rules_.are_readings) return;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const LogColumn& column = columns_[i];
     if (column.quantity != Quantity::force) continue;
     const EndRow& end = row.cables[column.index][column.end];
-    if (!scene_.cables[column.index].is_jacked(column.end) || end.locked || end.force >= 0) continue;
-    refuse_field(
-        i,
-        "the jack force " + plain(end.force) + (end.reading ? "" : " from a row before") + " is below zero",
-        "write zero or more: a jack can only pull");
+    const CableDescription& cable = scene_.cables[column.index];
+    if (!cable.is_jacked(column.end) || end.locked) continue;
+    const std::string force =
+        "the jack force " + plain(end.force) + (end.reading ? "" : " from a row before");
+    if (end.force < 0) refuse_field(i, force + " is below zero", "write zero or more: a jack can only pull");
+    if (!rules_.is_possible_force(column.index, end.force))
+      refuse_field(
+          i, force + " is more than cable " + quote(cable.name) + " can carry, a tenth of its E A",
+          "write a force in N below " + plain(rules_.most_force[column.index]) + ": is the unit wrong?");
   }
 }
 
@@ -278,12 +311,14 @@ std::ifstream open_log(const std::string& path) {
   return std::ifstream(path, std::ios::binary);
 }
 
-std::size_t check_log(const std::string& path, const SceneDescription& scene, const LogRules& rules) {
+std::size_t check_log(const std::string& path, const SceneDescription& scene, const LogRules& rules,
+                      std::vector<std::string>* remarks) {
   std::ifstream stream = open_log(path);
   LogReader reader(stream, path, scene, rules);
   LogRow row = reader.first_row();
   while (reader.next(row)) {
   }
+  if (remarks != nullptr) remarks->insert(remarks->end(), reader.remarks().begin(), reader.remarks().end());
   return row.row;
 }
 

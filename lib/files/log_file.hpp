@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <optional>
@@ -16,7 +17,7 @@ namespace taut::host {
 
 /// What a log says of one end of a cable.
 struct EndRow {
-  double force = 0;               ///< last force given [N]
+  double force = 0;               ///< last possible force given [N]
   bool locked = false;            ///< last word on the wedge
   std::optional<double> reading;  ///< force given in this row [N]
   std::optional<double> stroke;   ///< payout given in this row [m]
@@ -33,8 +34,19 @@ struct LogRow {
 
 /// What a log may hold beyond its format.
 struct LogRules {
-  bool negative_jack_forces = false;  ///< readings with noise may be below zero
-  double shortest_step = 0;           ///< least time between rows [s]
+  /// The log holds what instruments read: with noise a jack force may be below zero, and what is impossible
+  /// is left out. Otherwise neither can be used.
+  bool are_readings = false;
+  double shortest_step = 0;  ///< least time between rows [s]
+  /// Sizes beyond which a factor or a force is impossible, see Condensed; empty: not known.
+  std::vector<double> most_factor, most_force;
+
+  bool is_possible_factor(std::size_t load, double factor) const {
+    return load >= most_factor.size() || std::fabs(factor) <= most_factor[load];
+  }
+  bool is_possible_force(std::size_t cable, double force) const {
+    return cable >= most_force.size() || std::fabs(force) <= most_force[cable];
+  }
 };
 
 /// Reads a log from a stream, one row at a time.
@@ -58,6 +70,8 @@ class LogReader {
   bool has(const std::string& column) const;
   /// The columns in the order of the file.
   const std::vector<std::string>& names() const { return names_; }
+  /// Where a factor was left out, of the rows until now.
+  const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
   bool read_line();
@@ -65,13 +79,15 @@ class LogReader {
   LogColumn known_column(std::size_t i, const std::string& name) const;
   [[noreturn]] void refuse_unknown_column(std::size_t i, const std::string& name) const;
   void split();
-  void take(std::size_t i, LogRow& row) const;
+  void take(std::size_t i, LogRow& row);
+  void take_factor(std::size_t i, double& factor);
   void check_time(double time, double before) const;
   double number(std::size_t i) const;
   void check_jacks(const LogRow& row) const;
   [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) const;
   [[noreturn]] void refuse_field(std::size_t column, const std::string& problem,
                                  const std::string& remedy) const;
+  std::string place_of(std::size_t column) const;
 
   std::istream& stream_;
   std::string file_;
@@ -84,11 +100,14 @@ class LogReader {
   std::size_t line_ = 0;            // its number
   std::vector<std::string> fields_;
   std::size_t rows_ = 0;
+  std::vector<std::string> remarks_;
+  std::size_t left_out_ = 0;  // factors
 };
 
 /// Reads the whole log and throws InputError for the first thing in it that does not fit; returns the number
-/// of rows.
-std::size_t check_log(const std::string& path, const SceneDescription& scene, const LogRules& rules);
+/// of rows, and adds to `remarks`, if given, what was left out.
+std::size_t check_log(const std::string& path, const SceneDescription& scene, const LogRules& rules,
+                      std::vector<std::string>* remarks = nullptr);
 
 /// Opens a log for reading. Throws InputError if it is not a file that can be read twice.
 std::ifstream open_log(const std::string& path);

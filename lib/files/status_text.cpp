@@ -304,7 +304,7 @@ std::string failure_remedy(const Status& status) {
     case Code::not_finite:
       return remedy_of_impossible_numbers;
     case Code::bad_sample:
-      return "write finite numbers and no negative jack forces";
+      return "write finite numbers, no negative jack forces and no more than the cables can carry";
     default:
       return "check the scene with: taut check";
   }

@@ -73,6 +73,8 @@ CondensedArrays condensed_arrays(const SceneDescription& scene) {
   arrays.rho = row_of(condensed->rho, joints);
   arrays.cos_alpha = row_of(condensed->cos_alpha, joints);
   arrays.sin_alpha = row_of(condensed->sin_alpha, joints);
+  arrays.most_force = row_of(condensed->most_force, condensed->cables.size());
+  arrays.most_factor = row_of(condensed->most_factor, loads);
   arrays.strut_load = rows_of(rows->load, loads, struts);
   arrays.strut_prestrain = row_of(rows->prestrain, struts);
   arrays.strut_elongation = rows_of(rows->elongation, segments, struts);

@@ -21,6 +21,7 @@ struct CondensedArrays {
   Row prestrain;
   std::vector<Row> load;
   Row rho, cos_alpha, sin_alpha;
+  Row most_force, most_factor;
   std::vector<Row> strut_load;
   Row strut_prestrain;
   std::vector<Row> strut_elongation;

@@ -1,6 +1,8 @@
 // Static condensation: from a scene to the arrays of Condensed, once.
 #pragma once
 
+#include <cmath>
+
 #include "taut/condensation/condensed.hpp"
 #include "taut/condensation/structure.hpp"
 #include "taut/scene/validation.hpp"
@@ -42,6 +44,7 @@ class Condensation {
     } else {
       status = elastic(condensed, struts, displacements);
     }
+    if (status) limit(condensed);
     return status;
   }
 
@@ -59,12 +62,32 @@ class Condensation {
 
   using Real = Wide<Scalar>;
   using Given = typename SceneType::Scalar;
+  /// Of a load that no cable feels.
+  static constexpr Scalar farthest_factor = Scalar(1e15);
   static constexpr auto no_force = [](int, int) { return Real(0); };
 
   void set_joint(Condensed<Scalar, Cap>& condensed, int j, const FrictionElement<Real, dimension>& element) {
     condensed.rho[j] = element.grip.rho();
     condensed.cos_alpha[j] = static_cast<Scalar>(element.frame.cos_alpha);
     condensed.sin_alpha[j] = static_cast<Scalar>(element.frame.sin_alpha);
+  }
+
+  /// What samples may ask for.
+  void limit(Condensed<Scalar, Cap>& condensed) const {
+    condensed.most_factor.fill(farthest_factor);
+    for (int c = 0; c < scene_->cables.size(); ++c) {
+      const auto& cable = scene_->cables[c];
+      const Real carried = Real(0.1) * static_cast<Real>(cable.E) * static_cast<Real>(cable.A);
+      condensed.most_force[c] = static_cast<Scalar>(carried);
+      // Loads may well cancel one another.
+      const Real absurd = 100 * carried;
+      for (int load = 0; load < condensed.loads; ++load)
+        for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i) {
+          const auto tension = std::fabs(condensed.load[load][i]);
+          Scalar& most = condensed.most_factor[load];
+          if (tension * static_cast<Real>(most) > absurd) most = static_cast<Scalar>(absurd / tension);
+        }
+    }
   }
 
   /// Kelvin that a unit of a load pattern warms a cable by.

@@ -1,6 +1,8 @@
 // The condensed scene: the few arrays that a running controller needs.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <type_traits>
 
 #include "taut/numerics/wide.hpp"
@@ -71,6 +73,10 @@ struct Condensed {
   FixedArray<Real, Cap::joints> rho;          ///< smallest T_small / T_big of every joint; 0: locked
   FixedArray<Scalar, Cap::joints> cos_alpha;  ///< half the angle between the segments, for N and f
   FixedArray<Scalar, Cap::joints> sin_alpha;
+  /// What a sample may ask for: more is a mistake, of a unit or of an instrument. No cable carries a tenth of
+  /// its E A, for wires break at a few per cent of strain.
+  FixedArray<Scalar, Cap::cables> most_force;  ///< of a jack of every cable: a tenth of its E A [N]
+  FixedArray<Scalar, Cap::loads> most_factor;  ///< that alone gives a segment a hundred times that
 
   constexpr bool is_locked(int joint) const { return !(rho[joint] > 0); }
 
@@ -87,6 +93,21 @@ struct Condensed {
       }
   }
 };
+
+/// As for any scene, and `bad_sample` if a factor or the force of an unlocked jack is more than cables carry.
+template <class Scalar, class Cap>
+Status check_sample(const Condensed<Scalar, Cap>& model, const Sample<Scalar, Cap>& sample) {
+  for (int i = 0; i < model.loads; ++i)
+    if (!(std::fabs(sample.factor[i]) <= model.most_factor[i]))
+      return Status::at(Code::bad_sample, Place::load, i);
+  Status status = Status::success();
+  for_each_jacked_end(model.cables, [&](int c, std::size_t end) {
+    const Jack<Scalar>& jack = sample.jack[c][end];
+    if (!jack.locked && !(jack.force >= 0 && jack.force <= model.most_force[c]) && status.ok())
+      status = Status::along(Code::bad_sample, Place::cable_end, c, static_cast<int>(end));
+  });
+  return status;
+}
 
 /// Rows that give `Count` numbers of the state: load x factors + prestrain + elongation x e, with e as in
 /// Condensed. An aggregate, too.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <new>
 
 #include "taut/estimation/alarms.hpp"
@@ -70,11 +71,11 @@ class Estimator {
 
   /// Follows the readings of one row. Fails as Tracker::advance() does; then the state is where the path
   /// ended, and the next call goes on from there; with `bad_sample` nothing was done. A reading that is not
-  /// finite is refused with an alarm.
+  /// finite, or more than the cable can carry, is refused with an alarm.
   Progress<Scalar> advance(const ReadingsType& readings, int event_budget = TrackerType::default_budget) {
     alarms_.clear();
     for (int i = 0; i < patterns(); ++i)
-      if (!std::isfinite(readings.sample.factor[i]))
+      if (!(std::fabs(readings.sample.factor[i]) <= model_->most_factor[i]))
         return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
     begin_row();
     Corners corners;
@@ -405,13 +406,18 @@ class Estimator {
     }
     cell.before = cell.at.sd;
     // Placed there, not on the heap: a copy would read back at once what was just written in parts, and wait.
-    new (&cell.at) ConditionedLoad<Scalar>(cell.filter.take(given.force, cell.since));
+    new (&cell.at) ConditionedLoad<Scalar>(cell.filter.take(possible(k, given.force), cell.since));
     if (cell.first == 0 && cell.at.load > 0) cell.first = Scalar(1e-3) * sd;
     cell.since = 0;
     cell.raw = given.force;
     cell.is_new = !cell.at.refused;
     corners.turns |= cell.at.turned;
     if (cell.at.refused) alarms_.add(of_jack(Alarm::Kind::outlier, k));
+  }
+  /// A reading, or none if it is more than the cable can carry.
+  Scalar possible(int k, Scalar reading) const {
+    const bool is_possible = std::fabs(reading) <= model_->most_force[jacks_[k].cable()];
+    return is_possible ? reading : std::numeric_limits<Scalar>::quiet_NaN();
   }
   Alarm of_jack(Alarm::Kind kind, int k) const {
     return Alarm::of(kind, jacks_[k].cable(), static_cast<int>(jacks_[k].end));
@@ -759,7 +765,7 @@ class Estimator {
   /// what the end segment has, the wedge is free.
   void watch(int k, Scalar reading) {
     Cell& cell = cells_[k];
-    const ConditionedLoad<Scalar> pull = cell.filter.take(reading, cell.since);
+    const ConditionedLoad<Scalar> pull = cell.filter.take(possible(k, reading), cell.since);
     cell.since = 0;
     if (pull.refused) return;
     const int segment = model_->cables[jacks_[k].cable()].end_segment(jacks_[k].end);

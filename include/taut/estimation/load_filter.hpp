@@ -19,7 +19,7 @@ struct ConditionedLoad {
   Scalar sure = 0;       ///< how far the load has surely come [N]; between two turns it moves one way only
   bool turned = false;   ///< the load has turned since the sample before: the model goes to `turn` first
   Scalar turn = 0;       ///< best estimate of where [N], if it has
-  bool refused = false;  ///< the reading was taken for an outlier
+  bool refused = false;  ///< the reading was taken for an outlier: the load is held
   bool behind = false;   ///< the estimate has not come as far as `sure`: the load may have turned
 };
 
@@ -35,6 +35,10 @@ struct ConditionedLoad {
 /// As long as the readings agree with the likeliest line, up to sixteen of them wait until they are weighed
 /// as one: their mean. Meanwhile that line alone follows them. Where they drift off, the last eight are
 /// weighed two by two after all; where only the last one does not agree, it is weighed alone.
+///
+/// After a gap, a step much longer than the one before, no slope is trusted: the longer it was, the less
+/// likely that a line has gone on, and a new one begins where the load was last read, as uncertain as the
+/// reading shows. A reading that is refused, or is none, leaves the load where it was, and less certain.
 ///
 /// `sure` asks for more than a line, which overshoots where a ramp ends: a load that rises is now at least as
 /// high as the mean of any readings since it turned.
@@ -74,22 +78,17 @@ class LoadFilter {
   };
 
   ConditionedLoad<Scalar> take_one(Scalar reading, Level dt) {
-    // Zero if that is not known.
-    const Level step = dt > 0 && std::isfinite(dt) ? dt : Level(0);
-    const Level y = level_of(reading);
-    const bool usable = std::fabs(y) < farthest;
+    const Level step = time_of(dt), y = level_of(reading);
+    const bool usable = is_reading(reading);
     if (lines_.size == 0) return begin_anew(usable, reading);
-    step_ = step;
-    lines_.forget(1);
+    if (!usable) return miss(step);
+    missed_ = 0;
+    const Told told = last_told();
+    if (step > gap * step_ && step_ > 0) return take_after_gap(step, y, told);
+    note_step(step);
     const int newest = lines_.place(lines_.size - 1);
     const bool has_no_slope = !(step > 0) || (best_ == newest && is_new(newest));
-    // Only now is it known what a sample is in time.
-    if (is_new(newest) && step > 0)
-      at(lines_.slope_variance, newest) = slope_after_jump / step * (slope_after_jump / step);
-    lines_.advance(step);
-    // After so long a time nothing is known any more.
-    if (!(at(lines_.level_variance, best_) < farthest)) return begin_anew(usable, reading);
-    if (!usable) return conclude(false, 1, y);
+    advance(step);
     const bool surprises = is_surprise(y);
     ++since_birth_;
     calm_ = static_cast<std::int8_t>(surprises ? 0 : calm_ < calm_enough ? calm_ + 1 : calm_);
@@ -97,14 +96,91 @@ class LoadFilter {
     if (since_birth_ >= pause || surprises) begin_line({surprises, has_no_slope}, step, step, y, Level(1));
     lines_.weigh(y, 1);
     const Level total = find_best();
-    return conclude(at(lines_.strays, best_) == 0, total, y);
+    return conclude(at(lines_.strays, best_) == 0, total, y, told);
+  }
+  /// The time since the last reading that was one; zero if it is not known.
+  Level time_of(Level dt) const {
+    const Level time = missed_ + (dt > 0 ? dt : Level(0));
+    return time < shortest ? Level(0) : time < longest ? time : longest;
+  }
+  void note_step(Level step) {
+    if (!(step > 0)) return;
+    step_ = step;
+    const Level least = usual_ / gap, most = usual_ * gap;
+    usual_ = usual_ > 0 ? larger(least, -larger(-most, -step)) : step;
+  }
+  void advance(Level step) {
+    lines_.forget(1);
+    const int newest = lines_.place(lines_.size - 1);
+    // Only now is it known what a sample is in time.
+    if (is_new(newest) && step > 0)
+      at(lines_.slope_variance, newest) = slope_after_jump / step * (slope_after_jump / step);
+    lines_.advance(step);
+  }
+
+  // Times without readings.
+
+  /// Where the load was when it was last told.
+  struct Told {
+    Level level, variance;
+  };
+  Told last_told() const {
+    return {at(lines_.level, best_) + off_best_, at(lines_.level_variance, best_) + beside_best_};
+  }
+  /// A piece of the path goes on for about as long as it has lasted.
+  Level lasts() const { return static_cast<Level>(at(lines_.age, best_)) * usual_; }
+  /// A reading that is none: the load stays where it was last read, and is the less certain the longer that
+  /// is ago.
+  ConditionedLoad<Scalar> miss(Level step) {
+    missed_ = step;
+    const Level t = -larger(-step, -lasts()), gone = t * at(lines_.slope, best_);
+    const Level growth = t * (2 * at(lines_.covariance, best_) + t * at(lines_.slope_variance, best_));
+    const Told told = last_told();
+    const Level variance = larger(told.variance, Level(0)) + growth + gone * gone;
+    const Estimate estimate = {told.level, std::sqrt(variance)};
+    ConditionedLoad<Scalar> now;
+    say(now, estimate, beyond_sure(estimate));
+    now.refused = true;
+    return now;
+  }
+  /// The first reading after a gap. What the load did meanwhile nobody knows: the longer it was, the less
+  /// likely that a line has gone on. Beside the lines that have, a new one begins where the load was held.
+  [[gnu::noinline]] ConditionedLoad<Scalar> take_after_gap(Level step, Level y, const Told& told) {
+    const Level come = corner(0), off = y - told.level, gone = step * at(lines_.slope, best_);
+    const bool is_on_the_way = off > -larger(-gone, Level(0)) - apart && off < larger(gone, Level(0)) + apart;
+    const Level samples = static_cast<Level>(since_birth_) + step / usual_;
+    const Level odds =
+        samples * at(lines_.weight, best_) / (static_cast<Level>(at(lines_.age, best_)) + least_length);
+    note_step(step);
+    advance(step);
+    for (int k = lines_.size - 1; k >= 0; --k) {
+      const int i = lines_.place(k);
+      // Of a line that says so little no digits would be left.
+      if (!(at(lines_.level_variance, i) < vague && std::fabs(at(lines_.level, i)) < farthest)) {
+        lines_.drop(k);
+        continue;
+      }
+      // What has lasted long is to be left as easily as any other now.
+      if (at(lines_.age, i) >= old_age) at(lines_.age, i) = old_age - 1;
+    }
+    make_room(true, y);
+    const int born = lines_.add();
+    at(lines_.level, born) = told.level;
+    at(lines_.level_variance, born) = larger(off * off, Level(1));
+    at(lines_.weight, born) = odds * (is_on_the_way ? Level(1) : elsewhere);
+    at(lines_.corner, born) = come;
+    at(lines_.strays, born) = at(lines_.known, born) = 0;
+    since_birth_ = calm_ = 0;
+    lines_.weigh(y, 1);
+    const Level total = find_best();
+    return conclude(at(lines_.strays, best_) == 0, total, y, told);
   }
 
   // Readings that wait.
 
   /// Whether readings wait from now on: what is young may soon be disproved.
   bool begins_to_wait() {
-    if (calm_ < calm_enough) return false;
+    if (calm_ < calm_enough || missed_ > 0) return false;
     const int hold = long_hold(1);
     if (hold >= 0 && hold != best_) return false;
     const std::int32_t age = at(lines_.age, best_);
@@ -117,8 +193,6 @@ class LoadFilter {
     const Level variance = block_.variance() * taken / (taken + half);
     waits_sd_ = std::sqrt(larger(variance + beside_best_, Level(0)));
     waits_bent_ = age < young ? perhaps_bent : Level(0);
-    most_drift_ = disagree * disagree * block_.drift_variance;
-    most_innovation_ = doubt * doubt * block_.spread;
     return true;
   }
   ConditionedLoad<Scalar> wait(Scalar reading, Level dt) {
@@ -128,9 +202,11 @@ class LoadFilter {
     const Estimate estimate = {block_.level + off_best_, waits_sd_};
     const Level further = beyond_sure(estimate);
     // Not a number does not agree either.
-    const bool agrees = square < most_drift_ && is_even && !has_turned(estimate, further);
-    const bool fits = innovation * innovation < most_innovation_;
-    if (!agrees || !fits) return take_apart(agrees, fits && is_even);
+    const bool agrees =
+        square < disagree * disagree * block_.drift_variance && is_even && !has_turned(estimate, further);
+    const bool fits = innovation * innovation < doubt * doubt * block_.spread;
+    // What is none says nothing of those before.
+    if (!agrees || !fits) return take_apart(agrees || !is_reading(reading), fits && is_even);
     if (!block_.has_room()) return take_together(y, square > suspicious * block_.drift_variance);
     go_on(estimate, further, [&](Level way) {
       const Level share = block_.share();
@@ -144,7 +220,7 @@ class LoadFilter {
   [[gnu::noinline]] ConditionedLoad<Scalar> take_together(Level y, bool is_suspicious) {
     const Level share = block_.share(), middle = block_.times * share, mean = block_.sum * share;
     const int count = block_.size;
-    step_ = block_.span * share;
+    step_ = usual_ = block_.span * share;
     since_birth_ = static_cast<std::int8_t>(since_birth_ + count);
     lines_.forget(count);
     lines_.advance(middle);
@@ -175,8 +251,9 @@ class LoadFilter {
       if (now.turned) turn = now.turn;
       i += together;
     }
-    // It was by chance if an old line is still by far the likeliest.
-    const bool is_calm = at(lines_.weight, best_) > by_far && at(lines_.age, best_) > long_ago;
+    // It was by chance if an old line is still by far the likeliest. A load that is held is not on it.
+    const bool is_calm =
+        !now.refused && at(lines_.weight, best_) > by_far && at(lines_.age, best_) > long_ago;
     calm_ = is_calm ? calm_enough : std::int8_t{0};
     now.turned = way_ != way;
     if (now.turned)
@@ -220,6 +297,15 @@ class LoadFilter {
   /// How far a jump is expected to lead, at least: readings that near have the density `anywhere`.
   static constexpr Level least_jump = Level(0.4) / Lines::anywhere;
 
+  /// A step so many times as long as the one before, or longer, is a gap.
+  static constexpr Level gap = 4;
+  /// That the load went on after a gap somewhere else than it was held, and not on the line's way either.
+  static constexpr Level elsewhere = Level(0.02);
+  /// A variance, of a line across a gap, that leaves too few digits.
+  static constexpr Level vague = Level(1e4);
+  /// Times beyond these are taken for the nearer end, or for none.
+  static constexpr Level shortest = Level(1e-15), longest = Level(1e15);
+
   static constexpr Level neglected = Level(1e-9), least_weight = Level(1e-30);
   static constexpr Level patience = Level(1e-4);  ///< weight of a long hold that is enough
   /// A long hold among a million samples has a slope by chance now and then.
@@ -236,6 +322,8 @@ class LoadFilter {
     return Lines::at(array, i);
   }
   bool is_new(int i) const { return at(lines_.age, i) == 1 && at(lines_.known, i) == 1; }
+  /// Whatever was read before: else what it was led to by one that was none could be the end.
+  bool is_reading(Scalar given) const { return std::fabs(given * per_sd_) < Scalar(farthest); }
   Level level_of(Scalar reading) const {
     // What is none, or too far, is farther than any.
     constexpr Scalar end = 2 * Scalar(farthest);
@@ -400,11 +488,24 @@ class LoadFilter {
     return total;
   }
 
-  /// `total` is the sum of the weights; it becomes one.
-  ConditionedLoad<Scalar> conclude(bool accepted, Level total, Level y) {
-    const Estimate estimate = estimate_load(total);
+  /// Where a reading is refused: the load stays where it was, and may have gone as far as the line says, or
+  /// as far again as it has come.
+  Estimate hold(const Told& told, const Estimate& expected) const {
+    const Level far = std::fabs(at(lines_.slope, best_)) * lasts(),
+                on = std::fabs(expected.level - told.level);
+    const Level gone = -larger(-far, -on), variance = larger(expected.sd * expected.sd, told.variance);
+    return {told.level, std::sqrt(variance + gone * gone)};
+  }
+  /// `total` is the sum of the weights; it becomes one. `told` is where the load stays if the reading `y` is
+  /// not accepted.
+  ConditionedLoad<Scalar> conclude(bool accepted, Level total, Level y, const Told& told = {}) {
+    Estimate estimate = estimate_load(total);
     const Level unit = 1 / total;
-    for (Level& weight : lines_.weight) weight = larger(least_weight, weight * unit);
+    for (int k = 0; k < lines_.size; ++k) {
+      Level& weight = at(lines_.weight, lines_.place(k));
+      weight = larger(least_weight, weight * unit);
+    }
+    if (!accepted) estimate = hold(told, estimate);
     off_best_ = estimate.level - at(lines_.level, best_);
     beside_best_ = estimate.sd * estimate.sd - at(lines_.level_variance, best_);
     ConditionedLoad<Scalar> now;
@@ -459,7 +560,7 @@ class LoadFilter {
     const Level unit = 1 / total;
     if (hold >= 0) return {from, std::sqrt(square * unit)};
     mean *= unit;
-    return {from + mean, std::sqrt(square * unit - mean * mean)};
+    return {from + mean, std::sqrt(larger(square * unit - mean * mean, Level(0)))};
   }
   void turn_round(ConditionedLoad<Scalar>& now) {
     const Scalar corner = force(at(lines_.corner, best_));
@@ -469,7 +570,7 @@ class LoadFilter {
     way_ = -way_;
     calm_ = 0;
     // The means of older lines are from before the turn.
-    for (int k = 1; k < Lines::capacity && lines_.place(0) != best_; ++k) lines_.drop(0);
+    while (lines_.size > 1 && lines_.place(0) != best_) lines_.drop(0);
   }
   /// `least(way)` is what the load surely is by means of readings, times the way that it goes.
   template <class Least>
@@ -512,14 +613,14 @@ class LoadFilter {
   Level sure_level_ = 0;
   // The estimate less the level of the best line, its variance less that of this line.
   Level off_best_ = 0, beside_best_ = 0;
-  Level waits_sd_ = 0;                          // standard deviation of the estimate while readings wait
-  Level waits_bent_ = 0;                        // and its growth with their drift
-  Level most_drift_ = 0, most_innovation_ = 0;  // their squares, as long as readings agree
-  Level step_ = 0;                              // the last one
-  Level way_ = 1;                               // that the load goes: up or down
-  std::int8_t best_ = 0;                        // of the lines, the most likely
-  std::int8_t since_birth_ = 0;                 // samples since a line began
-  std::int8_t calm_ = 0;                        // samples without surprise
+  Level waits_sd_ = 0;           // standard deviation of the estimate while readings wait
+  Level waits_bent_ = 0;         // and its growth with their drift
+  Level step_ = 0, usual_ = 0;   // the last one; what they usually are
+  Level missed_ = 0;             // time since the last reading that was one
+  Level way_ = 1;                // that the load goes: up or down
+  std::int8_t best_ = 0;         // of the lines, the most likely
+  std::int8_t since_birth_ = 0;  // samples since a line began
+  std::int8_t calm_ = 0;         // samples without surprise
 };
 
 }  // namespace taut

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "taut/numerics/bits.hpp"
+#include "taut/numerics/larger.hpp"
 
 namespace taut {
 
@@ -62,7 +63,10 @@ struct LoadLines {
     --size;
     for (int k = rank; k < size; ++k) at(order, k) = at(order, k + 1);
     at(order, size) = gone;
-    at(weight, gone) = 0;
+    at(age, gone) = 0;
+    // It is computed with the others: what has no variance and no weight stays finite and without weight.
+    for (Lanes* const each : {&level, &slope, &level_variance, &covariance, &slope_variance, &weight, &mean})
+      at(*each, gone) = 0;
   }
 
   /// Before so many readings more: those of long ago count less.
@@ -112,7 +116,8 @@ struct LoadLines {
       const Scalar level_gain = level_variance[i] * p, slope_gain = covariance[i] * p;
       level[i] += level_gain * r;
       slope[i] += slope_gain * r;
-      slope_variance[i] -= covariance[i] * slope_gain;
+      // Where a step was long, rounding could make it negative.
+      slope_variance[i] = larger(slope_variance[i] - covariance[i] * slope_gain, Scalar(0));
       level_variance[i] *= left;
       covariance[i] *= left;
       mean[i] += (y - mean[i]) * (share[i] * takes);

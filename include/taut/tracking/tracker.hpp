@@ -386,7 +386,7 @@ class Tracker {
   /// Not in one frame with the samples that need no more than goes_along().
   [[gnu::noinline]] Progress<Scalar> approach(const Sample<Scalar, Cap>& sample, int event_budget) {
     if (quick(sample)) return {};
-    const Status usable = check_sample(model_->cables, model_->loads, sample);
+    const Status usable = check_sample(*model_, sample);
     if (!usable) return {usable, Scalar(0), 0};
     set_goal(sample);
     for (const JackedEnd& jack : jacks_)
@@ -935,8 +935,12 @@ class Tracker {
       reach_[k] = Scalar(16) * std::fabs(at_[k]);
       anchor_[k] = static_cast<Scalar>(map_.anchor()[k]);
       least_[k] = std::numeric_limits<Scalar>::lowest();
-      if (input.kind == Input::Kind::load) load_input_[input.index] = k;
+      if (input.kind == Input::Kind::load) {
+        load_input_[input.index] = k;
+        reach_[k] = -larger(-reach_[k], -model_->most_factor[input.index]);
+      }
       if (input.kind == Input::Kind::jack_force) {
+        reach_[k] = -larger(-reach_[k], -model_->most_force[input.index / 2]);
         least_[k] = has_resting_ ? std::numeric_limits<Scalar>::infinity() : Scalar(0);
         for (JackedEnd& jack : jacks_)
           if (2 * jack.cable + static_cast<int>(jack.end) == input.index) jack.input = k;
