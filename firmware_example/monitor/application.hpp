@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -237,7 +238,9 @@ class Application {
     if (!fields.real(limits.least) || !fields.real(limits.most) || !fields.number(limits.frozen_after) ||
         !fields.done())
       return refuse("fields");
-    if (!(limits.least <= 0 && limits.most > 0)) return refuse("limits");
+    // Within infinite ones an infinite reading were one like any other.
+    const bool are_finite = std::isfinite(limits.least) && std::isfinite(limits.most);
+    if (!(are_finite && limits.least <= 0 && limits.most > 0)) return refuse("limits");
     common_.limits = limits;
     done('G');
   }

@@ -115,6 +115,8 @@ std::uint32_t fingerprint(const taut::Condensed<float, Capacity>& model,
   add(model.coupling);
   if constexpr (Capacity::segments > 0) add(model.prestrain);
   if constexpr (Capacity::loads > 0) add(model.load);
+  if constexpr (Capacity::loads > 0) add(model.most_factor);
+  add(model.most_force);
   if constexpr (Capacity::joints > 0) {
     add(model.rho);
     add(knowledge.mu);

@@ -219,7 +219,7 @@ class Session {
   bool check_readings(const CellLimits& limits, Alarms& alarms) {
     bool can_be_used = true;
     for (int i = 0; i < model().loads; ++i)
-      can_be_used = can_be_used && std::isfinite(readings_.sample.factor[i]);
+      can_be_used = can_be_used && std::fabs(readings_.sample.factor[i]) <= model().most_factor[i];
     for_each_end([&](int c, std::size_t end, bool jacked) {
       auto& given = readings_.ends[c][end];
       readings_.sample.jack[c][end].locked = cells_[c][end].locked;

@@ -1,4 +1,8 @@
 // What the device does when it is told to.
+#include <cmath>
+#include <limits>
+#include <utility>
+
 #include "rig.hpp"
 
 using namespace rig;
@@ -81,6 +85,12 @@ TEST_CASE("what is not understood is refused by name and changes nothing") {
   CHECK(device.ask(choose(2)) == Fields{"E", "scene"});
   CHECK(device.ask("G " + real_field(1) + " " + real_field(2) + " " + number_field(0)) ==
         Fields{"E", "limits"});
+  // Without limits an infinite reading were one like any other.
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const auto& [least, most] : {std::pair(-infinity, infinity), std::pair(-100.0F, infinity),
+                                    std::pair(-infinity, 1e6F), std::pair(-100.0F, std::nanf(""))})
+    CHECK(device.ask("G " + real_field(least) + " " + real_field(most) + " " + number_field(0)) ==
+          Fields{"E", "limits"});
   CHECK(device.ask_raw("$I*00000000\n") == Fields{"E", "frame"});
   CHECK(state(device.ask("P")) == state(before));
 }

@@ -68,13 +68,21 @@ TEST_CASE("a sensor out of range: the forces before are held, and the next sampl
   CHECK(tensions(after, 6) == tensions(before, 6));
 }
 
-TEST_CASE("a load factor that is no number is refused like a sensor") {
+TEST_CASE("a load factor that is no number, or more than cables carry, is refused like a sensor") {
   Plain device;
   settle(device, truss_string);
-  device.ask(sample(1, {0, 1000}));
-  const Fields answer = device.ask(sample(2, {std::numeric_limits<float>::quiet_NaN(), 1000}));
-  CHECK(quality(answer) == 'h');
-  CHECK(quality(device.ask(sample(3, {0, 1000}))) == 'g');
+  const Fields before = device.ask(sample(1, {0, 1000}));
+  std::uint32_t number = 1;
+  for (const float wrong :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 9.9e37F, -9.9e37F}) {
+    const Fields answer = device.ask(sample(++number, {wrong, 1000}));
+    CHECK(quality(answer) == 'h');
+    CHECK(alarms(answer).has(Alarm::sensor_range));
+    CHECK(state(answer) == state(before));
+  }
+  const Fields after = device.ask(sample(++number, {0, 1000}));
+  CHECK(quality(after) == 'g');
+  CHECK(tensions(after, 4) == tensions(before, 4));
 }
 
 TEST_CASE("a little below zero is zero") {
