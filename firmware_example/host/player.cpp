@@ -207,7 +207,7 @@ class Player {
 int play(const Options& options) {
   const SceneDescription scene = read_scene_file(options.scene);
   LogRules rules;
-  rules.negative_jack_forces = true;
+  rules.are_readings = true;
   rules.shortest_step = shortest_step;
   check_log(options.log, scene, rules);
   keep_inputs(options.output, {options.scene, options.log});
