@@ -1,5 +1,11 @@
 #include "host/memory_monitor.hpp"
 
-template class monitor::Application<monitor::host::MemoryBoard, monitor::Settings,
-                                    monitor::FromFlash<monitor::FlashScene>,
-                                    monitor::CondensedAtStartUp<monitor::scenes::truss_string>>;
+namespace monitor::host {
+
+MemoryMonitor::MemoryMonitor(MemoryBoard& board) : application_(board) {}
+MemoryMonitor::~MemoryMonitor() = default;
+
+void MemoryMonitor::begin() { application_.begin(); }
+void MemoryMonitor::step() { application_.step(); }
+
+}  // namespace monitor::host

@@ -4,14 +4,21 @@
 #include "host/memory_board.hpp"
 #include "monitor/scenes.hpp"
 
-namespace monitor {
+namespace monitor::host {
 
-extern template class Application<host::MemoryBoard, Settings, FromFlash<FlashScene>,
-                                  CondensedAtStartUp<scenes::truss_string>>;
+/// Its functions are not inline: they would be compiled again wherever they are called.
+class MemoryMonitor {
+ public:
+  explicit MemoryMonitor(MemoryBoard& board);
+  ~MemoryMonitor();
+  MemoryMonitor(const MemoryMonitor&) = delete;
+  MemoryMonitor& operator=(const MemoryMonitor&) = delete;
 
-namespace host {
+  void begin();
+  void step();
 
-using MemoryMonitor = Monitor<MemoryBoard>;
+ private:
+  Monitor<MemoryBoard> application_;
+};
 
-}  // namespace host
-}  // namespace monitor
+}  // namespace monitor::host
