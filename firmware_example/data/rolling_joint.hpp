@@ -1,8 +1,4 @@
 // The scene "rolling cable-strut joint: three set-ups side by side" after static condensation, written by `taut export`: do not edit.
-//
-// What is not used takes no room. About, where pointers have 64 bits:
-// float: 240 bytes of flash; the tracker takes 1952 bytes of RAM.
-// double: 312 bytes of flash; the tracker takes 2008 bytes of RAM.
 #pragma once
 
 #include "taut/condensation/condensed.hpp"

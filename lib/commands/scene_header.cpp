@@ -363,7 +363,8 @@ std::string capacity_of(const CondensedCounts& counts) {
          is("nodes", 0) + ", " + is("struts", counts.struts) + ", " + is("cables", counts.cables) + ", " +
          is("jacks", counts.jacks) + ", " + is("segments", counts.segments) + ", " +
          is("joints", counts.joints) + ", " + is("substructures", counts.substructures) + ", " +
-         is("loads", counts.loads) + ";\n};\n";
+         is("loads", counts.loads) + ";\n" +
+         (counts.saddles ? "  static constexpr bool saddles = true;\n" : "") + "};\n";
 }
 
 // A list of names that costs nothing unless it is used.
@@ -394,6 +395,7 @@ std::string names(const SceneDescription& scene) {
 struct Shared {
   explicit Shared(const std::vector<ExportedScene>& scenes)
       : is_one(scenes.size() == 1), space(space_of(scenes[0])) {
+    capacity = condensed_counts(scenes[0].description);
     for (const ExportedScene& scene : scenes) {
       capacity = larger(capacity, condensed_counts(scene.description));
       most_unknowns = std::max({most_unknowns, unknowns(scene.in_float), unknowns(scene.in_double)});

@@ -271,10 +271,12 @@ double LogReader::number(std::size_t i) const {
     refuse_field(i, quote(text) + " is not a number",
                  "write a plain decimal such as -1.5 or 2e3, or leave it empty");
   }
-  // What an instrument shows when it is overloaded is left out further on, by name.
-  const Quantity quantity = i < columns_.size() ? columns_[i].quantity : Quantity::time;
+  // What the cables can carry is asked later, by name.
+  const LogColumn* const column = i < columns_.size() ? &columns_[i] : nullptr;
   const bool may_be_impossible =
-      rules_.are_readings && (quantity == Quantity::factor || quantity == Quantity::force);
+      column != nullptr &&
+      ((column->quantity == Quantity::factor && column->index < rules_.most_factor.size()) ||
+       (column->quantity == Quantity::force && column->index < rules_.most_force.size()));
   if (std::fabs(value) > largest_input && !may_be_impossible) {
     refuse_field(i, "the number " + quote(text) + " is too large",
                  "write one of at most " + plain(largest_input) + " in size");

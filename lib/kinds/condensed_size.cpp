@@ -117,7 +117,8 @@ CondensedCounts larger(const CondensedCounts& a, const CondensedCounts& b) {
           std::max(a.joints, b.joints),
           std::max(a.loads, b.loads),
           std::max(a.struts, b.struts),
-          std::max(a.substructures, b.substructures)};
+          std::max(a.substructures, b.substructures),
+          a.saddles || b.saddles || a.has_rigid_saddles() != b.has_rigid_saddles()};
 }
 
 CondensedSize condensed_size(const CondensedCounts& counts, ScalarType scalar) {

@@ -14,6 +14,8 @@ struct CondensedCounts {
   /// Zero means rigid saddles: no coupling between segments is stored. A structure that consists of cables
   /// alone counts as one substructure.
   int substructures = 0;
+  /// Of several scenes with a structure, some lie on rigid saddles.
+  bool saddles = false;
 
   bool has_rigid_saddles() const { return struts == 0 && substructures == 0; }
 };

@@ -25,6 +25,8 @@ struct Capacity {
   static constexpr int forces = 0;                ///< nodal forces of all load patterns together
   static constexpr int temperatures = 0;          ///< cable temperatures of all load patterns together
   static constexpr int displacements = 0;  ///< that a condensed scene gives, see CondensedDisplacements
+  /// Although there are struts or substructures, some condensed scenes of this capacity lie on rigid saddles.
+  static constexpr bool saddles = false;
   static constexpr int profile = 0;        ///< entries of the structure's factor; 0: enough for any structure
 };
 

@@ -26,7 +26,6 @@ class ActiveSet {
   using Cap = typename CondensedType::Capacity;
   /// Laws are linear in the tensions: no more of them can be independent.
   static constexpr int capacity = Cap::segments;
-  static constexpr bool has_chains = has_rigid_saddles<Cap>;
   using Tensions = FixedArray<Real, Cap::segments>;
   using Moves = FixedArray<Real, capacity>;
   using Actives = FixedList<Active, capacity>;
@@ -35,6 +34,7 @@ class ActiveSet {
   void begin(const CondensedType& model) {
     model_ = &model;
     held_ = 0;
+    if constexpr (may_be_either) is_diagonal_ = has_diagonal_coupling();
     clear();
   }
   void clear() {
@@ -50,7 +50,7 @@ class ActiveSet {
   /// follow: their combination moves freely. Structure: O(size^2), saddles: O(segments).
   bool append(const Laws& laws, const Active& active, Real least_pivot = singular) {
     if (is_full()) return false;
-    if constexpr (has_chains) {
+    if (is_chains()) {
       if (closes_a_loop(active)) return false;
       active_.add(active);
       renumber();
@@ -75,7 +75,7 @@ class ActiveSet {
     for (int k = first + 1; k < size(); ++k)
       if (!leaves(k)) later.add(active_[k]);
     truncate(first);
-    if constexpr (has_chains) {
+    if (is_chains()) {
       for (const Active& each : later) active_.add(each);
       renumber();
       return true;
@@ -90,7 +90,7 @@ class ActiveSet {
   }
   /// The factors anew, with the laws' present coefficients. False if they are dependent.
   bool refactor(const Laws& laws) {
-    if constexpr (!has_chains) {
+    if (!is_chains()) {
       const Actives all = active_;
       truncate(0);
       for (const Active& each : all)
@@ -104,7 +104,7 @@ class ActiveSet {
   /// O(segments).
   void settle(const Laws& laws, const Moves& due, Tensions& T, Moves& moves, int passes = 1) const {
     if (size() == 0) return;
-    if constexpr (has_chains)
+    if (is_chains())
       settle_chains(laws, due, T, moves);
     else
       settle_all(laws, due, T, moves, passes);
@@ -116,7 +116,7 @@ class ActiveSet {
   /// Adds to every segment a spring of this part of its own stiffness: a node that only its cables hold is
   /// free while they are slack, and a decision at zero tension is well posed nevertheless. To be set while
   /// the set is empty.
-  void hold(Real part) { held_ = has_chains ? Real(0) : part; }
+  void hold(Real part) { held_ = is_chains() ? Real(0) : part; }
   bool is_held() const { return held_ != 0; }
   /// Adds the tensions that elongations make.
   void carry(const Tensions& e, Tensions& T) const {
@@ -132,6 +132,22 @@ class ActiveSet {
   static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
   /// Pivots, relative to their row and column: no digit is left; the next one would be better first.
   static constexpr Real singular = Real(1e-12), small = Real(1e-4);
+
+  static constexpr bool may_be_either = Cap::saddles && !has_rigid_saddles<Cap>;
+  static constexpr bool has_chains = has_rigid_saddles<Cap> || may_be_either;
+  static constexpr bool has_rows = !has_rigid_saddles<Cap>;
+  bool is_chains() const {
+    if constexpr (may_be_either)
+      return is_diagonal_;
+    else
+      return has_chains;
+  }
+  bool has_diagonal_coupling() const {
+    for (int i = 0; i < model_->segments; ++i)
+      for (int k = 0; k < i; ++k)
+        if (model_->coupling(i, k) != 0) return false;
+    return true;
+  }
 
   // A structure.
 
@@ -197,24 +213,24 @@ class ActiveSet {
   // Between rigid saddles.
 
   struct Links {
-    FixedArray<std::int16_t, Cap::segments> fixed;   // active move whose law gives the segment's tension
-    FixedArray<std::int16_t, Cap::segments> length;  // active move that is no slip
-    FixedArray<std::int16_t, Cap::joints> slip;      // active slip
+    FixedArray<std::int16_t, has_chains ? Cap::segments : 0> fixed;   // move whose law gives the tension
+    FixedArray<std::int16_t, has_chains ? Cap::segments : 0> length;  // move that is no slip
+    FixedArray<std::int16_t, has_chains ? Cap::joints : 0> slip;
   };
 
   void renumber() {
-    if constexpr (has_chains) {
-      factors_.fixed.fill(-1);
-      factors_.length.fill(-1);
-      factors_.slip.fill(-1);
+    if (is_chains()) {
+      links_.fixed.fill(-1);
+      links_.length.fill(-1);
+      links_.slip.fill(-1);
       for (int i = 0; i < size(); ++i) {
         const auto number = static_cast<std::int16_t>(i);
         const Active& active = active_[i];
-        if (!active.slides()) factors_.fixed[active.on] = number;
+        if (!active.slides()) links_.fixed[active.on] = number;
         if (active.move.kind != Move::Kind::slip)
-          factors_.length[active.move.lengthened] = number;
+          links_.length[active.move.lengthened] = number;
         else if constexpr (Cap::joints > 0)
-          factors_.slip[active.move.index] = number;
+          links_.slip[active.move.index] = number;
       }
     } else {
       factors_.truncate(size());
@@ -236,7 +252,7 @@ class ActiveSet {
     Row row{cable.first_segment, cable.first_joint, cable.segments(), 0, cable.closed};
     if constexpr (Cap::joints > 0)
       for (int i = 0; row.closed && i < row.count; ++i)
-        if (factors_.slip[cable.first_joint + i] < 0) {
+        if (links_.slip[cable.first_joint + i] < 0) {
           row.begin = i;
           break;
         }
@@ -244,7 +260,7 @@ class ActiveSet {
   }
   int slip_after(const Row& row, int i) const {
     const int joint = i + 1 < row.count ? row.joint(i) : -1;
-    return Cap::joints == 0 || joint < 0 ? -1 : factors_.slip[joint];
+    return Cap::joints == 0 || joint < 0 ? -1 : links_.slip[joint];
   }
   /// The same if a ratio of tensions links the two segments.
   int ratio_after(const Row& row, int i) const {
@@ -253,7 +269,7 @@ class ActiveSet {
   }
   /// Whether two laws would give the tension of one chain, or a ring slide as a whole.
   bool closes_a_loop(const Active& active) const {
-    if (!active.slides()) return factors_.fixed[active.on] >= 0 || chain_is_fixed(active.on);
+    if (!active.slides()) return links_.fixed[active.on] >= 0 || chain_is_fixed(active.on);
     const Move& move = active.move;
     if (chain_is_fixed(move.lengthened) && chain_is_fixed(move.shortened)) return true;
     return same_chain(move.lengthened, move.shortened);
@@ -275,7 +291,7 @@ class ActiveSet {
         bool here = false, any = false;
         for (int i = a; i <= b; ++i) {
           here = here || row.segment(i) == segment;
-          any = any || factors_.fixed[row.segment(i)] >= 0;
+          any = any || links_.fixed[row.segment(i)] >= 0;
         }
         fixed = fixed || (here && any);
       });
@@ -328,7 +344,7 @@ class ActiveSet {
       }
     };
     walk([&](int segment) {
-      const int fixed = factors_.fixed[segment];
+      const int fixed = links_.fixed[segment];
       if (fixed >= 0) {
         tau = (due[fixed] - offset) / ratio;
         found = true;
@@ -349,7 +365,7 @@ class ActiveSet {
   void follow(const Row& row, int a, int b, const Tensions& e, Moves& moves) const {
     int at = b;
     for (int i = a; i <= b; ++i)
-      if (factors_.length[row.segment(i)] >= 0) at = i;
+      if (links_.length[row.segment(i)] >= 0) at = i;
     Real before = 0, after = 0;
     for (int i = a; i < at; ++i) {
       before += e[row.segment(i)];
@@ -359,14 +375,16 @@ class ActiveSet {
       after += e[row.segment(i)];
       moves[slip_after(row, i - 1)] -= after;
     }
-    const int length = factors_.length[row.segment(at)];
+    const int length = links_.length[row.segment(at)];
     if (length >= 0) moves[length] += before + after + e[row.segment(at)];
   }
 
   const CondensedType* model_ = nullptr;
   Actives active_;
   Real held_ = 0;
-  std::conditional_t<has_chains, Links, BorderedLu<Real, capacity>> factors_;
+  Links links_;
+  BorderedLu<Real, has_rows ? capacity : 0> factors_;
+  bool is_diagonal_ = false;
 };
 
 }  // namespace taut
