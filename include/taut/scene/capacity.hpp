@@ -27,7 +27,7 @@ struct Capacity {
   static constexpr int displacements = 0;  ///< that a condensed scene gives, see CondensedDisplacements
   /// Although there are struts or substructures, some condensed scenes of this capacity lie on rigid saddles.
   static constexpr bool saddles = false;
-  static constexpr int profile = 0;        ///< entries of the structure's factor; 0: enough for any structure
+  static constexpr int profile = 0;  ///< entries of the structure's factor; 0: enough for any structure
 };
 
 /// Jacked ends that there can be.
