@@ -275,7 +275,7 @@ double LogReader::number(std::size_t i) const {
   const LogColumn* const column = i < columns_.size() ? &columns_[i] : nullptr;
   const bool may_be_impossible =
       column != nullptr &&
-      ((column->quantity == Quantity::factor && column->index < rules_.most_factor.size()) ||
+      ((column->quantity == Quantity::factor && rules_.are_readings) ||
        (column->quantity == Quantity::force && column->index < rules_.most_force.size()));
   if (std::fabs(value) > largest_input && !may_be_impossible) {
     refuse_field(i, "the number " + quote(text) + " is too large",
