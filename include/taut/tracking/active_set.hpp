@@ -88,17 +88,6 @@ class ActiveSet {
     while (size() > count) active_.drop_last();
     renumber();
   }
-  /// The factors anew, with the laws' present coefficients. False if they are dependent.
-  bool refactor(const Laws& laws) {
-    if (!is_chains()) {
-      const Actives all = active_;
-      truncate(0);
-      for (const Active& each : all)
-        if (!append(laws, each)) return false;
-    }
-    return true;
-  }
-
   /// Lets the moves follow until their laws are what is due [N]: T and `moves` (as they are ordered here)
   /// change. At most `passes` of iterative refinement; each O(size^2 + segments^2), between saddles
   /// O(segments).

@@ -67,7 +67,6 @@ class ModeSolver {
     pairs_.add({static_cast<std::int16_t>(segment), JointState::stick});
   }
   const FixedList<Pair, max_pairs>& pairs() const { return pairs_; }
-  int pivots() const { return pivots_; }
   /// After solve(): whether the pair slides, or the segment has more and more length to spare.
   bool is_active(int pair) const { return place_[pair] != inactive; }
   Real value(int pair) const { return value_[pair]; }
@@ -260,7 +259,7 @@ class ModeSolver {
     respond_to_cover(covering);
     for (int p = 0; p < pairs_.size(); ++p) {
       if (place_[p] != inactive) continue;
-      const Real by = row(p, covering.T) + (pairs_[p].is_segment() ? Real(0) : cover(p));
+      const Real by = row(p, covering.T) + direct(p);
       if (row(p, T_) < -none_ && by > 0 && is_first(row(p, T_), tie_of_row(p), by, needed, needed_tie))
         leaving = p;
     }

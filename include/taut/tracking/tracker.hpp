@@ -1198,7 +1198,7 @@ class Tracker {
     }
     return candidates;
   }
-  /// What a jacked end is to have: the rate of its force, or after a jump all of it.
+  /// What a jacked end is to have: the rate of its force, or all of it.
   Real due_at(const JackedEnd& jack, bool totally) const {
     const Real now = now_.jack[jack.cable][jack.end].force;
     return totally ? now : goal_.jack[jack.cable][jack.end].force - now;
