@@ -841,14 +841,15 @@ class Tracker {
     return true;
   }
   /// Tensions from the present loads and everything that has moved.
-  Tensions totals() const {
+  Tensions totals() const { return totals(moved_); }
+  Tensions totals(const Moving& moved) const {
     Tensions T;
     T.fill(Real(0));
     for (int i = 0; i < model_->segments; ++i) {
       T[i] = now_.prestrain * model_->prestrain[i];
       for (int k = 0; k < model_->loads; ++k) T[i] += now_.factor[k] * model_->load[k][i];
     }
-    carry(moved_, T);
+    carry(moved, T);
     return T;
   }
   /// Adds the tensions that moves make.
@@ -868,6 +869,13 @@ class Tracker {
 
   // From event to event.
 
+  /// What ends a piece of the path: a joint at its limit, a run that goes slack, or one that is taut again.
+  struct Ending {
+    Candidate next;
+    std::int16_t run = -1, excess = -1;  // the run; its active move
+    Real falling = 0;                    // rate of what reached zero
+    Real step = 1;                       // where, as a part of what was left of the path
+  };
   Progress<Scalar> follow(int event_budget) {
     Progress<Scalar> progress;
     find_forces();
@@ -876,38 +884,28 @@ class Tracker {
     int stalled = 0;
     for (;;) {
       measure_path();
+      if (further_ == 0) stride_ = 1;
+      further_ = 0;
       progress.status = decide(ending);
       if constexpr (is_adjustable) derivatives_.pass();
       if (!progress.status) break;
-      if (has_gone_on_) {
-        has_gone_on_ = false;
+      bool done = false;
+      if (further_ == 0) {
         find_forces();
+        const Status broken = follow_piece(ending, rest, done);
+        stalled = ending.step > 0 ? 0 : stalled + 1;
+        if (!broken || stalled > 8 + 4 * joints()) {
+          const int joint = ending.next.joint;
+          progress.status = find_further_on(broken ? at_joint(Code::state_iterations, joint) : broken);
+          if (!progress.status) break;
+        }
+      }
+      if (further_ > 0) {
+        rest *= Real(1) - further_;
         ending = {};
-        if (++progress.events >= event_budget) break;
-        continue;
+        stalled = 0;
       }
-      Inputs dx;
-      directions(dx);
-      const Real step = piece(dx, ending);  // of what is left of the path
-      const bool done = Real(1) - step <= Real(4) * epsilon ||
-                        (Real(1) - step) * change(dx) <= held(ending.next) * force_tolerance();
-      now_ = Loads::between(now_, goal_, done ? Real(1) : step);
-      rest = done ? Real(0) : rest * (Real(1) - step);
-      Inputs x;
-      values(now_, x);
-      map_.tensions(x, force_);
-      for (int i = 0; i < model_->segments; ++i) peak_ = larger(peak_, std::fabs(force_[i]));
-      last_ = dx;
-      if (map_.law_violation(laws_, force_, x) > Real(8) * force_tolerance())
-        progress.status = map_.is_held() ? free_node() : Status::at(Code::ill_conditioned, Place::none, -1);
-      if (!progress.status || done) break;
-      stalled = step > 0 ? 0 : stalled + 1;
-      if (stalled > 8 + 4 * joints()) {
-        progress.status = at_joint(Code::state_iterations, ending.next.joint);
-        break;
-      }
-      if constexpr (is_adjustable) meet(ending, x);
-      if (++progress.events >= event_budget) break;
+      if (done || ++progress.events >= event_budget) break;
     }
     progress.fraction = static_cast<Scalar>(Real(1) - rest);
     // Rounding must not say that a path came to its end which did not.
@@ -916,6 +914,59 @@ class Tracker {
     arrived_ = progress.status.ok() && rest == 0;
     round();
     return progress;
+  }
+  /// Goes along the present piece to its end. If the forces there break a law, the state is the one before.
+  Status follow_piece(Ending& ending, Real& rest, bool& done) {
+    Inputs dx, x;
+    directions(dx);
+    const Real step = piece(dx, ending);  // of what is left of the path
+    done = Real(1) - step <= Real(4) * epsilon ||
+           (Real(1) - step) * change(dx) <= held(ending.next) * force_tolerance();
+    const Loads before = now_;
+    now_ = Loads::between(now_, goal_, done ? Real(1) : step);
+    find_forces();
+    const Status status = check_forces();
+    if (!status) {
+      now_ = before;
+      find_forces();
+      done = false;
+      return status;
+    }
+    rest = done ? Real(0) : rest * (Real(1) - step);
+    for (int i = 0; i < model_->segments; ++i) peak_ = larger(peak_, std::fabs(force_[i]));
+    last_ = dx;
+    values(now_, x);
+    if constexpr (is_adjustable)
+      if (!done) meet(ending, x);
+    return status;
+  }
+  /// Whether the forces obey the laws of all moves at work, friction where joints stick, and T >= 0: no state
+  /// is shown that was not tested.
+  Status check_forces() const {
+    Real most = peak_;
+    for (int i = 0; i < model_->segments; ++i) most = larger(most, std::fabs(force_[i]));
+    const Real least = -Real(8) * tolerance * most;
+    const Status broken = map_.is_held() ? free_node() : Status::at(Code::ill_conditioned, Place::none, -1);
+    Inputs x;
+    values(now_, x);
+    if (map_.law_violation(laws_, force_, x) > -least) return broken;
+    if (!is_in_equilibrium(rounded_totals * most)) return free_node();
+    for (int i = 0; i < model_->segments; ++i)
+      if (!(force_[i] >= least)) return broken;
+    for (int j = 0; j < joints(); ++j) {
+      if (model_->is_locked(j)) continue;
+      for (const JointState way : {JointState::forward, JointState::backward})
+        if (!(laws_.limit(Candidate::of(j, way)).of(force_) >= least)) return broken;
+    }
+    return Status::success();
+  }
+  /// Whether the tensions are those of all moves: where slack cables alone hold a node, it goes so far away
+  /// that rounding of the moves shows.
+  bool is_in_equilibrium(Real tolerated) const {
+    const Tensions T = totals(moves());
+    for (int i = 0; i < model_->segments; ++i)
+      if (!(std::fabs(T[i] - force_[i]) <= tolerated)) return false;
+    return true;
   }
   /// What samples without an event start from.
   void round() {
@@ -1005,12 +1056,6 @@ class Tracker {
     for (int k = 0; k < map_.inputs(); ++k) dx[k] = value(map_.input(k), goal_) - value(map_.input(k), now_);
   }
 
-  /// What ends a piece of the path: a joint at its limit, a run that goes slack, or one that is taut again.
-  struct Ending {
-    Candidate next;
-    std::int16_t run = -1, excess = -1;  // the run; its active move
-    Real falling = 0;                    // rate of what reached zero
-  };
   /// How far the present piece goes, as a part of what is left of the path.
   Real piece(const Inputs& dx, Ending& ending) const {
     Tensions rate;
@@ -1022,7 +1067,7 @@ class Tracker {
       if (room <= force_tolerance() && falling >= -Real(16) * rate_tolerance()) return;
       if (falling >= 0 || room > -falling * step) return;
       step = room > 0 ? room / -falling : Real(0);
-      ending = {next, static_cast<std::int16_t>(run), static_cast<std::int16_t>(excess), falling};
+      ending = {next, static_cast<std::int16_t>(run), static_cast<std::int16_t>(excess), falling, step};
     };
     for (int j = 0; j < joints(); ++j) {
       if (slides_[j] != JointState::stick || !can_slide(j) || glides(j)) continue;
@@ -1256,8 +1301,8 @@ class Tracker {
   Status begin_anew(const Spans& zero, const Candidates& candidates) {
     if (solve_anew(zero, candidates, false)) return Status::success();
     if (const Status why = pulled_through(); !why) return why;
-    if (free_joint_ >= 0) return at_joint(Code::mechanism, free_joint_);
-    return find_further_on();
+    if (free_joint_ >= 0) return find_further_on(at_joint(Code::mechanism, free_joint_));
+    return find_further_on(doubtful_joint_ >= 0 ? at_joint(Code::gives_way, doubtful_joint_) : free_node());
   }
   /// From rates, or from all forces where there are none.
   [[gnu::noinline]] bool solve_anew(const Spans& zero, const Candidates& candidates, bool totally) {
@@ -1301,15 +1346,27 @@ class Tracker {
   }
   /// Rates do not tell how it goes on. All forces, at loads a little further on, are a problem that always
   /// has an answer: it is taken if it is near. If not, friction gives way here, and the structure would jump.
-  Status find_further_on() {
-    const Real step = push_ > 0 ? small_step * peak_ / push_ : Real(1);
+  /// Steps that follow each other grow, eightfold each, as long as they find an answer.
+  Status find_further_on(Status why) {
+    freeze();
+    drop_map();
+    for (;;) {
+      const bool first = stride_ <= Real(1);
+      const Status status = try_further_on(why);
+      stride_ = status ? stride_ * Real(8) : Real(1);
+      if (status || first) return status;
+    }
+  }
+  Status try_further_on(Status why) {
+    const Real least = push_ > 0 ? stride_ * small_step * peak_ / push_ : Real(1);
+    const Real step = least < Real(0.5) ? least : Real(0.5);
     const Loads before = now_;
     const Tensions forces = force_;
     const Moving moved = moved_;
     const auto slides = slides_;
     const auto order = order_;
     const auto slack = slack_;
-    now_ = Loads::between(now_, goal_, step < Real(0.5) ? step : Real(0.5));
+    now_ = Loads::between(now_, goal_, step);
     Spans all;
     for (int r = 0; r < runs_.size(); ++r) {
       all[r] = !rests_[r];
@@ -1322,13 +1379,17 @@ class Tracker {
       candidates.add(Candidate::of(j, JointState::backward));
     }
     if (solve_anew(all, candidates, true)) {
+      find_forces();
       Real farthest = 0;
       for (int i = 0; i < model_->segments; ++i)
-        farthest = larger(farthest, std::fabs(map_.base()[i] - forces[i]));
-      if (farthest <= nearby * peak_) {
-        has_gone_on_ = true;
-        return Status::success();
+        farthest = larger(farthest, std::fabs(force_[i] - forces[i]));
+      const bool is_near = farthest <= nearby * peak_;
+      if (is_near) why = check_forces();
+      if (is_near && why) {
+        further_ = step;
+        return why;
       }
+      if (!is_near && free_joint_ < 0) why = at_joint(Code::gives_way, doubtful_joint_);
     }
     now_ = before;
     moved_ = moved;
@@ -1337,7 +1398,7 @@ class Tracker {
     slack_ = slack;
     force_ = forces;
     drop_set();
-    return doubtful_joint_ >= 0 ? at_joint(Code::gives_way, doubtful_joint_) : free_node();
+    return why;
   }
   /// The jack that gives a segment of a span at zero the larger tension, by what friction leaves of its force
   /// on the way; `on_the_way(joint, way)` is called for every joint there.
@@ -1469,6 +1530,8 @@ class Tracker {
   struct Nothing {};
   /// Of a segment's own stiffness, in decisions from zero tension.
   static constexpr Real held_at_zero = Real(1e-8);
+  /// Of the largest force: what may be lost where a cable moves much further than it stretches.
+  static constexpr Real rounded_totals = Real(1e-10);
   /// Of the largest force: how much further on an answer is looked for, and how near it must be.
   static constexpr Real small_step = Real(1e-6), nearby = Real(1e-3);
 
@@ -1513,7 +1576,8 @@ class Tracker {
   std::array<Scalar, 2> range_{};
   int only_ = 0;
   bool has_range_ = false;
-  bool has_gone_on_ = false;
+  Real stride_ = 1;   // of small steps that follow each other
+  Real further_ = 0;  // how far all forces were found anew, as a part of what was left of the path
   int free_joint_ = -1, doubtful_joint_ = -1;
   bool arrived_ = false;
   bool has_spare_ = false;
