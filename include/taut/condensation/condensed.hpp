@@ -16,7 +16,8 @@ namespace taut {
 template <class Cap>
 constexpr bool has_rigid_saddles = Cap::struts == 0 && Cap::substructures == 0;
 
-/// Tensions of all segments from elongations imposed on them, all joints stuck: a symmetric matrix [N/m].
+/// Tensions of all segments from elongations imposed on them, all joints stuck: the symmetric matrix C of
+/// Eq. (8) [N/m].
 template <class Scalar, int Segments>
 struct ElasticCoupling {
   FixedArray<Scalar, Segments * Segments> entries;
@@ -47,11 +48,11 @@ struct NoCoupling {
   }
 };
 
-/// A scene after static condensation of its structure.
+/// A scene after static condensation of its structure: Eq. (8).
 ///
 /// T = load x factors + prestrain + coupling x e, where e is the elongation imposed on each segment by what
-/// moves along the cable: e_i = delta_i - delta_{i-1} + payout at a jacked end + slack. An aggregate: it can
-/// be a constant in flash.
+/// moves along the cable: e_i = delta_i - delta_{i-1} + extension of a jack + slack length, Eq. (6). An
+/// aggregate: it can be a constant in flash.
 ///
 /// The numbers are double for a tracker in float too: what is redundant in a structure makes rows that all
 /// but depend on one another, and rounded one by one they would contradict.
@@ -70,7 +71,7 @@ struct Condensed {
   Coupling coupling;
   FixedArray<Real, Cap::segments> prestrain;                     ///< tensions from prestrain alone [N]
   FixedArray<FixedArray<Real, Cap::segments>, Cap::loads> load;  ///< tensions from a unit factor [N]
-  FixedArray<Real, Cap::joints> rho;          ///< smallest T_small / T_big of every joint; 0: locked
+  FixedArray<Real, Cap::joints> rho;          ///< smallest T_small / T_big of every joint; 0: self-locking
   FixedArray<Scalar, Cap::joints> cos_alpha;  ///< half the angle between the segments, for N and f
   FixedArray<Scalar, Cap::joints> sin_alpha;
   /// What a sample may ask for: more is a mistake, of a unit or of an instrument. No cable carries a tenth of
@@ -81,7 +82,7 @@ struct Condensed {
   constexpr bool is_locked(int joint) const { return !(rho[joint] > 0); }
 
   /// Contact and friction forces of all joints from the tensions of the response:
-  /// N = (T1 + T2) cos(alpha), f = (T2 - T1) sin(alpha) [N].
+  /// N = (T1 + T2) cos(alpha), f = (T2 - T1) sin(alpha), Eq. (2) [N].
   constexpr void resolve_joints(Response<Scalar, Cap>& response) const {
     for (int c = 0; c < cables.size(); ++c)
       for (int k = 0; k < cables[c].joints(); ++k) {

@@ -14,7 +14,7 @@ template <class Scalar, class Cap>
 struct Situation {
   FixedArray<Contact, Cap::joints> contact;   ///< separated: the segments on both sides are slack
   FixedArray<Scalar, Cap::joints> direction;  ///< of sliding: sign of sigma_s
-  FixedArray<Scalar, Cap::joints> v_s;        ///< where a fixed joint rests, Eq. (8) [m]
+  FixedArray<Scalar, Cap::joints> v_s;        ///< where a fixed joint rests (paper, Eq. (8)) [m]
   FixedArray<bool, Cap::segments> slack;      ///< by run
 };
 
