@@ -47,11 +47,12 @@
 //
 //   Fails as validate(); with `mechanism` if a node is free to move with all joints stuck (between rigid
 //   saddles: if a node is not held); with `ill_conditioned` if a node is held so weakly that this cannot be
-//   told, or equilibrium is not reached to 2e-12 of the largest force, in double for float, too; with
-//   `capacity_exceeded` if its factor has more entries than Capacity::profile, or too many displacements are
-//   asked for; with `out_of_range` for a displacement that the scene has not. `condensed` is of no use then.
-//   Costs one factorization within the skyline of the stiffness matrix and 1 + L + n solves of at most 16
-//   corrections each; between rigid saddles n (1 + L).
+//   told, or a solve does not reach equilibrium to 2e-12 of its largest force, in double for float, too
+//   (where it makes no force at all, as in a statically determinate structure, that may refuse a sound one);
+//   with `capacity_exceeded` if its factor has more entries than Capacity::profile, or too many
+//   displacements are asked for; with `out_of_range` for a displacement that the scene has not. `condensed`
+//   is of no use then. Costs one factorization within the skyline of the stiffness matrix and 1 + L + n
+//   solves of at most 16 corrections each; between rigid saddles n (1 + L).
 //
 // Condensed<Scalar, Capacity>: an aggregate of arrays, a constant in flash if `taut export` wrote it. In
 // double for float, too: coupling n x n [N/m], symmetric, or n between rigid saddles; prestrain n [N]; load
@@ -87,11 +88,11 @@
 // cones, from the slips alone. It returns violations as parts of the largest force so far: where all is well
 // about 1e-11 in double and 1e-7 in float. Costs n (n + J + L); const.
 //
-// Estimator<Condensed, Parameters>: from readings to forces with standard deviations. Parameters is P as
-// exported (`unknowns`), and two more for every jack whose load cell has noise; without these, reversals
-// count as exact. Condensed scene and Knowledge must outlive it. start(), then advance() for every Readings:
-// forces [N] and strokes [m] of cable ends as far as they were read, load factors, locks, time since the row
-// before.
+// Estimator<Condensed, Parameters>: from readings to forces with standard deviations. Parameters holds one
+// unknown for every joint that can slide, or for every cable with a shared mu, and two for every jack whose
+// load cell has noise, without which reversals count as exact: `unknowns` of an exported header. Condensed
+// scene and Knowledge must outlive it. start(), then advance() for every Readings: forces [N] and strokes [m]
+// of cable ends as far as they were read, load factors, locks, time since the row before.
 //
 //   start() fails with `capacity_exceeded` if and only if friction has more unknowns than Parameters,
 //   otherwise as Tracker::start(). advance() fails with `bad_sample`, and does nothing, if a load factor is

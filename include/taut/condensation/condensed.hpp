@@ -33,7 +33,8 @@ struct ElasticCoupling {
   }
 };
 
-/// The same between rigid saddles: EA/L of each segment, which knows nothing of the others.
+/// The matrix C of Eq. (8) between rigid saddles: EA/L of each segment on the diagonal [N/m], for a segment
+/// knows nothing of the others.
 template <class Scalar, int Segments>
 struct NoCoupling {
   FixedArray<Scalar, Segments> axial;
@@ -68,7 +69,7 @@ struct Condensed {
   int segments = 0;
   int joints = 0;
   int loads = 0;
-  Coupling coupling;
+  Coupling coupling;  ///< segments x segments, symmetric [N/m]; rigid saddles: its diagonal
   FixedArray<Real, Cap::segments> prestrain;                     ///< tensions from prestrain alone [N]
   FixedArray<FixedArray<Real, Cap::segments>, Cap::loads> load;  ///< tensions from a unit factor [N]
   FixedArray<Real, Cap::joints> rho;          ///< smallest T_small / T_big of every joint; 0: self-locking
@@ -95,7 +96,8 @@ struct Condensed {
   }
 };
 
-/// As for any scene, and `bad_sample` if a factor or the force of an unlocked jack is more than cables carry.
+/// `bad_sample` if and only if a load factor is not finite or beyond most_factor, or the force of an unlocked
+/// jack is not finite, negative or beyond most_force.
 template <class Scalar, class Cap>
 Status check_sample(const Condensed<Scalar, Cap>& model, const Sample<Scalar, Cap>& sample) {
   for (int i = 0; i < model.loads; ++i)

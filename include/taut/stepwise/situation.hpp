@@ -8,8 +8,8 @@ namespace taut {
 
 /// The assumed state of the joints and runs, and what they remember.
 ///
-/// A run is the part of a cable between anchors, jacks and locked joints: since every joint inside can slide,
-/// it is taut or slack as a whole.
+/// A run is the part of a cable between anchors, jacks and self-locking joints: since every joint inside can
+/// slide, it is taut or slack as a whole.
 template <class Scalar, class Cap>
 struct Situation {
   FixedArray<Contact, Cap::joints> contact;   ///< separated: the segments on both sides are slack
