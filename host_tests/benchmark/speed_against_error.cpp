@@ -5,7 +5,7 @@
 // Two logs of 1000 samples: a ramp to the full jack force and a hold; and ramp, hold, release to a third,
 // hold, ramp. A third one, the upper half of a ramp, is for samples without an event alone. The error is the
 // largest deviation of a tension from the independent long double reference, relative to the jack force.
-// Prints a table at the end, and draws the figure of the README.
+// Prints a table at the end, and draws the figure of README.md here.
 #include <benchmark/benchmark.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-// Prints the figures of the paper beside those of taut, as the table of the README.
+// Prints the figures of the paper beside those of taut, as the table of README.md here.
 #include <cstdio>
 #include <cstdlib>
 #include <string>

@@ -1,4 +1,5 @@
-# The block of README.md between MARK and the end mark is what TABLE prints, to the letter.
+# The block of README.md between MARK and the end mark is what TABLE prints, to the letter; with FENCE, as a
+# block of text.
 set(mark "${MARK}\n")
 set(end "<!-- end -->")
 # Without a kind, message() leaves the text as it is.
@@ -10,6 +11,9 @@ endfunction()
 execute_process(COMMAND ${TABLE} OUTPUT_VARIABLE table RESULT_VARIABLE status)
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "${TABLE} failed: ${status}")
+endif()
+if(FENCE)
+  set(table "```text\n${table}```\n")
 endif()
 if(NOT EXISTS ${README})
   refuse("There is no README.md.")

@@ -11,7 +11,7 @@ namespace taut {
 
 /// Condenses scenes of one type; the object holds the structure's factor and can be thrown away afterwards.
 ///
-/// One factorization, then one solve for each load pattern, the prestrain, and each segment.
+/// One factorization, then one solve of Eq. (7) for each load pattern, the prestrain, and each segment.
 template <class Scalar, class SceneType>
 class Condensation {
  public:

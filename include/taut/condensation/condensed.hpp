@@ -16,7 +16,8 @@ namespace taut {
 template <class Cap>
 constexpr bool has_rigid_saddles = Cap::struts == 0 && Cap::substructures == 0;
 
-/// Tensions of all segments from elongations imposed on them, all joints stuck: a symmetric matrix [N/m].
+/// Tensions of all segments from elongations imposed on them, all joints stuck: the symmetric matrix C of
+/// Eq. (8) [N/m].
 template <class Scalar, int Segments>
 struct ElasticCoupling {
   FixedArray<Scalar, Segments * Segments> entries;
@@ -32,7 +33,8 @@ struct ElasticCoupling {
   }
 };
 
-/// The same between rigid saddles: EA/L of each segment, which knows nothing of the others.
+/// The matrix C of Eq. (8) between rigid saddles: EA/L of each segment on the diagonal [N/m], for a segment
+/// knows nothing of the others.
 template <class Scalar, int Segments>
 struct NoCoupling {
   FixedArray<Scalar, Segments> axial;
@@ -47,11 +49,11 @@ struct NoCoupling {
   }
 };
 
-/// A scene after static condensation of its structure.
+/// A scene after static condensation of its structure: Eq. (8).
 ///
 /// T = load x factors + prestrain + coupling x e, where e is the elongation imposed on each segment by what
-/// moves along the cable: e_i = delta_i - delta_{i-1} + payout at a jacked end + slack. An aggregate: it can
-/// be a constant in flash.
+/// moves along the cable: e_i = delta_i - delta_{i-1} + extension of a jack + slack length, Eq. (6). An
+/// aggregate: it can be a constant in flash.
 ///
 /// The numbers are double for a tracker in float too: what is redundant in a structure makes rows that all
 /// but depend on one another, and rounded one by one they would contradict.
@@ -67,10 +69,10 @@ struct Condensed {
   int segments = 0;
   int joints = 0;
   int loads = 0;
-  Coupling coupling;
+  Coupling coupling;  ///< segments x segments, symmetric [N/m]; rigid saddles: its diagonal
   FixedArray<Real, Cap::segments> prestrain;                     ///< tensions from prestrain alone [N]
   FixedArray<FixedArray<Real, Cap::segments>, Cap::loads> load;  ///< tensions from a unit factor [N]
-  FixedArray<Real, Cap::joints> rho;          ///< smallest T_small / T_big of every joint; 0: locked
+  FixedArray<Real, Cap::joints> rho;          ///< smallest T_small / T_big of every joint; 0: self-locking
   FixedArray<Scalar, Cap::joints> cos_alpha;  ///< half the angle between the segments, for N and f
   FixedArray<Scalar, Cap::joints> sin_alpha;
   /// What a sample may ask for: more is a mistake, of a unit or of an instrument. No cable carries a tenth of
@@ -81,7 +83,7 @@ struct Condensed {
   constexpr bool is_locked(int joint) const { return !(rho[joint] > 0); }
 
   /// Contact and friction forces of all joints from the tensions of the response:
-  /// N = (T1 + T2) cos(alpha), f = (T2 - T1) sin(alpha) [N].
+  /// N = (T1 + T2) cos(alpha), f = (T2 - T1) sin(alpha), Eq. (2) [N].
   constexpr void resolve_joints(Response<Scalar, Cap>& response) const {
     for (int c = 0; c < cables.size(); ++c)
       for (int k = 0; k < cables[c].joints(); ++k) {
@@ -94,7 +96,8 @@ struct Condensed {
   }
 };
 
-/// As for any scene, and `bad_sample` if a factor or the force of an unlocked jack is more than cables carry.
+/// `bad_sample` if and only if a load factor is not finite or beyond most_factor, or the force of an unlocked
+/// jack is not finite, negative or beyond most_force.
 template <class Scalar, class Cap>
 Status check_sample(const Condensed<Scalar, Cap>& model, const Sample<Scalar, Cap>& sample) {
   for (int i = 0; i < model.loads; ++i)

@@ -12,7 +12,7 @@
 
 namespace taut {
 
-/// Linear response of struts, substructures and cable segments as bars between the structure's nodes.
+/// Linear response, Eq. (7), of struts, substructures and cable segments as bars between nodes.
 ///
 /// Displacements are kept in double words and corrected with residuals taken element by element, so that
 /// forces come out to the last digits of Scalar although elongations cancel; a correction costs one

@@ -5,9 +5,9 @@
 
 namespace taut {
 
-/// A cable segment, ready for use.
+/// A cable segment, ready for use: Eq. (6).
 ///
-/// T = EA/L x (elongation between its ends + payout at a jacked end) + EA x prestrain - EA x alpha x warming.
+/// T = EA/L x (elongation between its ends + extension of a jack) + EA x prestrain - EA x alpha x warming.
 /// The elongation is that of the line between the cable's own points (node 3 of the friction elements), or
 /// the structure's node at a cable end. Linear: L is the distance of the nodes.
 template <class Scalar, int Dimension>

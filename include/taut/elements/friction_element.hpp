@@ -1,5 +1,5 @@
 // Equivalent friction element of a cable-strut joint, after Yan et al., "A new equivalent friction element
-// for analysis of cable supported structures", 2015; equation and table numbers are those of the paper.
+// for analysis of cable supported structures", 2015. Tables are those of the paper.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,17 +18,17 @@ enum class Contact : std::uint8_t { fixed, sliding, separated };
 template <class Scalar>
 struct ContactMemory {
   Contact state = Contact::fixed;
-  Scalar u_n = 0, v_s = 0;          ///< relative displacements of node 4 to node 3 [m], Eq. (8)
-  Scalar sigma_n = 0, sigma_s = 0;  ///< internal forces [N], Eq. (6); sigma_n < 0 is contact
+  Scalar u_n = 0, v_s = 0;          ///< relative displacements of node 4 to node 3 [m] (paper, Eq. (8))
+  Scalar sigma_n = 0, sigma_s = 0;  ///< internal forces [N] (paper, Eq. (6)); sigma_n < 0 is contact
 };
 
-/// The right-hand sides of the two constraint equations (15).
+/// The right-hand sides of the two constraint equations (paper, Eq. (15)).
 template <class Scalar>
 struct ConstraintValues {
   Scalar a = 0, b = 0;
 };
 
-/// Largest friction with the sign of the tangential force, Eq. (24).
+/// Largest friction with the sign of the tangential force (paper, Eq. (24)).
 template <class Scalar>
 constexpr Scalar limit_friction(Scalar mu, Scalar sigma_n, Scalar sigma_s) {
   const Scalar size = mu * (sigma_n < 0 ? -sigma_n : sigma_n);
@@ -37,10 +37,10 @@ constexpr Scalar limit_friction(Scalar mu, Scalar sigma_n, Scalar sigma_s) {
 
 /// Table 1: the constraint values a*, b* of load step k, as increments to `last`.
 ///
-/// `f` is Eq. (24) of this step. `u_n`, `v_s` are the increments of the trial in which the joint stays
-/// separated: the gap closes at the part |u_n^{k-1} / u_n^k| of the step, and there the cable comes to rest.
-/// (The text of the paper says b* = -v_s^{k-1} instead, which would bring back the point of the cable that
-/// touched before; Table 1 is right.)
+/// `f` is that of Eq. (24) of the paper in this step. `u_n`, `v_s` are the increments of the trial in which
+/// the joint stays separated: the gap closes at the part |u_n^{k-1} / u_n^k| of the step, and there the cable
+/// comes to rest. (The text of the paper says b* = -v_s^{k-1} instead, which would bring back the point of
+/// the cable that touched before; Table 1 is right.)
 template <class Scalar>
 constexpr ConstraintValues<Scalar> constraint_values(const ContactMemory<Scalar>& last, Contact now, Scalar f,
                                                      Scalar u_n = 0, Scalar v_s = 0) {
@@ -64,7 +64,7 @@ constexpr ConstraintValues<Scalar> constraint_values(const ContactMemory<Scalar>
 template <class Scalar>
 struct ContactTrial {
   Scalar sigma_n = 0, sigma_s = 0;  ///< [N]
-  Scalar f = 0;                     ///< Eq. (24) [N]
+  Scalar f = 0;                     ///< largest friction (paper, Eq. (24)) [N]
   Scalar dv_s = 0;                  ///< v_s^k - v_s^{k-1} [m]
   Scalar u_n = 0;                   ///< gap [m]; closed if <= 0
   Scalar force_tolerance = 0;       ///< forces closer than this count as equal [N]
@@ -93,7 +93,7 @@ constexpr Contact check_contact(Contact assumed, const ContactTrial<Scalar>& tri
 template <class Scalar, int Dimension>
 struct JointFrame {
   using Vector = Eigen::Matrix<Scalar, Dimension, 1>;
-  Vector n;          ///< bisector of the segments, from the joint into the angle: Eq. (1)
+  Vector n;          ///< bisector of the segments, from the joint into the angle (paper, Eq. (1))
   Vector s;          ///< tangent; in the plane (-sin(theta), cos(theta)), in space from node 1 to node 2
   Scalar cos_alpha;  ///< |e31 + e32| / 2
   Scalar sin_alpha;  ///< |e32 - e31| / 2
@@ -191,14 +191,15 @@ struct FrictionElement {
     return Vector::Zero();
   }
 
-  /// L, Eq. (14): relative displacements from (node 3, node 4) displacements.
+  /// L (paper, Eq. (14)): relative displacements from (node 3, node 4) displacements.
   Differences differences() const {
     Differences L;
     for (int i = 0; i < Dimension; ++i) L.row(i) << -axis(i).transpose(), axis(i).transpose();
     return L;
   }
 
-  /// K1, Eq. (35), row 4 as Eqs. (4) and (5) have it: sin, cos (printed: sin, sin), so that K1 is symmetric.
+  /// K1 (paper, Eq. (35)), row 4 as its Eqs. (4) and (5) have it: sin, cos. Printed is sin, sin, and K1 would
+  /// not be symmetric.
   Matrix fixed_stiffness() const {
     Matrix K = Matrix::Zero();
     const Differences L = differences();
@@ -206,7 +207,7 @@ struct FrictionElement {
     K.template bottomLeftCorner<Dimension, 2 * Dimension>() = L;
     return K;
   }
-  /// f1, Eq. (36), with the values of Table 1 in the constraint rows.
+  /// f1 (paper, Eq. (36)), with the values of Table 1 in the constraint rows.
   static LoadVector fixed_load(const ConstraintValues<Scalar>& values = {}) {
     LoadVector f = LoadVector::Zero();
     f[row_n] = values.a;
@@ -214,7 +215,7 @@ struct FrictionElement {
     return f;
   }
 
-  /// K2, Eq. (37): the tangential force is known.
+  /// K2 (paper, Eq. (37)): the tangential force is known.
   Matrix sliding_stiffness() const {
     Matrix K = fixed_stiffness();
     K.row(row_s).setZero();
@@ -222,7 +223,7 @@ struct FrictionElement {
     K(row_s, row_s) = 1;
     return K;
   }
-  /// f2, Eq. (38), `T` the tangential force [N].
+  /// f2 (paper, Eq. (38)), `T` the tangential force [N].
   LoadVector sliding_load(Scalar T) const {
     LoadVector f = LoadVector::Zero();
     f.template head<2 * Dimension>() = -T * differences().row(1).transpose();
@@ -230,13 +231,13 @@ struct FrictionElement {
     return f;
   }
 
-  /// K3, Eq. (39): both forces are known. (In space so is the third: zero.)
+  /// K3 (paper, Eq. (39)): both forces are known. (In space so is the third: zero.)
   static Matrix separated_stiffness() {
     Matrix K = Matrix::Zero();
     for (int i = row_n; i < unknowns; ++i) K(i, i) = 1;
     return K;
   }
-  /// f3, Eq. (40), `N` and `T` the normal and tangential force [N].
+  /// f3 (paper, Eq. (40)), `N` and `T` the normal and tangential force [N].
   LoadVector separated_load(Scalar N, Scalar T) const {
     const Differences L = differences();
     LoadVector f = LoadVector::Zero();
@@ -246,8 +247,8 @@ struct FrictionElement {
     return f;
   }
 
-  /// K2 with Eq. (24) put in for T, so that no iteration on f is needed: sigma_s = direction mu |sigma_n|
-  /// with |sigma_n| = -sigma_n in contact. `direction` is the sign of sigma_s. Not symmetric.
+  /// K2 with Eq. (24) of the paper put in for T, so that no iteration on f is needed: sigma_s = direction mu
+  /// |sigma_n| with |sigma_n| = -sigma_n in contact. `direction` is the sign of sigma_s. Not symmetric.
   Matrix sliding_stiffness_at_limit(Scalar direction) const {
     Matrix K = fixed_stiffness();
     K.row(row_s).setZero();

@@ -7,21 +7,22 @@
 
 namespace taut {
 
-/// How much of the tension a joint can hold back by friction.
+/// How much of the tension a joint can hold back by friction: Eqs. (2) and (3).
 ///
 /// Coulomb's |f| <= mu N over a joint with f = (T2 - T1) sin(alpha), N = (T1 + T2) cos(alpha) is the same as
 /// |T2 - T1| <= kappa (T1 + T2), and as rho T2 <= T1 <= T2 / rho with rho = (1 - kappa) / (1 + kappa).
-/// kappa >= 1: the joint is locked, the cable never slides over it.
+/// kappa >= 1: the joint is self-locking, the cable never slides over it.
 template <class Scalar>
 struct Grip {
   Scalar kappa = 0;
 
   constexpr bool locked() const { return kappa >= Scalar(1); }
-  /// The smallest possible T_small / T_big; 0 if locked.
+  /// The smallest possible T_small / T_big; 0 if the joint is self-locking.
   constexpr Scalar rho() const { return locked() ? Scalar(0) : (Scalar(1) - kappa) / (Scalar(1) + kappa); }
 };
 
-/// Point contact, half the angle between the segments being alpha: kappa = mu cot(alpha). No trigonometry.
+/// Point contact, half the angle between the segments being alpha: kappa = mu cot(alpha), Eq. (4). No
+/// trigonometry.
 template <class Scalar>
 constexpr Grip<Scalar> point_grip(Scalar mu, Scalar cos_alpha, Scalar sin_alpha) {
   return {mu * cos_alpha / sin_alpha};
@@ -34,8 +35,8 @@ Scalar capstan_angle(Scalar cos_alpha, Scalar sin_alpha, Scalar wobble, Scalar l
   return Scalar(2) * std::atan2(cos_alpha, sin_alpha) + wobble * length;
 }
 
-/// Saddle or duct: rho = exp(-mu (beta + k s)), EN 1992-1-1 (5.45), so kappa = tanh(mu (beta + k s) / 2),
-/// with the lengths of capstan_angle().
+/// Saddle or duct: rho = exp(-mu (beta + k s)), so kappa = tanh(mu (beta + k s) / 2), Eq. (5), with the
+/// lengths of capstan_angle(). The law is that of EN 1992-1-1 (5.45).
 template <class Scalar>
 Grip<Scalar> capstan_grip(Scalar mu, Scalar cos_alpha, Scalar sin_alpha, Scalar wobble, Scalar length) {
   return {std::tanh(mu * capstan_angle(cos_alpha, sin_alpha, wobble, length) / Scalar(2))};

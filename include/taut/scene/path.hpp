@@ -13,11 +13,11 @@ namespace taut {
 /// Loads, jacks and prestrain at one point of the path.
 template <class Scalar, class Cap>
 struct Drive {
-  /// A jacked end: the force is prescribed while jacking, the payout once locked.
+  /// A jacked end: the force is prescribed while jacking, the extension of the jack once locked.
   struct JackedEnd {
     bool locked = false;
     Scalar force = 0;   ///< [N]
-    Scalar payout = 0;  ///< [m]
+    Scalar payout = 0;  ///< extension of the jack [m]
   };
   FixedArray<Scalar, Cap::loads> factor;
   FixedArray<std::array<JackedEnd, 2>, Cap::cables> jack;
@@ -61,8 +61,8 @@ Status check_sample(const Cables& cables, int loads, const Sample<Scalar, Cap>& 
   return status;
 }
 
-/// Both ends of the path from the present state to a sample. Lock-off keeps the payout and draws the wedge in
-/// along the path; a released end starts at the force it has.
+/// Both ends of the path from the present state to a sample. Lock-off keeps the extension and draws the wedge
+/// in along the path; a released end starts at the force it has.
 ///
 /// `from` enters as the present drive, `to` as the goal of the path before (the same, if that was reached);
 /// force(c, end) and payout(c, end) tell what a jacked end has at present.

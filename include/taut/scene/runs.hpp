@@ -7,7 +7,7 @@
 
 namespace taut {
 
-/// A part of a cable between anchors, jacks and locked joints. Every joint inside can slide, so at zero
+/// A part of a cable between anchors, jacks and self-locking joints. Every joint inside can slide, so at zero
 /// tension one slack segment pulls its neighbours slack too.
 struct Run {
   std::int16_t cable = 0;
@@ -17,7 +17,7 @@ struct Run {
   std::int16_t first_segment = 0;  ///< of the cable, in the scene's numbering
   std::int16_t first_joint = 0;
   bool closed = false;  ///< its cable is a hoop
-  bool ring = false;    ///< a closed hoop without a locked joint: the run has no end
+  bool ring = false;    ///< a closed hoop without a self-locking joint: the run has no end
 
   /// Segment `i` of the run, in the scene's numbering.
   constexpr int segment(int i) const { return first_segment + (first + i) % around; }

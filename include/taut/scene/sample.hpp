@@ -12,7 +12,7 @@ namespace taut {
 template <class Scalar>
 struct Jack {
   Scalar force = 0;     ///< of the load cell [N]; without effect while locked
-  bool locked = false;  ///< the wedge holds: the payout stays, less the seating at the moment of locking
+  bool locked = false;  ///< the wedge holds: the extension stays, less the seating at the moment of locking
 };
 
 /// One row of a log: where the straight path from the present state leads to.
@@ -39,8 +39,7 @@ struct Response {
   FixedArray<Scalar, Cap::joints> contact;   ///< N = (T_j + T_j+1) cos(alpha) [N], >= 0
   FixedArray<Scalar, Cap::joints> friction;  ///< f = (T_j+1 - T_j) sin(alpha) [N]
   FixedArray<JointState, Cap::joints> state;
-  FixedArray<std::array<Scalar, 2>, Cap::cables>
-      payout;                             ///< cable drawn out by the jacks at start and end [m]
+  FixedArray<std::array<Scalar, 2>, Cap::cables> payout;  ///< extension of the jacks at start and end [m]
   FixedArray<Scalar, Cap::struts> strut;  ///< axial force of every strut [N], tension positive
 };
 

@@ -8,13 +8,13 @@ namespace taut {
 
 /// The assumed state of the joints and runs, and what they remember.
 ///
-/// A run is the part of a cable between anchors, jacks and locked joints: since every joint inside can slide,
-/// it is taut or slack as a whole.
+/// A run is the part of a cable between anchors, jacks and self-locking joints: since every joint inside can
+/// slide, it is taut or slack as a whole.
 template <class Scalar, class Cap>
 struct Situation {
   FixedArray<Contact, Cap::joints> contact;   ///< separated: the segments on both sides are slack
   FixedArray<Scalar, Cap::joints> direction;  ///< of sliding: sign of sigma_s
-  FixedArray<Scalar, Cap::joints> v_s;        ///< where a fixed joint rests, Eq. (8) [m]
+  FixedArray<Scalar, Cap::joints> v_s;        ///< where a fixed joint rests (paper, Eq. (8)) [m]
   FixedArray<bool, Cap::segments> slack;      ///< by run
 };
 

@@ -140,8 +140,8 @@ class Stepwise {
     return at_joint(Code::state_iterations, changed);
   }
 
-  /// The step as one complementarity problem: T = T0 + W dv from one solve a joint, dv the slips of the step
-  /// either way.
+  /// The step as one complementarity problem, Eq. (10) with all slips of the step in place of rates:
+  /// T = T0 + W dv from one solve a joint, dv the slips either way.
   Status settle_together(const Loads& loads) {
     Assumed trial = rest_.assumed;
     begin_ = rest_.assumed.v_s;

@@ -84,7 +84,7 @@ class System {
   /// Elongation of a segment between its ends, from displacements alone [m].
   Scalar bar_elongation(int segment) const { return elongation(elements_.segments[segment]).value(); }
   Scalar internal_force(int joint, int i) const { return x_[numbering_.internal_force(joint, i)].value(); }
-  /// v_s of Eq. (8) [m].
+  /// v_s (paper, Eq. (8)) [m].
   Scalar tangential(int joint) const { return relative(joint, 1).value(); }
   /// Force in a segment under the situation: elastic, prescribed or none [N].
   Scalar tension(int segment, const Assumed& assumed, const Loads& loads) const {
@@ -160,7 +160,7 @@ class System {
       if (change.cable == cable) kelvin += static_cast<Scalar>(change.kelvin) * loads.factor[change.load];
     return kelvin;
   }
-  /// Relative displacement of node 4 to node 3 along element axis `i`, Eq. (12).
+  /// Relative displacement of node 4 to node 3 along element axis `i` (paper, Eq. (12)).
   Word relative(int joint, int i) const {
     const auto& element = elements_.joints[joint];
     const Point along = element.axis(i);
@@ -341,8 +341,8 @@ class System {
     }
   }
 
-  /// Internal forces on nodes 3 and 4, Eq. (4), and the two constraints, Eq. (15); returns the violation as a
-  /// force [N].
+  /// Internal forces on nodes 3 and 4 (paper, Eq. (4)), and the two constraints (paper, Eq. (15)); returns
+  /// the violation as a force [N].
   Scalar constrain(int joint, const Assumed& assumed, const Loads& loads) {
     const auto& element = elements_.joints[joint];
     Scalar violation = 0;
@@ -376,7 +376,7 @@ class System {
   }
 
  public:
-  /// Largest tangential force, Eq. (24) or the capstan's [N].
+  /// Largest tangential force (paper, Eq. (24)) or the capstan's [N].
   Scalar friction_limit(int joint, const Assumed& assumed, const Loads& loads) const {
     const auto& element = elements_.joints[joint];
     if (element.law == FrictionLaw::point) return -element.mu * internal_force(joint, 0);
