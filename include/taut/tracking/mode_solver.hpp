@@ -95,8 +95,11 @@ class ModeSolver {
     place_.fill(inactive);
     equalities_ = 0;
     while (equalities_ < set_->size() && (*set_)[equalities_].sense == 0) ++equalities_;
+    for (int p = 0; p < pairs_.size(); ++p) scale_[p] = std::sqrt(stiffness(active_of(p)) / stiffest_);
     if (go_on) {
-      if (!keep_what_goes_on(stuck)) return Outcome::singular;
+      bool any = false;
+      if (!keep_what_goes_on(stuck, any)) return Outcome::singular;
+      if (!any) return Outcome::solved;
     } else {
       if (!begin_from_zero(stuck)) return Outcome::singular;
     }
@@ -136,7 +139,7 @@ class ModeSolver {
     if (!covers_[p]) return 0;
     return scale(p);
   }
-  Real scale(int p) const { return std::sqrt(stiffness(active_of(p)) / stiffest_); }
+  Real scale(int p) const { return scale_[p]; }
   /// In general position, and the same everywhere.
   Real perturbation(int p) const {
     const auto scattered = (static_cast<std::uint32_t>(p) + 1U) * 2654435769U;
@@ -161,7 +164,8 @@ class ModeSolver {
     keep_values(moves, value_, Real(1));
     return true;
   }
-  bool keep_what_goes_on(const Tensions& stuck) {
+  /// `any`: whether a limit is violated then.
+  bool keep_what_goes_on(const Tensions& stuck, bool& any) {
     covers_.fill(false);
     for (int i = equalities_; i < set_->size(); ++i) name((*set_)[i], i);
     for (int rounds = set_->size() - equalities_; rounds >= 0; --rounds) {
@@ -171,7 +175,7 @@ class ModeSolver {
       set_->settle(*laws_, due_, T_, moves);
       // From the last one on, so that the factors of the first are kept.
       int gone = set_->size();
-      bool any = false;
+      any = false;
       for (int i = set_->size() - 1; i >= equalities_; --i) {
         const Active& active = (*set_)[i];
         if (sign(active) * moves[i] * stiffness(active) >= -none_) continue;
@@ -192,7 +196,11 @@ class ModeSolver {
       place_.fill(inactive);
       for (int i = equalities_; i < set_->size(); ++i) name((*set_)[i], i);
     }
-    for (int p = 0; p < pairs_.size(); ++p) covers_[p] = place_[p] == inactive && row(p, T_) < -none_;
+    any = false;
+    for (int p = 0; p < pairs_.size(); ++p) {
+      covers_[p] = place_[p] == inactive && row(p, T_) < -none_;
+      any = any || covers_[p];
+    }
     return true;
   }
   /// Finds the pair of a slip that is in the set.
@@ -212,17 +220,19 @@ class ModeSolver {
   }
   /// The second part of all values.
   void perturb() {
-    Tensions e;
-    e.fill(Real(0));
-    for (int p = 0; p < pairs_.size(); ++p)
-      if (pairs_[p].is_segment()) e[pairs_[p].index] -= perturbation(p) / stiffness(active_of(p));
     T_tie_.fill(Real(0));
-    set_->carry(e, T_tie_);
-    Moves moves, dues;
-    moves.fill(Real(0));
-    dues.fill(Real(0));
-    set_->settle(*laws_, dues, T_tie_, moves);
-    keep_values(moves, tie_, Real(1));
+    if (covers_all_) {
+      Tensions e;
+      e.fill(Real(0));
+      for (int p = 0; p < pairs_.size(); ++p)
+        if (pairs_[p].is_segment()) e[pairs_[p].index] -= perturbation(p) / stiffness(active_of(p));
+      set_->carry(e, T_tie_);
+      Moves moves, dues;
+      moves.fill(Real(0));
+      dues.fill(Real(0));
+      set_->settle(*laws_, dues, T_tie_, moves);
+      keep_values(moves, tie_, Real(1));
+    }
     for (int i = equalities_; i < set_->size(); ++i) {
       const Active& active = (*set_)[i];
       if (active.slides()) tie_[active.pair] = perturbation(active.pair);
@@ -307,12 +317,21 @@ class ModeSolver {
     settle_rates(response, false);
   }
   void respond_to_cover(Response& response) const {
-    Tensions e;
-    e.fill(Real(0));
-    for (int p = 0; covers_all_ && p < pairs_.size(); ++p)
-      if (pairs_[p].is_segment()) e[pairs_[p].index] -= cover(p) / stiffness(active_of(p));
     response.T.fill(Real(0));
-    set_->carry(e, response.T);
+    response.moves.fill(Real(0));
+    bool any = covers_all_;
+    for (int i = equalities_; i < set_->size(); ++i) {
+      const Active& active = (*set_)[i];
+      any = any || (active.slides() && active.pair >= 0 && covers_[active.pair]);
+    }
+    if (!any) return;
+    if (covers_all_) {
+      Tensions e;
+      e.fill(Real(0));
+      for (int p = 0; p < pairs_.size(); ++p)
+        if (pairs_[p].is_segment()) e[pairs_[p].index] -= cover(p) / stiffness(active_of(p));
+      set_->carry(e, response.T);
+    }
     settle_rates(response, true);
   }
   void settle_rates(Response& response, bool is_cover) const {
@@ -521,8 +540,9 @@ class ModeSolver {
   FixedList<Pair, max_pairs> pairs_;
   FixedArray<bool, max_pairs> covers_;
   FixedArray<std::int8_t, max_pairs> place_;  // inactive, in the set (0), pending (1)
-  FixedArray<Real, max_pairs> value_, tie_;   // of h and v [N]; the second part decides among ties
-  Tensions least_;                            // L
+  FixedArray<Real, max_pairs> scale_;
+  FixedArray<Real, max_pairs> value_, tie_;  // of h and v [N]; the second part decides among ties
+  Tensions least_;                           // L
   Tensions T_, T_tie_;
   Moves due_;
   int equalities_ = 0;  // the first moves of the set: they follow whatever happens

@@ -744,10 +744,10 @@ class Tracker {
     is_set_up_ = add_all(Real(0)) || add_all(held_at_zero);
     return is_set_up_;
   }
-  bool add_all(Real held) {
+  bool add_all(Real held, Real least_pivot = least_pivot_of_all) {
     map_.begin(*model_);
     map_.set().hold(held);
-    return add_equalities() && add_slides();
+    return add_equalities() && add_slides(least_pivot);
   }
   /// What follows whatever happens: jacks, spans without tension, joints without friction.
   bool add_equalities() {
@@ -760,9 +760,9 @@ class Tracker {
       if (glides(j) && can_slide(j)) static_cast<void>(map_.set().append(laws_, laws_.gliding(j)));
     return true;
   }
-  bool add_slides() {
+  bool add_slides(Real least_pivot) {
     for (const int j : order_)
-      if (!map_.set().append(laws_, laws_.sliding(Candidate::of(j, slides_[j])))) return false;
+      if (!map_.set().append(laws_, laws_.sliding(Candidate::of(j, slides_[j])), least_pivot)) return false;
     return true;
   }
   /// Whether the laws that imply one another agree; if not, a node is free.
@@ -1116,6 +1116,11 @@ class Tracker {
 
   using Solver = ModeSolver<CondensedType, Laws>;
   using Candidates = FixedList<Candidate, 2 * Cap::joints>;
+  struct Pull {
+    const JackedEnd* jack = nullptr;
+    Real least = 0;
+    bool is_direct = false;  // no joint on the way has friction
+  };
 
   /// Decides what sticks, slides and is slack from here on, and makes the map for it. `ending` is what ended
   /// the piece before.
@@ -1274,7 +1279,8 @@ class Tracker {
     model_->coupling.add(model_->segments, e, rates);
   }
   /// What slides, begun from what slid: an ordinary event is one pivot.
-  [[gnu::noinline]] bool go_on(const Candidates& candidates) {
+  /// Segments of the spans in `tightening` must then gain tension.
+  [[gnu::noinline]] bool go_on(const Candidates& candidates, const Spans* tightening = nullptr) {
     Tensions stuck;
     typename Map::Moves due;
     stuck_rates(stuck);
@@ -1287,6 +1293,8 @@ class Tracker {
       drop_set();
       return false;
     }
+    for (int i = 0; tightening != nullptr && i < model_->segments; ++i)
+      if ((*tightening)[runs_.of(i)] && !(solver.rates()[i] > Real(16) * rate_tolerance())) return false;
     read_slides();
     return true;
   }
@@ -1297,8 +1305,44 @@ class Tracker {
     doubtful_joint_ = solver.pairs()[p].index;
     if (solver.is_free()) free_joint_ = doubtful_joint_;
   }
+  /// Where spans at zero become taut, most often every joint slides toward the jack. Tried first: Lemke's
+  /// path goes on from there, and the answer is taken if it gives every segment of these spans tension.
+  [[gnu::noinline]] bool pull_straight(const Spans& zero, const Candidates& candidates) {
+    const auto slack = slack_;
+    const auto slides = slides_;
+    const auto order = order_;
+    const Moving moved = moved_;
+    for (int r = 0; r < runs_.size(); ++r) {
+      if (!zero[r]) continue;
+      slack_[r] = false;
+      moved_.excess[r] = 0;
+      for (int i = 0; i < runs_[r].count; ++i)
+        if (const Pull pull = pull_on(runs_[r], i, false); pull.jack != nullptr) slide_toward(pull, r, i);
+    }
+    drop_set();
+    is_set_up_ = add_all(Real(0), sound_pivot);
+    if (is_set_up_ && go_on(candidates, &zero)) {
+      rebuild();
+      return true;
+    }
+    slack_ = slack;
+    slides_ = slides;
+    order_ = order;
+    moved_ = moved;
+    free_joint_ = doubtful_joint_ = -1;
+    drop_set();
+    return false;
+  }
+  void slide_toward(const Pull& pull, int r, int segment) {
+    for_each_joint_toward(*pull.jack, runs_[r], segment, [&](int joint, JointState way) {
+      if (glides(joint) || slides_[joint] == way) return;
+      if (slides_[joint] == JointState::stick) order_.add(static_cast<std::int16_t>(joint));
+      slides_[joint] = way;
+    });
+  }
   /// What slides and what is slack, begun from nothing. The moves must be frozen.
   Status begin_anew(const Spans& zero, const Candidates& candidates) {
+    if (pull_straight(zero, candidates)) return Status::success();
     if (solve_anew(zero, candidates, false)) return Status::success();
     if (const Status why = pulled_through(); !why) return why;
     if (free_joint_ >= 0) return find_further_on(at_joint(Code::mechanism, free_joint_));
@@ -1402,11 +1446,6 @@ class Tracker {
   }
   /// The jack that gives a segment of a span at zero the larger tension, by what friction leaves of its force
   /// on the way; `on_the_way(joint, way)` is called for every joint there.
-  struct Pull {
-    const JackedEnd* jack = nullptr;
-    Real least = 0;
-    bool is_direct = false;  // no joint on the way has friction
-  };
   Pull pull_on(const Run& run, int i, bool totally) const {
     Pull strongest;
     for (const JackedEnd& jack : jacks_) {
@@ -1530,6 +1569,9 @@ class Tracker {
   struct Nothing {};
   /// Of a segment's own stiffness, in decisions from zero tension.
   static constexpr Real held_at_zero = Real(1e-8);
+  /// Pivots of the moves at work, of the largest entry in row and column: none is left; so many digits are
+  /// kept.
+  static constexpr Real least_pivot_of_all = Real(1e-12), sound_pivot = Real(1e-4);
   /// Of the largest force: what may be lost where a cable moves much further than it stretches.
   static constexpr Real rounded_totals = Real(1e-10);
   /// Of the largest force: how much further on an answer is looked for, and how near it must be.
