@@ -73,9 +73,9 @@ Progress<typename TrackerType::Scalar> drive_straight(TrackerType& tracker, cons
   return progress;
 }
 
-/// Drives the tracker to the loads that ends had when they were locked, then to where loads have turned.
-/// remember(k) is called where jack `k` was locked or turned. Fails as Tracker::advance() does. Cost: that of
-/// drive_straight() twice.
+/// Drives the tracker to the loads that ends had when they were locked, then to where loads have reversed.
+/// remember(k) is called where jack `k` was locked or reversed. Fails as Tracker::advance() does. Cost: that
+/// of drive_straight() twice.
 template <class TrackerType, class Jacks, class Remember>
 Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks& jacks,
                                                      const Corners& corners, int event_budget,
@@ -89,12 +89,12 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
     for (int k = 0; k < jacks.size(); ++k)
       if (progress.status && jacks[k].locks_now) remember(k);
   }
-  if (corners.turns && progress.status) {
+  if (corners.reverses && progress.status) {
     for (int k = 0; k < jacks.size(); ++k)
-      if (jacks[k].has_turned()) jacks.in(corner.jack, k).force = jacks[k].at.turn;
+      if (jacks[k].has_reversed()) jacks.in(corner.jack, k).force = jacks[k].at.reversal;
     progress = join(progress, drive_straight(tracker, jacks, corner, event_budget));
     for (int k = 0; k < jacks.size(); ++k)
-      if (progress.status && jacks[k].has_turned()) remember(k);
+      if (progress.status && jacks[k].has_reversed()) remember(k);
   }
   return progress;
 }

@@ -25,7 +25,7 @@ namespace taut {
 /// What happens with a row of readings:
 /// 1. drive: the jacks' load cells are conditioned against noise (LoadFilter), and the tracker is driven as
 /// far
-///    as the loads have surely come, straight on or through corners (drive.hpp);
+///    as the loads are confirmed to have come, straight on or through corners (drive.hpp);
 /// 2. measure: a load cell at an anchored end is compared with its prediction and updates friction
 ///    (FarEnds, FrictionFilter). When mu has moved so far from where the tracker is linearized that it shows,
 ///    the tracker is relinearized and the measurement is taken again;
@@ -37,8 +37,8 @@ namespace taut {
 /// take_strut(), take_stroke().
 ///
 /// `Parameters` bounds the number of unknowns: one a cable with a shared mu, one a joint otherwise; and
-/// `memories` of every jack whose load cell has noise. If there is no room for these, turning points are
-/// taken for exact.
+/// `remembered_reversals` of every jack whose load cell has noise. If there is no room for these, reversals
+/// are taken for exact.
 ///
 /// Nothing here may be called from an interrupt while another call is under way; two estimators share
 /// nothing.
@@ -52,9 +52,9 @@ class Estimator {
   using KnowledgeType = Knowledge<Scalar, Cap>;
   using ReadingsType = Readings<Scalar, Cap>;
   using FilterType = FrictionFilter<CondensedType, Parameters>;
-  /// Turning points of every jack that friction is taken to remember.
-  static constexpr int memories = 2;
-  using JacksType = JackLoads<Scalar, Cap, memories>;
+  /// Reversals of every jack that friction is taken to remember.
+  static constexpr int remembered_reversals = 2;
+  using JacksType = JackLoads<Scalar, Cap, remembered_reversals>;
   using FarEndsType = FarEnds<FilterType, JacksType>;
   using Alarms = FixedList<Alarm, 8 + 4 * Cap::cables + Cap::joints + Cap::segments>;
 
@@ -102,7 +102,8 @@ class Estimator {
   ///
   /// Cost: without an event that of a reading in LoadFilter a jack, and of gathering a reading of the far
   /// end. At worst 3 (1 + cables) paths of `event_budget` events each; for every far end, and once for what
-  /// was gathered, an update with four calls of Tracker::adjust(); one such call for every jack that turned.
+  /// was gathered, an update with four calls of Tracker::adjust(); one such call for every jack that
+  /// reversed.
   Progress<Scalar> advance(const ReadingsType& readings, int event_budget = TrackerType::default_budget) {
     alarms_.clear();
     for (int i = 0; i < load_patterns(model()); ++i)
@@ -120,7 +121,7 @@ class Estimator {
       if (corners.any() || progress.events > 0) far_ends_.restart();
       if (!progress.status || progress.fraction < 1) return progress;
     }
-    if (!jacks_.may_have_turned()) measure_far_ends(readings);
+    if (!jacks_.may_have_reversed()) measure_far_ends(readings);
     if (has_more) check_jacks(readings);
     if (!is_friction_fine_ && filter_.belief().has_friction())
       is_friction_fine_ = check_friction(model().cables, filter_, alarms_);
@@ -208,7 +209,7 @@ class Estimator {
     tracker_.begin(condensed);
     jacks_.start(condensed, knowledge);
     const Status known = filter_.start(tracker_, knowledge);
-    for (std::size_t m = 0; m < memories; ++m)
+    for (std::size_t m = 0; m < remembered_reversals; ++m)
       for (int k = 0; k < jacks_.size(); ++k) {
         const bool has_noise = jacks_.in(knowledge.sensor_sd, k) > 0;
         jacks_[k].memory[m] = static_cast<std::int16_t>(has_noise ? filter_.add_load_error() : -1);
@@ -237,12 +238,12 @@ class Estimator {
     return has_more;
   }
   Scalar most_force(int k) const { return model().most_force[jacks_.end(k).cable()]; }
-  /// A jack that turns or is locked now: friction will remember the error of its load.
+  /// A jack that reverses or is locked now: friction will remember the error of its load.
   void remember_reversal(int k) {
     auto& jack = jacks_[k];
     const int p = jack.memory[static_cast<std::size_t>(jack.oldest)];
     if (p < 0) return;
-    jack.oldest = (jack.oldest + 1) % memories;
+    jack.oldest = (jack.oldest + 1) % remembered_reversals;
     filter_.remember_reversal(tracker_, p, jacks_.end(k).cable(), jacks_.end(k).end, jack.sd_before);
     is_friction_fine_ = false;
   }
@@ -266,7 +267,7 @@ class Estimator {
   /// Of something else than a load cell.
   template <class Predict>
   void take_measurement(const Predict& predict, Scalar reading, Scalar sd, const Alarm& contradiction) {
-    if (!(sd > 0) || !filter_.belief().has_friction() || jacks_.may_have_turned()) return;
+    if (!(sd > 0) || !filter_.belief().has_friction() || jacks_.may_have_reversed()) return;
     // The errors of the jack that they share.
     if (far_ends_.has_waiting()) {
       const bool shares_row = far_ends_.has_waiting_of_row();

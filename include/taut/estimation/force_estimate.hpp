@@ -29,7 +29,7 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
     if (!HasDeviation || load.locked) continue;
     const Scalar part = slope * load.at.sd;
     variance += part * part;
-    // If it has turned, the force did not follow.
+    // If it has reversed, the force did not follow.
     if (load.at.behind) variance += further * further;
   }
   if (HasDeviation) {

@@ -25,7 +25,7 @@ enum class Outcome : std::uint8_t {
 /// An extended Kalman filter on the unknowns of friction around a tracker that carries their sensitivities.
 ///
 /// The unknowns: one factor a cable on the nominal mu if the cable shares it, else one mu a joint, with the
-/// prior of the scene; then errors of the loads at which jacks last turned or were locked, which friction
+/// prior of the scene; then errors of the loads at which jacks last reversed or were locked, which friction
 /// remembers. The tracker always has the friction at which the filter is linearized.
 template <class CondensedType, int Parameters>
 class FrictionFilter {
@@ -150,8 +150,8 @@ class FrictionFilter {
       predict(prediction_);
     }
   }
-  /// The jack at this end turns now or is locked: from here on unknown `p` is the error of its load, with the
-  /// standard deviation `sd` [N]. Cost: that of Tracker::turn(), and at worst of Tracker::adjust().
+  /// The jack at this end reverses now or is locked: from here on unknown `p` is the error of its load, with
+  /// the standard deviation `sd` [N]. Cost: that of Tracker::turn(), and at worst of Tracker::adjust().
   void remember_reversal(TrackerType& tracker, int p, int cable, std::size_t end, Scalar sd) {
     if (belief_.mean(p) != belief_.linearized_at(p)) static_cast<void>(relinearize(tracker, belief_.mean()));
     tracker.turn(p, cable, end);

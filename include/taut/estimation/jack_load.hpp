@@ -16,15 +16,15 @@
 
 namespace taut {
 
-/// Where the path to a row has corners: a jack is locked, or its load has turned since the row before.
+/// Where the path to a row has corners: a jack is locked, or its load has reversed since the row before.
 struct Corners {
-  bool locks = false, turns = false;
-  bool any() const { return locks || turns; }
+  bool locks = false, reverses = false;
+  bool any() const { return locks || reverses; }
 };
 
-/// A plain value: it can be saved and read back byte by byte. `Memories` of its reversals are unknowns of a
+/// A plain value: it can be saved and read back byte by byte. `Reversals` of them are unknowns of a
 /// FrictionFilter.
-template <class Scalar, int Memories>
+template <class Scalar, int Reversals>
 struct JackLoad {
   /// Readings in a row that show that the jack of a locked end pulls less than its wedge holds.
   static constexpr std::uint8_t surely_below = 3;
@@ -40,8 +40,8 @@ struct JackLoad {
   bool locks_now = false, locked = false;
   Scalar most_payout = 0;  ///< that it should have had so far [m]
   std::uint8_t below = 0;  ///< locked: readings in a row that were surely below what the wedge holds
-  /// Unknown errors of its load where it last turned or was locked, or -1; the oldest is forgotten next.
-  std::array<std::int16_t, static_cast<std::size_t>(Memories)> memory{};
+  /// Unknown errors of its load where it last reversed or was locked, or -1; the oldest is forgotten next.
+  std::array<std::int16_t, static_cast<std::size_t>(Reversals)> memory{};
   int oldest = 0;
 
   /// A reading, or none if it is more than the cable can carry, `most` [N].
@@ -55,7 +55,7 @@ struct JackLoad {
   [[nodiscard]] bool take(bool locks, const EndReading<Scalar>& given, Scalar dt, Scalar sd, Scalar most,
                           Corners& corners) {
     is_new = locks_now = false;
-    at.turned = false;
+    at.reversed = false;
     since += dt;
     if (locks) {
       sd_before = at.sd;
@@ -80,12 +80,12 @@ struct JackLoad {
     since = 0;
     raw = given.force;
     is_new = !at.refused;
-    corners.turns |= at.turned;
+    corners.reverses |= at.reversed;
     return at.refused;
   }
-  bool has_turned() const { return !locked && at.turned; }
+  bool has_reversed() const { return !locked && at.reversed; }
   /// Where the tracker is driven to for a row [N].
-  Scalar target() const { return larger(at.sure, first); }
+  Scalar target() const { return larger(at.confirmed, first); }
   /// From there to the best estimate of the load [N].
   Scalar beyond() const { return locked ? Scalar(0) : at.load - driven.force; }
   /// The load as a measurement of the row sees it: the raw reading if there is one, so that errors are

@@ -15,11 +15,11 @@ namespace taut {
 
 /// Jacked ends in the order in which a tracker counts them, with their loads; and the load factors that the
 /// tracker was driven to.
-template <class Scalar, class Cap, int Memories>
+template <class Scalar, class Cap, int Reversals>
 class JackLoads {
  public:
   static constexpr int capacity = max_jacks<Cap>;
-  using Load = JackLoad<Scalar, Memories>;
+  using Load = JackLoad<Scalar, Reversals>;
   using SampleType = Sample<Scalar, Cap>;
   /// All that is known of loads, between two rows.
   struct State {
@@ -63,8 +63,8 @@ class JackLoads {
     for (int k = 0; k < size(); ++k) all.add(state_.jack[k].reading(in(prior.sensor_sd, k)));
     return all;
   }
-  /// What slides and what sticks is in doubt while a load may have turned.
-  bool may_have_turned() const {
+  /// What slides and what sticks is in doubt while a load may have reversed.
+  bool may_have_reversed() const {
     for (int k = 0; k < size(); ++k)
       if (state_.jack[k].at.behind) return true;
     return false;
