@@ -22,15 +22,13 @@ namespace taut {
 
 /// An extended Kalman filter on the unknowns of friction around a Tracker that carries their sensitivities.
 ///
-/// What happens with a row of readings:
-/// 1. drive: the jacks' load cells are conditioned against noise (LoadFilter), and the tracker is driven as
-/// far
-///    as the loads are confirmed to have come, straight on or through corners (drive.hpp);
-/// 2. measure: a load cell at an anchored end is compared with its prediction and updates friction
-///    (FarEnds, FrictionFilter). When mu has moved so far from where the tracker is linearized that it shows,
-///    the tracker is relinearized and the measurement is taken again;
+/// A row of readings goes through three stages:
+/// 1. drive: LoadFilter conditions the jacks' load cells against noise, and the tracker is driven as far as
+///    the loads are confirmed to have come, straight on or through corners (drive.hpp);
+/// 2. measure: a load cell at an anchored end is compared with its prediction and updates friction (FarEnds,
+///    FrictionFilter); where mu has moved far from where the tracker is linearized, that is relinearized;
 /// 3. monitor: what is odd raises an alarm (monitoring.hpp).
-/// Forces are then those of the tracker, carried on to the best estimate of loads and friction
+/// Forces are those of the tracker, carried on to the best estimate of loads and friction
 /// (force_estimate.hpp). Where nothing measures mu, the answer is the prior carried through.
 ///
 /// Strain gauges on struts and the strokes of jacks are measurements of the same kind for whoever has them:

@@ -22,12 +22,12 @@ struct Corners {
   bool any() const { return locks || reverses; }
 };
 
-/// A plain value: it can be saved and read back byte by byte. `Reversals` of them are unknowns of a
-/// FrictionFilter.
+/// A load cell's conditioned load, with the wedge of its end. A plain value: it can be saved and read back
+/// byte by byte. `Reversals` is how many of its reversals are unknowns of a FrictionFilter.
 template <class Scalar, int Reversals>
 struct JackLoad {
   /// Readings in a row that show that the jack of a locked end pulls less than its wedge holds.
-  static constexpr std::uint8_t surely_below = 3;
+  static constexpr std::uint8_t confirmed_below = 3;
 
   LoadFilter<Scalar> filter;
   ConditionedLoad<Scalar> at{};
@@ -39,7 +39,7 @@ struct JackLoad {
   bool is_new = false;    ///< `raw` is of this row, and was believed
   bool locks_now = false, locked = false;
   Scalar most_payout = 0;  ///< that it should have had so far [m]
-  std::uint8_t below = 0;  ///< locked: readings in a row that were surely below what the wedge holds
+  std::uint8_t below = 0;  ///< locked: readings in a row that were confirmed to be below what the wedge holds
   /// Unknown errors of its load where it last reversed or was locked, or -1; the oldest is forgotten next.
   std::array<std::int16_t, static_cast<std::size_t>(Reversals)> memory{};
   int oldest = 0;
@@ -97,15 +97,15 @@ struct JackLoad {
   }
 
   /// While the end is locked, its load cell is that of a jack put back on it. Returns true if and only if the
-  /// jack, having surely pulled less for `surely_below` readings, comes to pull what the end segment has: the
-  /// wedge is free. `held` is that force [N], deviation() its standard deviation. Cost: that of
+  /// jack, confirmed to pull less for `confirmed_below` readings, comes to pull what the end segment has:
+  /// the wedge is free. `held` is that force [N], deviation() its standard deviation. Cost: that of
   /// LoadFilter::take(), and at most one call of deviation().
   template <class Deviation>
   [[nodiscard]] bool lifts_off(Scalar reading, Scalar most, Scalar held, const Deviation& deviation) {
     const ConditionedLoad<Scalar> pull = filter.take(possible(reading, most), since);
     since = 0;
     if (pull.refused) return false;
-    if (below == surely_below) {
+    if (below == confirmed_below) {
       if (pull.load < held) return false;
       below = 0;
       return true;

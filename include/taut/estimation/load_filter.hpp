@@ -28,7 +28,8 @@ struct ConditionedLoad {
 };
 
 /// Friction remembers every peak, those of noise too: fed with raw readings, a model is dragged along by
-/// them. This filter tells what the load surely did (`confirmed`, `reversed`) from where it probably is
+/// them. This filter tells what the load is confirmed to have done (`confirmed`, `reversed`) from where it
+/// probably is
 /// (`load`).
 ///
 /// The load is taken for a line in time that bends or jumps now and then. Readings scatter about it,
@@ -54,16 +55,18 @@ struct ConditionedLoad {
 template <class Scalar>
 class LoadFilter : LoadFilterTuning {
  public:
-  /// Forgets everything; the load is taken to have come up from zero. `sd` is the standard deviation of a
-  /// reading [N], with quantisation (step / sqrt(12)). Zero: readings are exact.
+  /// Forgets everything; the load is taken to have come up from zero. `sd` >= 0 is the standard deviation of
+  /// a reading [N], with quantisation (step / sqrt(12)). Zero: readings are exact. Always possible.
   void start(Scalar sd) {
     *this = LoadFilter();
     sd_ = sd > 0 ? sd : Scalar(0);
     per_sd_ = sd_ > 0 ? 1 / sd_ : Scalar(0);
   }
 
-  /// Takes the next reading [N], `dt` > 0 after the one before, in any unit of time; for the first it is of
-  /// no account. What is not finite is refused.
+  /// Takes the next reading [N], `dt` > 0 after the one before, in any unit of time; for the first it does
+  /// not matter. What is not finite is refused, and may be anything else. Cost: while readings wait a few
+  /// operations; else those of four hypotheses; at worst, when sixteen that wait are taken apart, six times
+  /// that.
   ConditionedLoad<Scalar> take(Scalar reading, Scalar dt) {
     const auto step = static_cast<Level>(dt);
     if (block_.has_room() || begins_to_wait()) return wait(reading, step);
@@ -93,7 +96,7 @@ class LoadFilter : LoadFilterTuning {
     const bool surprises = is_surprise(y);
     ++since_birth_;
     calm_ = static_cast<std::int8_t>(surprises ? 0 : calm_ < calm_enough ? calm_ + 1 : calm_);
-    // Where nothing surprises, where exactly a line begins is of no account.
+    // Where nothing surprises, it does not matter where exactly a line begins.
     if (since_birth_ >= pause || surprises) begin_line({surprises, has_no_slope}, step, step, y, Level(1));
     hypotheses_.update(y, 1);
     const Level total = find_best();
@@ -145,7 +148,7 @@ class LoadFilter : LoadFilterTuning {
     now.refused = true;
     return now;
   }
-  /// The first reading after a gap. What the load did meanwhile nobody knows: the longer it was, the less
+  /// The first reading after a gap. What the load did meanwhile is not known: the longer it was, the less
   /// likely that a line has gone on. Beside the lines that have, a new one begins where the load was held.
   [[gnu::noinline]] ConditionedLoad<Scalar> take_after_gap(Level step, Level y, const Told& told) {
     const Level come = corner(0), off = y - told.level, gone = step * at(hypotheses_.slope, best_);
@@ -442,7 +445,7 @@ class LoadFilter : LoadFilterTuning {
     // Below zero there is no load: both are zero then.
     if (further < 0) now.behind = now.load != confirmed_;
   }
-  /// How much further the load probably is than it surely is, as it goes at present.
+  /// How much further the estimate is than what is confirmed, as the load goes at present.
   Level beyond_confirmed(const Estimate& estimate) const {
     return way_ * (estimate.level - confirmed_level_);
   }
@@ -459,7 +462,8 @@ class LoadFilter : LoadFilterTuning {
     // The means of older lines are from before the reversal.
     while (hypotheses_.size > 1 && hypotheses_.place(0) != best_) hypotheses_.drop(0);
   }
-  /// `least(way)` is what the load surely is by means of readings, times the way that it goes.
+  /// `least(way)` is what the load is by means of readings, less their uncertainty, times the way that it
+  /// goes.
   template <class Least>
   void confirm(const Estimate& estimate, Level further, const Least& least) {
     if (!(further > confirm_load * estimate.sd)) return;
@@ -505,7 +509,7 @@ class LoadFilter : LoadFilterTuning {
   Level step_ = 0, usual_ = 0;   // the last one; what they usually are
   Level missed_ = 0;             // time since the last reading that was one
   Level way_ = 1;                // that the load goes: up or down
-  std::int8_t best_ = 0;         // of the lines, the most likely
+  std::int8_t best_ = 0;         // the most likely hypothesis
   std::int8_t since_birth_ = 0;  // samples since a line began
   std::int8_t calm_ = 0;         // samples without surprise
 };
