@@ -63,7 +63,7 @@ constexpr int most_unknowns(const SceneType& scene) {
     if (cable.mu_sd > 0) count += cable.shared_mu ? 1 : cable.joints();
     for (std::size_t end = 0; end < 2; ++end)
       if (!cable.closed && cable.ends[end] == taut::End::jacked && cable.sensor_sd[end] > 0)
-        count += taut::Estimator<Model, 1>::memories;
+        count += taut::Estimator<Model, 1>::remembered_reversals;
   }
   return count > 0 ? count : 1;
 }

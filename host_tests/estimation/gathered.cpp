@@ -26,7 +26,7 @@ Instruments far_end_alone() {
 }
 template <class Scalar>
 int waiting(const Site<Scalar>& site) {
-  return site.estimator().save().gathered.size;
+  return site.estimator().save().far_ends.gathered.size;
 }
 
 }  // namespace
@@ -129,7 +129,7 @@ TEST_CASE("among readings that wait one that contradicts is told at once, and no
     wrong.ends[0][0] = {true, false, site->true_force(0) + 7 * cell_sd, 0};
     REQUIRE(estimator.advance(wrong).status.ok());
     CHECK(raised(estimator.alarms(), taut::Alarm::Kind::sensor) == 1);
-    CHECK(estimator.save().gathered.size == waiting(*site));
+    CHECK(estimator.save().far_ends.gathered.size == waiting(*site));
     CHECK(estimator.mu(0) == site->estimator().mu(0));
     site->advance(full);
     CHECK(raised(site->estimator().alarms(), taut::Alarm::Kind::sensor) == 0);

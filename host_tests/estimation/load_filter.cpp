@@ -38,8 +38,8 @@ class Noise {
 
 /// What the filter says, in standard deviations of a reading.
 struct Said {
-  double load, sd, sure, turn;
-  bool turned, refused, behind;
+  double load, sd, confirmed, reversal;
+  bool reversed, refused, behind;
 };
 
 template <class Scalar>
@@ -51,9 +51,9 @@ class Bench {
         filter_.take(static_cast<Scalar>(reading * sigma), static_cast<Scalar>(dt));
     return {double(now.load) / sigma,
             double(now.sd) / sigma,
-            double(now.sure) / sigma,
-            double(now.turn) / sigma,
-            now.turned,
+            double(now.confirmed) / sigma,
+            double(now.reversal) / sigma,
+            now.reversed,
             now.refused,
             now.behind};
   }
@@ -111,7 +111,7 @@ TEST_CASE("the filter is small and can be stored byte by byte") {
     const auto reading = static_cast<float>(50 + 0.3 * i + noise());
     const auto a = filter.take(reading, 1), b = restored.take(reading, 1);
     REQUIRE(a.load == b.load);
-    REQUIRE(a.sure == b.sure);
+    REQUIRE(a.confirmed == b.confirmed);
   }
 }
 
@@ -125,10 +125,10 @@ TEST_CASE_TEMPLATE("exact readings are the load, and every change of direction i
     CAPTURE(i);
     const auto now = filter.take(static_cast<Scalar>(readings[i]), 1);
     CHECK(now.load == std::max(0, readings[i]));
-    CHECK(now.sure == now.load);
+    CHECK(now.confirmed == now.load);
     CHECK(now.sd == 0);
-    CHECK(now.turned == (turns[i] >= 0));
-    if (now.turned) CHECK(now.turn == turns[i]);
+    CHECK(now.reversed == (turns[i] >= 0));
+    if (now.reversed) CHECK(now.reversal == turns[i]);
   }
 }
 
@@ -145,7 +145,7 @@ TEST_CASE_TEMPLATE("the load does not lag behind a ramp", Scalar, float, double)
         const Said said = bench.take(truth + noise());
         if (i < 20) continue;
         error += said.load - truth;
-        behind += truth - said.sure;
+        behind += truth - said.confirmed;
         ++samples;
       }
     }
@@ -198,22 +198,23 @@ void follow_random_logs(const Check& check) {
       const bool is_outlier = !before.refused && noise.below(200) == 0;
       const Said said = bench.take(truth + noise() + (is_outlier ? noise.between(-100, 100) : 0));
       check(said, before, way);
-      if (said.turned) way = -way;
+      if (said.reversed) way = -way;
       before = said;
     }
   }
 }
 
-TEST_CASE("the sure load goes one way until it turns, and never turns short of where it had surely been") {
+TEST_CASE(
+    "the confirmed load goes one way until it turns, and never turns short of where it had surely been") {
   int turns = 0;
   follow_random_logs([&](const Said& said, const Said& before, double way) {
-    if (said.turned) {
-      REQUIRE(way * (said.turn - before.sure) >= 0);
-      REQUIRE(way * (said.turn - said.sure) >= 0);
+    if (said.reversed) {
+      REQUIRE(way * (said.reversal - before.confirmed) >= 0);
+      REQUIRE(way * (said.reversal - said.confirmed) >= 0);
       ++turns;
     } else {
-      REQUIRE(way * (said.sure - before.sure) >= 0);
-      if (said.refused) REQUIRE(said.sure == before.sure);
+      REQUIRE(way * (said.confirmed - before.confirmed) >= 0);
+      if (said.refused) REQUIRE(said.confirmed == before.confirmed);
     }
   });
   CHECK(turns > 300);
@@ -222,10 +223,10 @@ TEST_CASE("the sure load goes one way until it turns, and never turns short of w
 TEST_CASE("a load is behind if it has not come as far as it surely had, the way that it goes") {
   int behind = 0, samples = 0;
   follow_random_logs([&](const Said& said, const Said&, double way) {
-    const double further = (said.turned ? -way : way) * (said.load - said.sure);
+    const double further = (said.reversed ? -way : way) * (said.load - said.confirmed);
     // The filter compares in single precision.
     if (std::fabs(further) > 1e-4) REQUIRE(said.behind == (further < 0));
-    if (said.load == 0 && said.sure == 0) REQUIRE_FALSE(said.behind);
+    if (said.load == 0 && said.confirmed == 0) REQUIRE_FALSE(said.behind);
     behind += said.behind ? 1 : 0;
     ++samples;
   });
@@ -250,7 +251,7 @@ TEST_CASE("a load that begins to rise after a hold is followed without lag") {
   }
 }
 
-TEST_CASE("where a ramp ends the sure load does not overshoot") {
+TEST_CASE("where a ramp ends the confirmed load does not overshoot") {
   // With 1 % noise 0.2 % of the load is 0.2 sigma.
   int overshot = 0, turns = 0;
   constexpr int seeds = 4000;
@@ -261,8 +262,8 @@ TEST_CASE("where a ramp ends the sure load does not overshoot") {
     double most = 0;
     for (int i = 0; i < 400; ++i) {
       const Said said = bench.take(std::max(0.0, 100 - slope * std::max(0, 150 - i)) + noise());
-      most = std::max(most, said.sure);
-      turns += said.turned ? 1 : 0;
+      most = std::max(most, said.confirmed);
+      turns += said.reversed ? 1 : 0;
     }
     overshot += most > 100.2 ? 1 : 0;
   }
@@ -273,21 +274,21 @@ TEST_CASE("where a ramp ends the sure load does not overshoot") {
 TEST_CASE_TEMPLATE("in a hold of a million samples nothing drifts", Scalar, float, double) {
   Noise noise(3);
   Bench<Scalar> bench;
-  double sure = 0, square = 0;
+  double confirmed = 0, square = 0;
   int turns = 0, astray = 0;
   Said said = {};
   for (int i = 0; i < 1000000; ++i) {
     said = bench.take(100 + noise());
-    REQUIRE(said.sure >= sure);
-    sure = said.sure;
-    turns += said.turned ? 1 : 0;
+    REQUIRE(said.confirmed >= confirmed);
+    confirmed = said.confirmed;
+    turns += said.reversed ? 1 : 0;
     if (i < 20000) continue;
     square += (said.load - 100) * (said.load - 100);
     astray += std::fabs(said.load - 100) > 0.2 ? 1 : 0;
   }
   CHECK(turns == 0);
   CHECK(std::fabs(said.load - 100) < 0.2);
-  CHECK(std::fabs(sure - 100) < 0.2);
+  CHECK(std::fabs(confirmed - 100) < 0.2);
   // The memory is 2048 readings: a line through them is known to 2 / sqrt(2048) = 0.044.
   CHECK(std::sqrt(square / 980000) < 0.05);
   // A reading beyond 4 sigma, one in 16,000, may be a bend until the next one: a few samples each.
@@ -344,10 +345,10 @@ TEST_CASE("slow creep of a hold is followed") {
     for (int i = 0; i < 100000; ++i) {
       const double truth = 100 + sign * i / 5000;
       const Said said = bench.take(truth + noise());
-      turns += said.turned ? 1 : 0;
+      turns += said.reversed ? 1 : 0;
       if (i < 5000) continue;
       error += std::fabs(said.load - truth);
-      REQUIRE(std::fabs(said.sure - truth) < 2);
+      REQUIRE(std::fabs(said.confirmed - truth) < 2);
     }
     CHECK(error / 95000 < 0.05);
     CHECK(turns == (sign < 0 ? 1 : 0));
@@ -369,8 +370,8 @@ TEST_CASE_TEMPLATE("after a gap of any length the load is what is read", Scalar,
       REQUIRE(std::isfinite(now.sd));
     }
     CHECK(std::fabs(double(now.load) - 200) < 1);
-    CHECK(double(now.sure) > 190);
-    CHECK(double(now.sure) < 201);
+    CHECK(double(now.confirmed) > 190);
+    CHECK(double(now.confirmed) < 201);
   }
 }
 
@@ -386,7 +387,7 @@ TEST_CASE("a step is refused once and then not smeared") {
       for (int i = 0; i < 54; ++i) {
         const double truth = i < 50 ? 100 : 100 + height;
         const Said said = bench.take(truth + noise());
-        turns += said.turned ? 1 : 0;
+        turns += said.reversed ? 1 : 0;
         if (i < 50) continue;
         const auto since = static_cast<std::size_t>(i - 50);
         refused[since] += said.refused ? 1 : 0;
@@ -421,7 +422,7 @@ TEST_CASE("single outliers are refused and move nothing") {
     for (int seed = 0; seed < 200; ++seed) {
       Noise noise(seed);
       Bench<float> bench;
-      double sure = 0;
+      double confirmed = 0;
       bool was_outlier = false;
       for (int i = 0; i < 1000; ++i) {
         const double truth = 100 + slope * i;
@@ -431,12 +432,12 @@ TEST_CASE("single outliers are refused and move nothing") {
         const Said said = bench.take(reading + noise());
         if (outlier) {
           missed += said.refused ? 0 : 1;
-          moved += said.sure != sure || said.turned ? 1 : 0;
+          moved += said.confirmed != confirmed || said.reversed ? 1 : 0;
         } else {
           refused_in_vain += said.refused ? 1 : 0;
         }
-        turns += said.turned ? 1 : 0;
-        sure = said.sure;
+        turns += said.reversed ? 1 : 0;
+        confirmed = said.confirmed;
         was_outlier = outlier;
       }
     }
@@ -470,9 +471,9 @@ TEST_CASE("turns are counted right and placed well") {
         std::size_t turn = 0;
         for (const double truth : path.load) {
           const Said said = bench.take(truth + noise());
-          if (!said.turned) continue;
+          if (!said.reversed) continue;
           if (turn < 4) {
-            const double error = said.turn - corners[turn];
+            const double error = said.reversal - corners[turn];
             square += error * error;
             near += std::fabs(error) < 3 ? 1 : 0;
             ++turns;
@@ -493,7 +494,7 @@ TEST_CASE("a hold does not turn") {
   for (int seed = 0; seed < 20; ++seed) {
     Noise noise(seed);
     Bench<float> bench;
-    for (int i = 0; i < 100000; ++i) turns += bench.take(100 + noise()).turned ? 1 : 0;
+    for (int i = 0; i < 100000; ++i) turns += bench.take(100 + noise()).reversed ? 1 : 0;
   }
   CHECK(turns == 0);
 }
@@ -504,9 +505,9 @@ TEST_CASE("an unloaded cell stays at zero") {
   for (int i = 0; i < 10000; ++i) {
     const Said said = bench.take(noise());
     REQUIRE(said.load >= 0);
-    REQUIRE(said.sure >= 0);
-    REQUIRE(said.sure < 0.2);
-    REQUIRE_FALSE(said.turned);
+    REQUIRE(said.confirmed >= 0);
+    REQUIRE(said.confirmed < 0.2);
+    REQUIRE_FALSE(said.reversed);
   }
 }
 
@@ -549,9 +550,9 @@ TEST_CASE_TEMPLATE("what is not finite is refused and does no harm", Scalar, flo
       const auto now = filter.take(reading, 1);
       REQUIRE(std::isfinite(now.load));
       REQUIRE(std::isfinite(now.sd));
-      REQUIRE(std::isfinite(now.sure));
+      REQUIRE(std::isfinite(now.confirmed));
       REQUIRE(now.refused == bad);
-      REQUIRE_FALSE(now.turned);
+      REQUIRE_FALSE(now.reversed);
       // An exact reading that is missing leaves the one before, 0.2 lower.
       if (i > 20) REQUIRE(std::fabs(double(now.load) - truth) < 0.21 + 5 * double(now.sd));
     }

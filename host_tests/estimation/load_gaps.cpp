@@ -97,7 +97,7 @@ TEST_CASE("a reading that is refused leaves the load where it was, and less cert
       REQUIRE(now.refused);
       // Readings that have waited until now may move it a little.
       CHECK(std::fabs(now.load - before.load) < before.sd);
-      CHECK(now.sure == before.sure);
+      CHECK(now.confirmed == before.confirmed);
       CHECK(now.sd > before.sd);
       // It may have gone on meanwhile.
       CHECK(std::fabs(now.load - static_cast<float>(ramp.end() + 1)) < 3 * now.sd);

@@ -29,7 +29,7 @@ class WatchedFilter {
   /// What is finite, and not negative.
   bool is_sound() const {
     const auto is_force = [](Scalar x) { return std::isfinite(x) && x >= 0; };
-    return is_force(now_.load) && is_force(now_.sd) && is_force(now_.sure) && is_force(now_.turn);
+    return is_force(now_.load) && is_force(now_.sd) && is_force(now_.confirmed) && is_force(now_.reversal);
   }
   /// Readings that cannot be any are refused. A refused one leaves the load where it was, but for readings
   /// that have waited until then.

@@ -313,7 +313,7 @@ int unknowns(const ExportedArrays& arrays) {
     if (known.mu_sd[c] > 0) count += unknown_mus(cable, arrays.condensed.rho, known.shared[c]);
     for (std::size_t end = 0; end < 2; ++end)
       if (!cable.closed && cable.ends[end] == End::jacked && known.sensor_sd[c][end] > 0)
-        count += AnyEstimator::memories;
+        count += AnyEstimator::remembered_reversals;
   }
   return count;
 }

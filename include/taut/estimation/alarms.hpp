@@ -38,6 +38,8 @@ struct AlarmLimits {
       Scalar(0.05);  ///< part of the largest payout; EN 13670 allows 0.05 for all tendons together
   Scalar least_elongation = Scalar(1e-3);  ///< [m]: differences below this are reading errors
 
+  constexpr bool has_force() const { return most_force >= 0 || least_force >= 0; }
+
   template <class Other>
   static constexpr AlarmLimits of(const AlarmLimits<Other>& other) {
     return {static_cast<Scalar>(other.least_force), static_cast<Scalar>(other.most_force),

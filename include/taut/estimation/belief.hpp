@@ -6,106 +6,127 @@
 #include <cstddef>
 #include <limits>
 
+#include "taut/estimation/prediction.hpp"
 #include "taut/numerics/larger.hpp"
 #include "taut/scene/fixed_list.hpp"
 
 namespace taut {
 
-/// A measured number where the model is, and its derivatives.
-template <class Scalar, int Parameters, int Jacks>
-struct Expected {
-  Scalar at = 0;
-  FixedArray<Scalar, Parameters> by_unknown;
-  FixedArray<Scalar, Jacks> by_jack;  ///< with respect to the forces of unlocked jacks
+/// A jack's load in a row.
+template <class Scalar>
+struct JackReading {
+  Scalar beyond = 0;    ///< its best estimate less the force that the tracker was driven to [N]
+  Scalar variance = 0;  ///< of that estimate before anything else has been measured [N^2]
 };
 
-/// Means and covariances of unknown constants, Gaussian: an extended Kalman filter without dynamics. What
-/// several measurements of one row have in common, the errors of the jacks' readings, are unknowns of that
-/// row alone.
+/// A reading of an instrument.
+template <class Scalar>
+struct Measured {
+  Scalar reading = 0;  ///< or the mean of several
+  Scalar sd = 0;       ///< its standard deviation
+  /// If it is the mean of several: the variance of one of them about what was expected. The gate is as wide
+  /// as it would be for one of them.
+  Scalar scatter = 0;
+};
+
+/// An extended Kalman filter without dynamics: means and covariances of unknown constants, Gaussian, and
+/// where the model is linearized. What several measurements of one row have in common, the errors of the
+/// jacks' readings, are unknowns of that row alone.
 ///
-/// First the unknowns of friction are added, whose bounds are kept, then others, which count as soon as they
-/// have a variance.
+/// First the unknowns of friction are added, whose bounds are kept, then others, which are in use as soon as
+/// they have a variance.
 template <class Scalar, int Parameters, int Jacks>
 class Belief {
  public:
   using Values = FixedArray<Scalar, Parameters>;
   using Covariance = FixedArray<Values, Parameters>;
-  using ExpectedType = Expected<Scalar, Parameters, Jacks>;
-  /// A jack's reading in a row: how far the best estimate of its force is from where the model was led [N],
-  /// and the variance of that estimate before anything else has been measured.
-  struct JackReading {
-    Scalar beyond = 0, variance = 0;
+  using PredictionType = Prediction<Scalar, Parameters, Jacks>;
+  using JackReadings = FixedList<JackReading<Scalar>, Jacks>;
+  /// All that is known, between two rows.
+  struct State {
+    Values mean, linearized_at;
+    Covariance covariance;
   };
-  using JackReadings = FixedList<JackReading, Jacks>;
-  /// A mean so far from where the model is linearized that a measured number is off its line by half of this
-  /// part of its standard deviation is too far.
-  static constexpr Scalar bent = Scalar(0.3);
-  /// A reading whose square distance from what is expected is beyond so many variances contradicts it.
-  static constexpr Scalar impossible = 25;
+  /// The model is linearized anew where a predicted number would be off its line by more than half of this
+  /// part of its standard deviation.
+  static constexpr Scalar nonlinearity = Scalar(0.3);
+  /// A reading is refused if the square of its innovation is beyond so many variances: five sigma.
+  static constexpr Scalar gate = 25;
 
   void clear() {
     size_ = friction_ = in_use_ = 0;
-    mean_.fill(Scalar(0));
-    covariance_ = {};
+    state_.mean.fill(Scalar(0));
+    state_.linearized_at.fill(Scalar(0));
+    state_.covariance = {};
     begin_row();
   }
   /// Adds an unknown with mean zero. Returns its number, or -1 if there is no room.
   int add(Scalar sd) {
     if (size_ == Parameters) return -1;
     const Scalar far = std::numeric_limits<Scalar>::max();
-    covariance_[size_][size_] = sd * sd;
+    state_.covariance[size_][size_] = sd * sd;
     least_[size_] = -far;
     most_[size_] = far;
     return size_++;
   }
-  /// Its mean stays between these.
+  /// Keeps the mean of unknown `p` between these.
   void bound(int p, Scalar least, Scalar most) {
     least_[p] = larger(least_[p], least);
     most_[p] = -larger(-most_[p], -most);
   }
-  /// What follows is not friction.
+  /// What is added from here on is not friction.
   void end_friction() { friction_ = in_use_ = size_; }
   /// Something new takes the place of unknown `p`, independent of all others.
   void renew(int p, Scalar sd) {
     in_use_ = larger(in_use_, p + 1);
-    mean_[p] = 0;
-    for (int q = 0; q < size_; ++q) covariance_[p][q] = covariance_[q][p] = 0;
-    covariance_[p][p] = sd * sd;
+    state_.mean[p] = state_.linearized_at[p] = 0;
+    for (int q = 0; q < size_; ++q) state_.covariance[p][q] = state_.covariance[q][p] = 0;
+    state_.covariance[p][p] = sd * sd;
   }
-  void restore(const Values& mean, const Covariance& covariance) {
-    mean_ = mean;
-    covariance_ = covariance;
+  /// The model is linearized at `values` from here on. Returns by how much each unknown in use moves.
+  Values linearize_at(const Values& values) {
+    Values change;
+    for (int p = 0; p < in_use_; ++p) {
+      change[p] = values[p] - state_.linearized_at[p];
+      state_.linearized_at[p] = values[p];
+    }
+    return change;
+  }
+  const State& save() const { return state_; }
+  void restore(const State& state) {
+    state_ = state;
     for (int p = 0; p < size_; ++p)
-      if (covariance_[p][p] > 0) in_use_ = larger(in_use_, p + 1);
+      if (state_.covariance[p][p] > 0) in_use_ = larger(in_use_, p + 1);
   }
 
   int size() const { return size_; }
   int in_use() const { return in_use_; }
   bool has_friction() const { return friction_ > 0; }
-  const Values& mean() const { return mean_; }
-  Scalar mean(int p) const { return mean_[p]; }
-  const Covariance& covariance() const { return covariance_; }
-  Scalar variance(int p) const { return covariance_[p][p]; }
-  /// Of a number with these derivatives.
+  const Values& mean() const { return state_.mean; }
+  Scalar mean(int p) const { return state_.mean[p]; }
+  Scalar linearized_at(int p) const { return state_.linearized_at[p]; }
+  Scalar variance(int p) const { return state_.covariance[p][p]; }
+  /// Variance of a number whose derivative with respect to unknown `p` is derivative(p). Cost: half the
+  /// square of the unknowns in use.
   template <class Derivatives>
-  Scalar variance_of(const Derivatives& derivative) const {
+  [[gnu::always_inline]] Scalar variance_of(const Derivatives& derivative) const {
     // Without zeros first; a FixedArray has them.
     std::array<Scalar, static_cast<std::size_t>(Parameters)> derivatives;
     const auto S = [&derivatives](int p) -> Scalar& { return derivatives[static_cast<std::size_t>(p)]; };
     Scalar variance = 0;
     for (int p = 0; p < in_use_; ++p) {
       S(p) = derivative(p);
-      Scalar sum = S(p) * covariance_[p][p];
-      for (int q = 0; q < p; ++q) sum += 2 * S(q) * covariance_[p][q];
+      Scalar sum = S(p) * state_.covariance[p][p];
+      for (int q = 0; q < p; ++q) sum += 2 * S(q) * state_.covariance[p][q];
       variance += S(p) * sum;
     }
     return variance;
   }
 
-  /// Nothing of this row has been measured yet.
+  /// Begins a row: nothing of it has been measured yet.
   void begin_row() { has_errors_ = has_news_ = false; }
-  /// Before another measurement of the same row: what the one before said of the errors that they share.
-  void learn_errors(const JackReadings& jacks) {
+  /// Before another measurement of the same row: what the one before said of the jacks' errors.
+  void update_errors(const JackReadings& jacks) {
     if (!has_news_) return;
     for (int k = 0; k < jacks.size() && !has_errors_; ++k) {
       errors_.mean[k] = 0;
@@ -114,94 +135,90 @@ class Belief {
         errors_.with_error[k][l] = k == l ? jacks[k].variance : Scalar(0);
     }
     for (int k = 0; k < jacks.size(); ++k) {
-      const Scalar gain = update_.with_error[k] * update_.precision;
-      errors_.mean[k] += gain * update_.innovation;
-      for (int p = 0; p < in_use_; ++p) errors_.with_unknown[k][p] -= gain * update_.with_unknown[p];
-      for (int l = 0; l < jacks.size(); ++l) errors_.with_error[k][l] -= gain * update_.with_error[l];
+      const Scalar gain = innovation_.with_error[k] * innovation_.precision;
+      errors_.mean[k] += gain * innovation_.value;
+      for (int p = 0; p < in_use_; ++p) errors_.with_unknown[k][p] -= gain * innovation_.with_unknown[p];
+      for (int l = 0; l < jacks.size(); ++l) errors_.with_error[k][l] -= gain * innovation_.with_error[l];
     }
     has_errors_ = true;
     has_news_ = false;
   }
-  /// A reading with its standard deviation. As the mean of several it has the variance of one of them about
-  /// what was expected too: it is not to be refused for less than one of them would be.
-  struct Measured {
-    Scalar reading, sd, scatter;
-  };
-  /// What a reading says of the unknowns, the model being linearized at `at`. False if it contradicts
-  /// everything known by more than five sigma. Nothing is changed before apply().
-  bool weigh(const ExpectedType& expected, const Values& at, const JackReadings& jacks,
-             const Measured& measured) {
+  /// Compares a reading with its prediction. Returns false if and only if the innovation is outside of the
+  /// gate. Changes nothing that is known before update(). Cost: the square of the unknowns in use and jacks.
+  [[nodiscard]] bool innovate(const PredictionType& prediction, const JackReadings& jacks,
+                              const Measured<Scalar>& measured) {
     const Scalar sd = measured.sd;
-    Update& update = update_;
-    const auto& H = expected.by_unknown;
+    Innovation& innovation = innovation_;
+    const auto& H = prediction.H;
+    const auto& P = state_.covariance;
+    const auto offset = [&](int p) { return state_.mean[p] - state_.linearized_at[p]; };
     // A jack pulls less than it reads by the error of the reading.
-    const auto by_error = [&](int k) { return -expected.by_jack[k]; };
-    Scalar number = expected.at, variance = 0;
-    for (int p = 0; p < in_use_; ++p) number += H[p] * (mean_[p] - at[p]);
+    const auto by_error = [&](int k) { return -prediction.by_jack[k]; };
+    Scalar expected = prediction.value, variance = 0;
+    for (int p = 0; p < in_use_; ++p) expected += H[p] * offset(p);
     for (int k = 0; k < jacks.size(); ++k) {
-      number += expected.by_jack[k] * jacks[k].beyond;
+      expected += prediction.by_jack[k] * jacks[k].beyond;
       Scalar sum = by_error(k) * jacks[k].variance;
       if (has_errors_) {
-        number += by_error(k) * errors_.mean[k];
+        expected += by_error(k) * errors_.mean[k];
         sum = 0;
         for (int p = 0; p < in_use_; ++p) sum += errors_.with_unknown[k][p] * H[p];
         for (int l = 0; l < jacks.size(); ++l) sum += errors_.with_error[k][l] * by_error(l);
       }
-      update.with_error[k] = sum;
+      innovation.with_error[k] = sum;
       variance += by_error(k) * sum;
     }
     Scalar of_friction = 0, through_friction = 0;
     for (int p = 0; p < in_use_; ++p) {
       Scalar sum = 0;
-      for (int q = 0; q < friction_; ++q) sum += covariance_[p][q] * H[q];
+      for (int q = 0; q < friction_; ++q) sum += P[p][q] * H[q];
       if (p < friction_) of_friction += H[p] * sum;
-      for (int q = friction_; q < in_use_; ++q) sum += covariance_[p][q] * H[q];
+      for (int q = friction_; q < in_use_; ++q) sum += P[p][q] * H[q];
       for (int k = 0; k < jacks.size() && has_errors_; ++k) sum += errors_.with_unknown[k][p] * by_error(k);
-      update.with_unknown[p] = sum;
+      innovation.with_unknown[p] = sum;
       variance += H[p] * sum;
       if (p < friction_) through_friction += H[p] * sum;
     }
-    const Scalar spread = sd * sd + variance;
-    update.innovation = measured.reading - number;
-    if (!(update.innovation * update.innovation <= impossible * larger(spread, measured.scatter)))
-      return false;
-    update.precision = 1 / spread;
-    const Scalar pull = update.innovation * update.precision;
+    const Scalar S = sd * sd + variance;
+    innovation.value = measured.reading - expected;
+    if (!(innovation.value * innovation.value <= gate * larger(S, measured.scatter))) return false;
+    innovation.precision = 1 / S;
+    const Scalar pull = innovation.value * innovation.precision;
     Scalar shift = 0;
     for (int p = 0; p < in_use_; ++p) {
-      const Scalar mean = mean_[p] + update.with_unknown[p] * pull;
-      update.mean[p] = larger(least_[p], -larger(-most_[p], -mean));
-      if (p < friction_) shift += std::fabs(H[p] * (update.mean[p] - at[p]));
+      const Scalar mean = state_.mean[p] + innovation.with_unknown[p] * pull;
+      innovation.updated_mean[p] = larger(least_[p], -larger(-most_[p], -mean));
+      if (p < friction_) shift += std::fabs(H[p] * (innovation.updated_mean[p] - state_.linearized_at[p]));
     }
     // A force is about exponential in mu: by shift^2 / 2T it is off the line.
-    const Scalar left = of_friction - through_friction * through_friction * update.precision;
-    const Scalar off = shift * shift, allowed = bent * larger(std::fabs(number), sd);
-    update.is_bent = off * off > allowed * allowed * larger(left, Scalar(0));
+    const Scalar left = of_friction - through_friction * through_friction * innovation.precision;
+    const Scalar off = shift * shift, allowed = nonlinearity * larger(std::fabs(expected), sd);
+    innovation.is_nonlinear = off * off > allowed * allowed * larger(left, Scalar(0));
     return true;
   }
-  /// After weigh(): whether the mean that follows is too far from where the model is linearized, and that
-  /// mean.
-  bool is_bent() const { return update_.is_bent; }
-  const Values& mean_to_be() const { return update_.mean; }
-  /// Takes what was weighed for known.
-  void apply() {
+  /// After innovate(): whether the mean that would follow is too far from where the model is linearized.
+  bool is_nonlinear() const { return innovation_.is_nonlinear; }
+  /// After innovate(): the mean that would follow.
+  const Values& updated_mean() const { return innovation_.updated_mean; }
+  /// After innovate(): the reading is known from here on. Cost: half the square of the unknowns in use.
+  void update() {
     for (int p = 0; p < in_use_; ++p) {
-      mean_[p] = update_.mean[p];
-      const Scalar gain = update_.with_unknown[p] * update_.precision;
-      for (int q = 0; q < p; ++q)
-        covariance_[q][p] = covariance_[p][q] = covariance_[p][q] - gain * update_.with_unknown[q];
-      covariance_[p][p] -= gain * update_.with_unknown[p];
+      state_.mean[p] = innovation_.updated_mean[p];
+      const Scalar gain = innovation_.with_unknown[p] * innovation_.precision;
+      auto& P = state_.covariance;
+      for (int q = 0; q < p; ++q) P[q][p] = P[p][q] = P[p][q] - gain * innovation_.with_unknown[q];
+      P[p][p] -= gain * innovation_.with_unknown[p];
     }
     has_news_ = true;
   }
 
  private:
-  /// What a measurement adds to what is known.
-  struct Update {
-    Values with_unknown, mean;  // covariance with the number; what follows
-    FixedArray<Scalar, Jacks> with_error;
-    Scalar precision = 0, innovation = 0;  // 1 / variance of what was expected; how far off that was
-    bool is_bent = false;
+  /// Of a reading, and what would follow from it.
+  struct Innovation {
+    Values with_unknown, updated_mean;     // P H^T; the mean after an update
+    FixedArray<Scalar, Jacks> with_error;  // covariance of the predicted number with every jack's error
+    Scalar precision = 0, value = 0;       // 1 / S, with S the variance of the innovation
+    bool is_nonlinear = false;
   };
   /// Errors of the jacks' readings in this row, which all its measurements share.
   struct Errors {
@@ -212,10 +229,10 @@ class Belief {
 
   int size_ = 0, friction_ = 0;
   int in_use_ = 0;  // the unknowns beyond have no variance yet
-  Values mean_, least_, most_;
-  Covariance covariance_;
+  State state_;
+  Values least_, most_;
   // A member, so that what is not in use need not be cleared every time.
-  Update update_;
+  Innovation innovation_;
   Errors errors_;  // once there is a second measurement
   bool has_news_ = false, has_errors_ = false;
 };

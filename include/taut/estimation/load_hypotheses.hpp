@@ -14,10 +14,10 @@ namespace taut {
 /// Lines fitted by recursive least squares to readings with Gaussian noise of standard deviation one, each
 /// begun at another sample, with the probability that it is the true one.
 ///
-/// Every number of all of them is one array, so that a processor which can computes the lines side by side.
-/// `order` has the places of those in use, the oldest line first; the others have no weight.
+/// Every number of all of them is one array, so that a processor which can computes the hypotheses side by
+/// side. `order` has the places of those in use, the oldest line first; the others have no weight.
 template <class Scalar, int Capacity>
-struct LoadLines {
+struct LoadHypotheses {
   static constexpr int capacity = Capacity;
   using Lanes = std::array<Scalar, static_cast<std::size_t>(Capacity)>;
   using Counts = std::array<std::int32_t, static_cast<std::size_t>(Capacity)>;
@@ -25,22 +25,22 @@ struct LoadLines {
   /// A line remembers so many readings, so that slow creep is followed.
   static constexpr int memory = 2048;
   static constexpr Scalar mean_memory = 4096;
-  static constexpr int greatest_age = 65535;
+  static constexpr int longest_run = 65535;
   /// Density of readings that know nothing of the line.
-  static constexpr Scalar anywhere = Scalar(0.003);
-  static constexpr Scalar outliers = Scalar(0.0005);  ///< makes 5 standard deviations the limit
-  static constexpr Scalar again = Scalar(0.01);       ///< outliers come alone
-  static constexpr int most_strays = 2;               ///< more in a row were a step
-  static constexpr int established = 6;               ///< readings that make a line worth more than a reading
+  static constexpr Scalar clutter_density = Scalar(0.003);
+  static constexpr Scalar outlier_probability = Scalar(0.0005);  ///< makes 5 standard deviations the limit
+  static constexpr Scalar repeated_outlier = Scalar(0.01);       ///< outliers come alone
+  static constexpr int most_outliers = 2;                        ///< more in a row were a step
+  static constexpr int established = 6;  ///< readings that make a line worth more than a reading
 
   Lanes level{}, slope{};  ///< at the newest sample
   Lanes level_variance{}, covariance{}, slope_variance{};
-  Lanes weight{};   ///< probability
-  Lanes mean{};     ///< of the readings since it began
-  Lanes corner{};   ///< the farthest that the load had come when it began
-  Counts age{};     ///< readings that it has taken
-  Counts known{};   ///< readings since the last jump, at most `established`
-  Counts strays{};  ///< readings in a row that it took for outliers
+  Lanes weight{};              ///< probability
+  Lanes mean{};                ///< of the readings since it began
+  Lanes corner{};              ///< the farthest that the load had come when it began
+  Counts run_length{};         ///< readings that it has taken
+  Counts known{};              ///< readings since the last jump, at most `established`
+  Counts outliers_in_a_row{};  ///< readings in a row that it took for outliers
   std::array<std::int8_t, static_cast<std::size_t>(Capacity)> order{};
   std::int8_t size = 0;
 
@@ -48,12 +48,12 @@ struct LoadLines {
   static auto& at(Array& array, int i) {
     return array[static_cast<std::size_t>(i)];
   }
-  /// Of the lines by age.
+  /// The place of a line, by rank: the longest run first.
   int place(int rank) const { return at(order, rank); }
   Scalar weight_of(int rank) const { return at(weight, place(rank)); }
 
   void clear() {
-    *this = LoadLines();
+    *this = LoadHypotheses();
     for (int i = 0; i < capacity; ++i) at(order, i) = static_cast<std::int8_t>(i);
   }
   /// Returns the place of a new line; there must be room.
@@ -63,7 +63,7 @@ struct LoadLines {
     --size;
     for (int k = rank; k < size; ++k) at(order, k) = at(order, k + 1);
     at(order, size) = gone;
-    at(age, gone) = 0;
+    at(run_length, gone) = 0;
     // It is computed with the others: what has no variance and no weight stays finite and without weight.
     for (Lanes* const each : {&level, &slope, &level_variance, &covariance, &slope_variance, &weight, &mean})
       at(*each, gone) = 0;
@@ -71,10 +71,10 @@ struct LoadLines {
 
   /// Before so many readings more: those of long ago count less.
   void forget(int count) {
-    if (at(age, place(0)) < memory) return;
+    if (at(run_length, place(0)) < memory) return;
     const Scalar growth = 1 + static_cast<Scalar>(count) / memory;
     for (std::size_t i = 0; i < lanes; ++i) {
-      const Scalar factor = age[i] >= memory ? growth : Scalar(1);
+      const Scalar factor = run_length[i] >= memory ? growth : Scalar(1);
       level_variance[i] *= factor;
       covariance[i] *= factor;
       slope_variance[i] *= factor;
@@ -90,12 +90,12 @@ struct LoadLines {
     }
   }
   /// Every line takes the mean `y` of so many readings into account; a single one perhaps for an outlier.
-  void weigh(Scalar y, int count) {
+  void update(Scalar y, int count) {
     const Scalar n = static_cast<Scalar>(count), noise = 1 / n, alone = count == 1 ? Scalar(1) : Scalar(0);
     Lanes precision, root, share, square, fit;
     for (std::size_t i = 0; i < lanes; ++i) {
       // One division for two.
-      const Scalar older = static_cast<Scalar>(age[i] + count),
+      const Scalar older = static_cast<Scalar>(run_length[i] + count),
                    readings = older < mean_memory ? older : mean_memory;
       const Scalar variance = level_variance[i] + noise, both = 1 / (variance * readings);
       precision[i] = both * readings;
@@ -107,10 +107,10 @@ struct LoadLines {
     for (std::size_t i = 0; i < lanes; ++i) fit[i] = density(square[i], root[i]);
     for (std::size_t i = 0; i < lanes; ++i) {
       const Scalar r = y - level[i], fits = fit[i];
-      const Scalar stray = alone * outlier_density(known[i], strays[i]);
+      const Scalar stray = alone * outlier_density(known[i], outliers_in_a_row[i]);
       weight[i] *= fits + stray;
       // One, or zero for an outlier: a product instead of a branch.
-      const std::int32_t taken = stray > fits ? 0 : 1, older = age[i] + count * taken,
+      const std::int32_t taken = stray > fits ? 0 : 1, older = run_length[i] + count * taken,
                          better = known[i] + count * taken;
       const Scalar takes = static_cast<Scalar>(taken), p = precision[i] * takes, left = 1 - takes + p * noise;
       const Scalar level_gain = level_variance[i] * p, slope_gain = covariance[i] * p;
@@ -121,8 +121,8 @@ struct LoadLines {
       level_variance[i] *= left;
       covariance[i] *= left;
       mean[i] += (y - mean[i]) * (share[i] * takes);
-      strays[i] = (strays[i] + 1) * (1 - taken);
-      age[i] = older < greatest_age ? older : greatest_age;
+      outliers_in_a_row[i] = (outliers_in_a_row[i] + 1) * (1 - taken);
+      run_length[i] = older < longest_run ? older : longest_run;
       known[i] = better < established ? better : established;
     }
   }
@@ -132,7 +132,7 @@ struct LoadLines {
     const Scalar precision = 1 / (at(level_variance, i) + 1), r = y - at(level, i),
                  square = r * r * precision;
     return density(square < farthest ? square : farthest, std::sqrt(precision)) +
-           outlier_density(at(known, i), at(strays, i));
+           outlier_density(at(known, i), at(outliers_in_a_row, i));
   }
   /// Whether the slope is beyond so many of its standard deviations.
   bool has_slope(int i, Scalar deviations) const {
@@ -142,7 +142,7 @@ struct LoadLines {
   Lanes mean_deviations() const {
     Lanes deviation;
     for (std::size_t i = 0; i < lanes; ++i) {
-      const Scalar readings = static_cast<Scalar>(age[i]);
+      const Scalar readings = static_cast<Scalar>(run_length[i]);
       deviation[i] = readings < mean_memory ? readings : mean_memory;
     }
     for (std::size_t i = 0; i < lanes; ++i) deviation[i] = 1 / std::sqrt(deviation[i]);
@@ -164,9 +164,10 @@ struct LoadLines {
            (1 + f * (Scalar(0.6931472) +
                      f * (Scalar(0.2402265) + f * (Scalar(0.0555041) + f * Scalar(0.0096181)))));
   }
-  static Scalar outlier_density(std::int32_t known, std::int32_t strays) {
-    const Scalar alone = outliers * anywhere, repeated = strays == 0 ? alone : again * alone;
-    return known < established || strays >= most_strays ? Scalar(0) : repeated;
+  static Scalar outlier_density(std::int32_t known, std::int32_t outliers_in_a_row) {
+    const Scalar alone = outlier_probability * clutter_density,
+                 repeated = outliers_in_a_row == 0 ? alone : repeated_outlier * alone;
+    return known < established || outliers_in_a_row >= most_outliers ? Scalar(0) : repeated;
   }
 };
 

@@ -1,0 +1,155 @@
+// The filter on unknown constants against least squares over all that was measured.
+#include "taut/estimation/belief.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "support/random.hpp"
+
+namespace {
+
+constexpr int unknowns = 4, jacks = 2;
+using Belief = taut::Belief<double, unknowns, jacks>;
+using Vector = Eigen::VectorXd;
+
+/// Unknowns and then errors of the jacks' readings, with their prior.
+struct LeastSquares {
+  Eigen::MatrixXd information;
+  Vector sum;
+
+  explicit LeastSquares(const Vector& prior_sd)
+      : information(prior_sd.array().square().inverse().matrix().asDiagonal()),
+        sum(Vector::Zero(prior_sd.size())) {}
+  void add(const Vector& row, double measured, double sd) {
+    information += row * row.transpose() / (sd * sd);
+    sum += row * measured / (sd * sd);
+  }
+  Eigen::MatrixXd covariance() const { return information.inverse(); }
+  Vector mean() const { return information.ldlt().solve(sum); }
+};
+
+Vector random_vector(support::Random& random, int size) {
+  Vector v(size);
+  for (int i = 0; i < size; ++i) v[i] = support::gaussian(random);
+  return v;
+}
+/// All unknowns are of friction.
+void begin(Belief& belief, const Vector& prior_sd) {
+  belief.clear();
+  for (int p = 0; p < unknowns; ++p) belief.add(prior_sd[p]);
+  belief.end_friction();
+}
+Belief::PredictionType prediction_of(double value, const Vector& H, const Vector& by_jack) {
+  Belief::PredictionType prediction;
+  prediction.value = value;
+  for (int p = 0; p < unknowns; ++p) prediction.H[p] = H[p];
+  for (int k = 0; k < jacks; ++k) prediction.by_jack[k] = by_jack[k];
+  return prediction;
+}
+void check_same(const Belief& belief, const LeastSquares& expected) {
+  const Eigen::MatrixXd covariance = expected.covariance();
+  const Vector mean = expected.mean();
+  for (int p = 0; p < unknowns; ++p) {
+    const double sd = std::sqrt(covariance(p, p));
+    REQUIRE(std::fabs(belief.mean(p) - mean[p]) < 1e-9 * sd);
+    for (int q = 0; q < unknowns; ++q)
+      REQUIRE(std::fabs(belief.save().covariance[p][q] - covariance(p, q)) <
+              1e-9 * sd * std::sqrt(covariance(q, q)));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("readings of several rows and instruments teach what least squares over all of them does") {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    CAPTURE(seed);
+    support::Random random(seed);
+    const Vector prior_sd = random_vector(random, unknowns).cwiseAbs() + Vector::Constant(unknowns, 0.1);
+    Belief belief;
+    begin(belief, prior_sd);
+    // Every row has jack errors of its own; they are unknowns of the whole problem here.
+    constexpr int rows = 5;
+    Vector sds(unknowns + rows * jacks);
+    sds.head(unknowns) = prior_sd;
+    for (int i = unknowns; i < sds.size(); ++i) sds[i] = random.between(0.1, 2);
+    LeastSquares expected(sds);
+    for (int row = 0; row < rows; ++row) {
+      belief.begin_row();
+      const int first = unknowns + row * jacks;
+      Belief::JackReadings readings;
+      for (int k = 0; k < jacks; ++k)
+        readings.add({support::gaussian(random), sds[first + k] * sds[first + k]});
+      for (int instrument = 0; instrument < 3; ++instrument) {
+        const Vector H = random_vector(random, unknowns), by_jack = random_vector(random, jacks);
+        const double value = support::gaussian(random), sd = random.between(0.1, 2);
+        // A measured number in truth, with no jack error and all unknowns zero, but for its own noise.
+        double reading = value + sd * support::gaussian(random);
+        Vector whole = Vector::Zero(sds.size());
+        whole.head(unknowns) = H;
+        double off = reading - value;
+        for (int k = 0; k < jacks; ++k) {
+          reading += by_jack[k] * readings[k].beyond;
+          whole[first + k] = -by_jack[k];
+        }
+        belief.update_errors(readings);
+        REQUIRE(belief.innovate(prediction_of(value, H, by_jack), readings, {reading, sd, 0}));
+        belief.update();
+        expected.add(whole, off, sd);
+        check_same(belief, expected);
+      }
+    }
+  }
+}
+
+TEST_CASE("where the model is linearized does not matter to a number that is linear") {
+  support::Random random(7);
+  const Vector prior_sd = Vector::Constant(unknowns, 0.5), H = random_vector(random, unknowns),
+               none = Vector::Zero(jacks);
+  Belief belief;
+  begin(belief, prior_sd);
+  Belief::Values at;
+  for (int p = 0; p < unknowns; ++p) at[p] = 0.3 * support::gaussian(random);
+  belief.linearize_at(at);
+  double value = 10;
+  for (int p = 0; p < unknowns; ++p) value += H[p] * at[p];
+  REQUIRE(belief.innovate(prediction_of(value, H, none), {}, {10.7, 0.4, 0}));
+  belief.update();
+  LeastSquares expected(prior_sd);
+  expected.add(H, 0.7, 0.4);
+  check_same(belief, expected);
+}
+
+TEST_CASE("a reading is refused beyond five sigma of its innovation, and then nothing has changed") {
+  const Vector prior_sd = Vector::Constant(unknowns, 1.0), H = Vector::Constant(unknowns, 2.0),
+               by_jack = Vector::Constant(jacks, 0.5);
+  Belief::JackReadings readings;
+  for (int k = 0; k < jacks; ++k) readings.add({0, 4});
+  // 3 x 3 + 4 unknowns x (2 x 1)^2 + 2 jacks x (0.5 x 2)^2
+  const double sigma = std::sqrt(9.0 + 16.0 + 2.0);
+  for (const double way : {-1.0, 1.0}) {
+    Belief belief;
+    begin(belief, prior_sd);
+    const auto prediction = prediction_of(100, H, by_jack);
+    CHECK_FALSE(belief.innovate(prediction, readings, {100 + 5.001 * way * sigma, 3, 0}));
+    for (int p = 0; p < unknowns; ++p) {
+      CHECK(belief.mean(p) == 0);
+      CHECK(belief.variance(p) == 1);
+    }
+    CHECK(belief.innovate(prediction, readings, {100 + 4.999 * way * sigma, 3, 0}));
+    // The mean of several is not refused for less than one of them would be.
+    CHECK(belief.innovate(prediction, readings, {100 + 7 * way * sigma, 3, 2 * sigma * sigma}));
+  }
+}
+
+TEST_CASE("a mean stays within its bounds") {
+  Belief belief;
+  begin(belief, Vector::Constant(unknowns, 1.0));
+  belief.bound(0, -0.1, 0.2);
+  Vector H = Vector::Zero(unknowns);
+  H[0] = 1;
+  REQUIRE(belief.innovate(prediction_of(0, H, Vector::Zero(jacks)), {}, {2, 0.1, 0}));
+  belief.update();
+  CHECK(belief.mean(0) == 0.2);
+}

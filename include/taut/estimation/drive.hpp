@@ -1,0 +1,122 @@
+// How a tracker is driven along with conditioned loads: straight on, or through corners.
+#pragma once
+
+#include <cstddef>
+
+#include "taut/estimation/jack_loads.hpp"
+#include "taut/status.hpp"
+#include "taut/tracking/tracker.hpp"
+
+namespace taut {
+
+/// Drives the tracker to the loads of a row if nothing happens on the way but that one load changes. Returns
+/// false if and only if more does; then nothing was done. Cost: that of Tracker::goes_along().
+template <class TrackerType, class Jacks, class SampleType>
+[[nodiscard]] bool try_extend(TrackerType& tracker, Jacks& jacks, const SampleType& given) {
+  using Cap = typename TrackerType::Cap;
+  // With one jack alone the compiler knows what can change.
+  if constexpr (Jacks::capacity == 1 && Cap::loads == 0) {
+    if (jacks.empty() || jacks[0].locked) return false;
+    const auto load = jacks[0].target();
+    if (!tracker.goes_along(0, load)) return false;
+    jacks[0].driven.force = load;
+  } else {
+    const auto to = jacks.target(given);
+    if (!tracker.goes_along(to)) return false;
+    jacks.arrive(to, load_patterns(tracker.model()));
+  }
+  return true;
+}
+
+/// What two jacks were confirmed to pull may differ by more than friction holds, although their loads do not:
+/// lets the one of cable `c` that pulls more pull only as much as friction holds. Returns false if and only
+/// if the loads themselves differ by more, by five sigma; then nothing is changed. Cost: one product a joint.
+template <class TrackerType, class Jacks, class SampleType>
+[[nodiscard]] bool reconcile(const TrackerType& tracker, const Jacks& jacks, int c, SampleType& to) {
+  using Scalar = typename TrackerType::Scalar;
+  const auto& cable = tracker.model().cables[c];
+  auto& jack = to.jack[c];
+  const std::size_t more = jack[0].force < jack[1].force ? 1 : 0, less = 1 - more;
+  // Well inside, but two jacks on one segment pull alike.
+  Scalar carried = cable.joints() == 0 ? Scalar(1) : Scalar(1.02);
+  for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
+    carried *= static_cast<Scalar>(tracker.rho(j));
+  const auto load = [&](std::size_t end) {
+    const int k = jacks.find(c, end);
+    return k < 0 ? ConditionedLoad<Scalar>() : jacks[k].at;
+  };
+  const ConditionedLoad<Scalar> larger_load = load(more), smaller_load = load(less);
+  if (smaller_load.load + 5 * smaller_load.sd < carried * (larger_load.load - 5 * larger_load.sd))
+    return false;
+  jack[more].force = jack[less].force / carried;
+  return true;
+}
+
+/// The progress along one path after another.
+template <class Scalar>
+Progress<Scalar> join(const Progress<Scalar>& first, Progress<Scalar> then) {
+  then.events += first.events;
+  then.fraction *= first.status ? first.fraction : Scalar(1);
+  return then;
+}
+
+/// Drives the tracker straight to these loads, two jacks as far as friction holds them; `to` is then where
+/// that is. Fails as Tracker::advance() does. Cost: that of Tracker::advance(), at most once more a cable.
+template <class TrackerType, class Jacks, class SampleType>
+Progress<typename TrackerType::Scalar> drive_straight(TrackerType& tracker, const Jacks& jacks,
+                                                      SampleType& to, int event_budget) {
+  auto progress = tracker.advance(to, event_budget);
+  for (int count = 0; count < tracker.model().cables.size() && progress.status.code == Code::pulled_through &&
+                      reconcile(tracker, jacks, progress.status.index, to);
+       ++count)
+    progress = join(progress, tracker.advance(to, event_budget));
+  return progress;
+}
+
+/// Drives the tracker to the loads that ends had when they were locked, then to where loads have reversed.
+/// remember(k) is called where jack `k` was locked or reversed. Fails as Tracker::advance() does. Cost: that
+/// of drive_straight() twice.
+template <class TrackerType, class Jacks, class Remember>
+Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks& jacks,
+                                                     const Corners& corners, int event_budget,
+                                                     const Remember& remember) {
+  auto corner = jacks.driven(load_patterns(tracker.model()));
+  Progress<typename TrackerType::Scalar> progress;
+  if (corners.locks) {
+    for (int k = 0; k < jacks.size(); ++k)
+      if (jacks[k].locks_now) jacks.in(corner.jack, k).force = jacks[k].at.load;
+    progress = drive_straight(tracker, jacks, corner, event_budget);
+    for (int k = 0; k < jacks.size(); ++k)
+      if (progress.status && jacks[k].locks_now) remember(k);
+  }
+  if (corners.reverses && progress.status) {
+    for (int k = 0; k < jacks.size(); ++k)
+      if (jacks[k].has_reversed()) jacks.in(corner.jack, k).force = jacks[k].at.reversal;
+    progress = join(progress, drive_straight(tracker, jacks, corner, event_budget));
+    for (int k = 0; k < jacks.size(); ++k)
+      if (progress.status && jacks[k].has_reversed()) remember(k);
+  }
+  return progress;
+}
+
+/// Drives the tracker through the corners to `target`, where more happens than that a load changes. Fails as
+/// Tracker::advance() does; the jacks are then where the path ended. Cost: that of drive_straight() three
+/// times.
+template <class TrackerType, class Jacks, class SampleType, class Remember>
+[[gnu::noinline]] Progress<typename TrackerType::Scalar> drive(TrackerType& tracker, Jacks& jacks,
+                                                               const Corners& corners,
+                                                               const SampleType& target, int event_budget,
+                                                               const Remember& remember) {
+  Progress<typename TrackerType::Scalar> progress;
+  if (corners.any()) progress = drive_through(tracker, jacks, corners, event_budget, remember);
+  SampleType to = target;
+  if (progress.status) progress = join(progress, drive_straight(tracker, jacks, to, event_budget));
+  const int patterns = load_patterns(tracker.model());
+  if (!progress.status || progress.fraction < 1)
+    jacks.arrive(tracker.loads(), patterns);
+  else
+    jacks.arrive(to, patterns);
+  return progress;
+}
+
+}  // namespace taut

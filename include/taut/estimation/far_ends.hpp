@@ -1,0 +1,156 @@
+// Load cells at anchored ends as measurements, one by one or gathered.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "taut/estimation/cable_end.hpp"
+#include "taut/estimation/friction_filter.hpp"
+#include "taut/estimation/gathered.hpp"
+#include "taut/scene/fixed_list.hpp"
+#include "taut/scene/scene.hpp"
+
+namespace taut {
+
+/// Anchored ends whose load cell is known. A reading there is
+///     y = T + dT/dF (raw - driven) + dT/dmu (mu - mu_0) + noise,
+/// where the noise is that of the cell and, through dT/dF, of the raw jack readings: both independent from
+/// row to row. With one jack and one such cell, readings between which only the load changes are gathered and
+/// taken into account together.
+template <class FilterType, class Jacks>
+class FarEnds {
+ public:
+  using Scalar = typename FilterType::Scalar;
+  using Cap = typename FilterType::Cap;
+  using TrackerType = typename FilterType::TrackerType;
+  using EndType = CableEnd<Cap>;
+  /// What has been gathered so far.
+  struct State {
+    Gathered<Scalar> gathered;
+    std::uint8_t learned = 0;  ///< readings since something has happened
+  };
+
+  /// Finds the ends; after FilterType::start() and Jacks::start().
+  template <class CondensedType>
+  void start(const CondensedType& model, const FilterType& filter, const Jacks& jacks) {
+    ends_.clear();
+    for (int c = 0; c < model.cables.size() && filter.belief().has_friction(); ++c)
+      for (std::size_t end = 0; end < 2 && !model.cables[c].closed; ++end)
+        if (model.cables[c].ends[end] == End::anchored && filter.prior().sensor_sd[c][end] > 0)
+          ends_.add(EndType::of(c, end));
+    can_gather_ = ends_.size() == 1 && jacks.size() == 1;
+    state_.gathered = {};
+    state_.learned = 0;
+  }
+  const State& save() const { return state_; }
+  void restore(const State& state) { state_ = state; }
+
+  /// Two a cable at most.
+  const FixedList<EndType, 2 * Cap::cables>& ends() const { return ends_; }
+
+  void begin_row() { has_gathered_ = false; }
+  /// Something has happened: what is read next is worth most, and none of it waits for long.
+  void restart() { state_.learned = 0; }
+  bool has_waiting() const { return state_.gathered.size > 0; }
+  /// Whether a reading of this row is among those that wait.
+  bool has_waiting_of_row() const { return has_gathered_; }
+  /// Whether readings of the only cell are gathered at present: with a load to go by; what has begun goes on.
+  bool gathers(const Jacks& jacks) const {
+    return (has_waiting() || (can_gather_ && room() > 1)) && (jacks[0].is_new || jacks[0].locked);
+  }
+
+  /// Takes a reading [N] of the cell at `end` into account at once. Cost: that of FilterType::update().
+  [[nodiscard]] Outcome measure(const EndType& end, Scalar reading, TrackerType& tracker, FilterType& filter,
+                                const Jacks& jacks) {
+    const Scalar sd = end.in(filter.prior().sensor_sd);
+    const auto predict = [&](auto& prediction) { predict_at(end, tracker, filter, jacks, prediction); };
+    predict(filter.prediction());
+    if (!filter.is_informative(tracker, end.cable(), sd)) return Outcome::no_information;
+    count_learned(1);
+    return filter.update(tracker, predict, jacks.readings(filter.prior()), {reading, sd, Scalar(0)});
+  }
+  /// Where gathers(): gathers a reading [N] of the only cell. Cost: a few operations; that of update() with
+  /// the last one for which there is room.
+  [[nodiscard]] Outcome gather(Scalar reading, TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
+    Gathered<Scalar>& gathered = state_.gathered;
+    const Scalar driven = jacks[0].driven.force, load = jacks[0].locked ? driven : jacks[0].raw;
+    if (gathered.size == 0 && !begin_gathering(driven, tracker, filter, jacks))
+      return Outcome::no_information;
+    const Scalar off = gathered.off_line(load, reading);
+    if (!(off * off <= FilterType::BeliefType::gate * gathered.spread)) return Outcome::contradiction;
+    gathered.add(load, driven, off);
+    has_gathered_ = true;
+    return gathered.is_full() ? learn(tracker, filter, jacks) : Outcome::waits;
+  }
+  /// Takes what waits, if anything does, into account as one measurement. Cost: that of FilterType::update().
+  [[nodiscard]] Outcome learn(TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
+    if (!has_waiting()) return Outcome::waits;
+    const Gathered<Scalar> all = state_.gathered;
+    state_.gathered.size = 0;
+    count_learned(all.size);
+    const Scalar driven = jacks[0].driven.force, back = all.driven() - driven;
+    const auto predict = [&](auto& prediction) {
+      predict_at(ends_[0], tracker, filter, jacks, prediction);
+      if (back == 0) return;
+      for (int p = 0; p < filter.belief().in_use(); ++p)
+        prediction.H[p] += back * sensitivity_slope(p, tracker);
+    };
+    predict(filter.prediction());
+    typename FilterType::JackReadings readings;
+    readings.add({all.jack() - driven, all.jack_variance * all.share()});
+    const Scalar sd = ends_[0].in(filter.prior().sensor_sd);
+    return filter.update(tracker, predict, readings,
+                         {all.reading(), sd * std::sqrt(all.share()), all.spread});
+  }
+
+ private:
+  static int segment_at(const EndType& end, const TrackerType& tracker) {
+    return tracker.model().cables[end.cable()].end_segment(end.end);
+  }
+  template <class PredictionType>
+  static void predict_at(const EndType& end, const TrackerType& tracker, const FilterType& filter,
+                         const Jacks& jacks, PredictionType& prediction) {
+    predict_tension(tracker, segment_at(end, tracker), filter.belief().in_use(), jacks.ends(), prediction);
+  }
+  Scalar sensitivity_slope(int p, const TrackerType& tracker) const {
+    return tracker.sensitivity_slope(p, 0, segment_at(ends_[0], tracker));
+  }
+  /// For readings that are gathered. Soon after something has happened little is known.
+  int room() const { return state_.learned / 4; }
+  void count_learned(int readings) {
+    constexpr int well_known = 4 * Gathered<Scalar>::capacity;
+    if (state_.learned < well_known) state_.learned = static_cast<std::uint8_t>(state_.learned + readings);
+  }
+  /// Finds the line that readings are compared with. False if the cell says nothing at present.
+  bool begin_gathering(Scalar driven, const TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
+    const auto& belief = filter.belief();
+    auto& prediction = filter.prediction();
+    const Scalar sd = ends_[0].in(filter.prior().sensor_sd);
+    const auto jack = jacks[0].reading(jacks.in(filter.prior().sensor_sd, 0));
+    predict_at(ends_[0], tracker, filter, jacks, prediction);
+    if (!filter.is_informative(tracker, ends_[0].cable(), sd)) return false;
+    Gathered<Scalar>& gathered = state_.gathered;
+    gathered.begin(driven + jack.beyond, driven, room());
+    const Scalar by_jack = prediction.by_jack[0];
+    gathered.slope = by_jack;
+    gathered.level = prediction.value + by_jack * jack.beyond;
+    for (int p = 0; p < belief.in_use(); ++p) {
+      const Scalar change = belief.mean(p) - belief.linearized_at(p);
+      if (change == 0) continue;
+      gathered.level += prediction.H[p] * change;
+      gathered.slope += sensitivity_slope(p, tracker) * change;
+    }
+    gathered.jack_variance = jack.variance;
+    gathered.spread = sd * sd + by_jack * by_jack * jack.variance +
+                      belief.variance_of([&](int p) { return prediction.H[p]; });
+    return true;
+  }
+
+  FixedList<EndType, 2 * Cap::cables> ends_;
+  State state_;
+  bool can_gather_ = false;
+  bool has_gathered_ = false;  // in this row
+};
+
+}  // namespace taut

@@ -1,0 +1,58 @@
+// The force of a segment at the best estimate of loads and friction, with its standard deviation.
+#pragma once
+
+#include <cmath>
+
+#include "taut/numerics/larger.hpp"
+
+namespace taut {
+
+/// A force and its standard deviation, both in N.
+template <class Scalar>
+struct ForceEstimate {
+  Scalar force = 0, deviation = 0;
+};
+
+/// The tension of a segment where the tracker is, carried on along its present piece to the best estimate of
+/// the loads and of friction: T + dT/dF (F - driven) + dT/dmu (mu - mu_0), not below zero. The standard
+/// deviation has that of the loads, of friction, and of what friction remembers; zero if not `HasDeviation`.
+/// Cost: one product a jack and unknown in use, and with a deviation half the square of the unknowns.
+template <bool HasDeviation, class TrackerType, class Jacks, class BeliefType>
+ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tracker, const Jacks& jacks,
+                                                           const BeliefType& belief, int segment) {
+  using Scalar = typename TrackerType::Scalar;
+  Scalar T = tracker.tension(segment), variance = 0;
+  for (int k = 0; k < jacks.size(); ++k) {
+    const auto& load = jacks[k];
+    const Scalar slope = tracker.slope(k, segment), further = slope * load.beyond();
+    T += further;
+    if (!HasDeviation || load.locked) continue;
+    const Scalar part = slope * load.at.sd;
+    variance += part * part;
+    // If it has reversed, the force did not follow.
+    if (load.at.behind) variance += further * further;
+  }
+  if (HasDeviation) {
+    variance += belief.variance_of([&](int p) {
+      const Scalar S = tracker.sensitivity(p, segment);
+      T += S * (belief.mean(p) - belief.linearized_at(p));
+      return S;
+    });
+  } else {
+    for (int p = 0; p < belief.in_use(); ++p)
+      if (belief.mean(p) != belief.linearized_at(p))
+        T += tracker.sensitivity(p, segment) * (belief.mean(p) - belief.linearized_at(p));
+  }
+  return {larger(T, Scalar(0)), HasDeviation ? std::sqrt(larger(variance, Scalar(0))) : Scalar(0)};
+}
+
+/// The payout of jack `k` [m] at the best estimate of its load, from that where the tracker is.
+template <class TrackerType, class Jacks>
+typename TrackerType::Scalar estimate_payout(const TrackerType& tracker, const Jacks& jacks, int k,
+                                             typename TrackerType::Scalar of_tracker) {
+  const auto beyond = jacks[k].beyond();
+  if (beyond == 0) return of_tracker;
+  return of_tracker + tracker.payout_slope(jacks.end(k).cable(), jacks.end(k).end) * beyond;
+}
+
+}  // namespace taut

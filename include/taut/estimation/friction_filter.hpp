@@ -1,0 +1,217 @@
+// Friction from measurements: the unknowns, on which joints they act, and the iterated update.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "taut/estimation/belief.hpp"
+#include "taut/estimation/knowledge.hpp"
+#include "taut/estimation/prediction.hpp"
+#include "taut/estimation/sliding_check.hpp"
+#include "taut/scene/capacity.hpp"
+#include "taut/status.hpp"
+#include "taut/tracking/tracker.hpp"
+
+namespace taut {
+
+/// What became of a reading.
+enum class Outcome : std::uint8_t {
+  updated,         ///< it is known from here on
+  waits,           ///< it is taken into account later, with others
+  no_information,  ///< joints stick that matter to it: nothing is learned
+  contradiction,   ///< its innovation is outside of the gate: nothing is learned
+};
+
+/// An extended Kalman filter on the unknowns of friction around a tracker that carries their sensitivities.
+///
+/// The unknowns: one factor a cable on the nominal mu if the cable shares it, else one mu a joint, with the
+/// prior of the scene; then errors of the loads at which jacks last reversed or were locked, which friction
+/// remembers. The tracker always has the friction at which the filter is linearized.
+template <class CondensedType, int Parameters>
+class FrictionFilter {
+ public:
+  using Scalar = typename CondensedType::Scalar;
+  using Real = typename CondensedType::Real;
+  using Cap = typename CondensedType::Capacity;
+  using TrackerType = Tracker<CondensedType, Parameters>;
+  using PriorType = Knowledge<Scalar, Cap>;
+  using BeliefType = Belief<Scalar, Parameters, max_jacks<Cap>>;
+  using PredictionType = typename BeliefType::PredictionType;
+  using JackReadings = typename BeliefType::JackReadings;
+  using State = typename BeliefType::State;
+  /// Friction of a cable whose prior moves a measured number by less than this part of the standard deviation
+  /// of its reading does not matter to the reading.
+  static constexpr Scalar negligible = Scalar(0.2);
+  /// Iterations of one update: the state of the tracker settles in two or three.
+  static constexpr int most_iterations = 4;
+
+  /// Begins with the prior, which must outlive the filter; after Tracker::begin(). Fails with
+  /// `capacity_exceeded` if and only if there are more unknown mu than Parameters; the amount is what is
+  /// missing. Cost: two passes over the joints.
+  Status start(TrackerType& tracker, const PriorType& prior) {
+    prior_ = &prior;
+    belief_.clear();
+    unknown_of_.fill(-1);
+    const auto& model = tracker.model();
+    sliding_.start(model);
+    int missing = 0;
+    const auto add = [&](Scalar sd) {
+      const int p = belief_.add(sd);
+      if (p < 0) ++missing;
+      return p;
+    };
+    for (int c = 0; c < model.cables.size(); ++c) {
+      const Scalar sd = prior.mu_sd[c];
+      const auto& cable = model.cables[c];
+      Real sum = 0;
+      int free = 0;
+      for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j) {
+        if (model.is_locked(j)) continue;
+        sum += prior.mu[j];
+        ++free;
+      }
+      if (!(sd > 0) || free == 0) continue;
+      const bool shared = prior.shared[c];
+      const int common = shared ? add(sd) : -1;
+      for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j) {
+        if (model.is_locked(j)) continue;
+        const int p = shared ? common : add(sd);
+        if (p < 0) continue;
+        const Real weight = shared && sum > 0 ? prior.mu[j] * static_cast<Real>(free) / sum : Real(1);
+        depend(tracker, c, j, p, static_cast<Scalar>(weight));
+      }
+    }
+    belief_.end_friction();
+    if (missing > 0) return Status::at(Code::capacity_exceeded, Place::none, Parameters, missing);
+    return Status::success();
+  }
+  /// After start(): room for the error of a load that friction will remember. Returns its number, or -1 if
+  /// there is none: then such loads are taken for exact.
+  int add_load_error() { return belief_.size() < Parameters ? belief_.add(Scalar(0)) : -1; }
+
+  const State& save() const { return belief_.save(); }
+  /// Goes on where save() was called; after start(), and before Tracker::resume().
+  void restore(TrackerType& tracker, const State& state) {
+    belief_.restore(state);
+    set_friction_limits(tracker);
+  }
+
+  const BeliefType& belief() const { return belief_; }
+  const PriorType& prior() const { return *prior_; }
+  /// Where the caller predicts a number before is_informative() and update(). A member, so that what is not
+  /// in use need not be cleared.
+  PredictionType& prediction() { return prediction_; }
+  const PredictionType& prediction() const { return prediction_; }
+  /// The unknown that the mu of a joint depends on, or -1.
+  int unknown_of(int joint) const { return unknown_of_[joint]; }
+  /// How far the best estimate of a joint's mu is from its nominal value, with the unknown `p` >= 0 [-].
+  Scalar mu_change(int joint, int p) const { return weight_[joint] * belief_.mean(p); }
+  /// What mu of a joint varies by when its unknown does by one [-].
+  Scalar weight(int joint) const { return weight_[joint]; }
+  /// Friction coefficient of a joint [-].
+  Scalar mu(int joint) const {
+    const auto nominal = static_cast<Scalar>(prior_->mu[joint]);
+    const int p = unknown_of_[joint];
+    return p < 0 ? nominal : nominal + mu_change(joint, p);
+  }
+  /// Its standard deviation [-].
+  Scalar mu_deviation(int joint) const {
+    const int p = unknown_of_[joint];
+    return p < 0 ? Scalar(0) : weight_[joint] * std::sqrt(belief_.variance(p));
+  }
+
+  /// Begins a row: its measurements share the errors of the jacks' readings.
+  void begin_row() { belief_.begin_row(); }
+  /// Whether prediction() has a derivative to go by: all of `cable` must slide (-1: no cable does in
+  /// particular), and every other one whose friction shows in a number read with the standard deviation `sd`.
+  /// Cost: a pass over the joints.
+  bool is_informative(const TrackerType& tracker, int cable, Scalar sd) const {
+    const auto& cables = tracker.model().cables;
+    for (int c = 0; c < cables.size(); ++c)
+      if ((c == cable || shows(cables[c], c, sd)) && !sliding_.slides_throughout(tracker, c)) return false;
+    return true;
+  }
+  /// Takes a reading into account (iterated update; Gelb, Applied Optimal Estimation, 1974, 6.1).
+  /// prediction() has what is expected of it, and predict(prediction) makes it anew after the tracker has
+  /// been relinearized. Returns `contradiction` if and only if the innovation is outside of the gate. Cost:
+  /// that of Belief::innovate(), and in the worst case four times that of Tracker::adjust().
+  template <class Predict>
+  [[nodiscard]] Outcome update(TrackerType& tracker, const Predict& predict, const JackReadings& jacks,
+                               const Measured<Scalar>& measured) {
+    belief_.update_errors(jacks);
+    for (int iteration = 1;; ++iteration) {
+      if (!belief_.innovate(prediction_, jacks, measured)) return Outcome::contradiction;
+      const bool goes_on = belief_.is_nonlinear() && relinearize(tracker, belief_.updated_mean()) &&
+                           iteration < most_iterations;
+      if (!goes_on) {
+        belief_.update();
+        return Outcome::updated;
+      }
+      predict(prediction_);
+    }
+  }
+  /// The jack at this end reverses now or is locked: from here on unknown `p` is the error of its load, with
+  /// the standard deviation `sd` [N]. Cost: that of Tracker::turn(), and at worst of Tracker::adjust().
+  void remember_reversal(TrackerType& tracker, int p, int cable, std::size_t end, Scalar sd) {
+    if (belief_.mean(p) != belief_.linearized_at(p)) static_cast<void>(relinearize(tracker, belief_.mean()));
+    tracker.turn(p, cable, end);
+    belief_.renew(p, sd);
+  }
+
+ private:
+  using Values = typename BeliefType::Values;
+
+  void depend(TrackerType& tracker, int c, int j, int p, Scalar weight) {
+    unknown_of_[j] = static_cast<std::int16_t>(p);
+    weight_[j] = weight;
+    if (!(weight > 0)) return;
+    // mu >= 0, and never quite locked.
+    const Real most_mu = (prior_->capstan[c] ? Real(6) : Real(0.98)) / prior_->grip[j];
+    const auto nominal = static_cast<Scalar>(prior_->mu[j]);
+    belief_.bound(p, -nominal / weight, (static_cast<Scalar>(most_mu) - nominal) / weight);
+    set_friction_limit(tracker, c, j);
+  }
+  void set_friction_limit(TrackerType& tracker, int c, int j) const {
+    const int p = unknown_of_[j];
+    const Scalar at = belief_.linearized_at(p);
+    const auto weight = static_cast<Real>(weight_[j]);
+    const auto limit = prior_->limit(c, j, prior_->mu[j] + weight * static_cast<Real>(at));
+    tracker.set_friction(j, at == 0 ? tracker.model().rho[j] : limit.rho, p, weight * limit.slope);
+  }
+  void set_friction_limits(TrackerType& tracker) const {
+    const auto& cables = tracker.model().cables;
+    for (int c = 0; c < cables.size(); ++c) {
+      const auto& cable = cables[c];
+      for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
+        if (unknown_of_[j] >= 0) set_friction_limit(tracker, c, j);
+    }
+  }
+  /// Brings the tracker to these values of the unknowns.
+  bool relinearize(TrackerType& tracker, const Values& values) {
+    const Values change = belief_.linearize_at(values);
+    set_friction_limits(tracker);
+    return tracker.adjust(change).ok();
+  }
+  /// Whether friction of cable `c` matters to the predicted number.
+  template <class CableLayout>
+  bool shows(const CableLayout& cable, int c, Scalar sd) const {
+    Scalar square = 0;
+    for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j) {
+      const int p = unknown_of_[j];
+      if (p < 0) continue;
+      const Scalar part = prediction_.H[p] * prior_->mu_sd[c];
+      square += part * part;
+      if (prior_->shared[c]) break;
+    }
+    return square > negligible * sd * (negligible * sd);
+  }
+
+  const PriorType* prior_ = nullptr;
+  BeliefType belief_;
+  PredictionType prediction_;
+  SlidingCheck<Cap> sliding_;
+  FixedArray<std::int16_t, Cap::joints> unknown_of_;
+  FixedArray<Scalar, Cap::joints> weight_;  // of the unknown in mu
+};
+
+}  // namespace taut

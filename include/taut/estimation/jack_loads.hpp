@@ -1,0 +1,106 @@
+// The conditioned loads of all jacks, and where the tracker has been driven to.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "taut/estimation/cable_end.hpp"
+#include "taut/estimation/jack_load.hpp"
+#include "taut/estimation/knowledge.hpp"
+#include "taut/scene/capacity.hpp"
+#include "taut/scene/path.hpp"
+#include "taut/scene/sample.hpp"
+
+namespace taut {
+
+/// Jacked ends in the order in which a tracker counts them, with their loads; and the load factors that the
+/// tracker was driven to.
+template <class Scalar, class Cap, int Reversals>
+class JackLoads {
+ public:
+  static constexpr int capacity = max_jacks<Cap>;
+  using Load = JackLoad<Scalar, Reversals>;
+  using SampleType = Sample<Scalar, Cap>;
+  /// All that is known of loads, between two rows.
+  struct State {
+    FixedArray<Scalar, Cap::loads> factor;  ///< where the tracker was driven to [-]
+    FixedArray<Load, capacity> jack;
+  };
+
+  template <class CondensedType>
+  void start(const CondensedType& model, const Knowledge<Scalar, Cap>& prior) {
+    ends_.clear();
+    for_each_jacked_end(model.cables, [&](int c, std::size_t end) { ends_.add(CableEnd<Cap>::of(c, end)); });
+    state_.factor.fill(Scalar(0));
+    for (int k = 0; k < size(); ++k) {
+      state_.jack[k] = {};
+      state_.jack[k].filter.start(in(prior.sensor_sd, k));
+    }
+  }
+  const State& save() const { return state_; }
+  void restore(const State& state) { state_ = state; }
+
+  int size() const { return ends_.size(); }
+  bool empty() const { return ends_.empty(); }
+  const FixedList<CableEnd<Cap>, capacity>& ends() const { return ends_; }
+  const CableEnd<Cap>& end(int k) const { return ends_[k]; }
+  Load& operator[](int k) { return state_.jack[k]; }
+  const Load& operator[](int k) const { return state_.jack[k]; }
+  /// The entry of jack `k` in a table `table[cable][end]`.
+  template <class Table>
+  auto& in(Table& table, int k) const {
+    return ends_[k].in(table);
+  }
+  /// The number of the jack at an end, or -1.
+  int find(int cable, std::size_t end) const {
+    for (int k = 0; k < size(); ++k)
+      if (ends_[k].is(cable, end)) return k;
+    return -1;
+  }
+  /// Every load as the measurements of the row see it.
+  FixedList<JackReading<Scalar>, capacity> readings(const Knowledge<Scalar, Cap>& prior) const {
+    FixedList<JackReading<Scalar>, capacity> all;
+    for (int k = 0; k < size(); ++k) all.add(state_.jack[k].reading(in(prior.sensor_sd, k)));
+    return all;
+  }
+  /// What slides and what sticks is in doubt while a load may have reversed.
+  bool may_have_reversed() const {
+    for (int k = 0; k < size(); ++k)
+      if (state_.jack[k].at.behind) return true;
+    return false;
+  }
+  /// Where the tracker is driven to for a row.
+  SampleType target(const SampleType& given) const {
+    SampleType to = given;
+    for (int k = 0; k < size(); ++k) in(to.jack, k) = {state_.jack[k].target(), state_.jack[k].locked};
+    return to;
+  }
+  /// Where it was driven to last.
+  SampleType driven(int patterns) const {
+    SampleType from;
+    for (int i = 0; i < patterns; ++i) from.factor[i] = state_.factor[i];
+    for (int k = 0; k < size(); ++k) in(from.jack, k) = state_.jack[k].driven;
+    return from;
+  }
+  /// The tracker has come to these loads: those of a row, or its own where it came to its end before.
+  template <class Loads>
+  void arrive(const Loads& loads, int patterns) {
+    for (int i = 0; i < patterns; ++i) state_.factor[i] = static_cast<Scalar>(loads.factor[i]);
+    for (int k = 0; k < size(); ++k) {
+      const auto& at = in(loads.jack, k);
+      state_.jack[k].driven = {static_cast<Scalar>(at.force), at.locked};
+    }
+  }
+
+ private:
+  FixedList<CableEnd<Cap>, capacity> ends_;
+  State state_;
+};
+
+/// Load patterns of a condensed scene: zero at compile time where the capacity is.
+template <class CondensedType>
+int load_patterns(const CondensedType& model) {
+  return CondensedType::Capacity::loads == 0 ? 0 : model.loads;
+}
+
+}  // namespace taut

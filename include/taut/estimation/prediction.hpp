@@ -1,0 +1,67 @@
+// What an instrument should read where the tracker is, and the derivatives of that number.
+#pragma once
+
+#include "taut/estimation/cable_end.hpp"
+#include "taut/scene/fixed_list.hpp"
+
+namespace taut {
+
+/// A number that can be measured, linearized where the tracker is:
+///     y = value + H (x - x_0) + by_jack (F - F_0)
+/// with x the unknowns and F the forces of the jacks; x_0 and F_0 are those of the tracker.
+template <class Scalar, int Parameters, int Jacks>
+struct Prediction {
+  Scalar value = 0;                   ///< [unit of y]
+  FixedArray<Scalar, Parameters> H;   ///< by every unknown in use [unit of y / unit of the unknown]
+  FixedArray<Scalar, Jacks> by_jack;  ///< by the force of every unlocked jack [unit of y / N]
+};
+
+/// The tension of a segment [N]. `unknowns` are those in use, `jacks` all jacked ends. Always possible.
+/// Cost: two multiplications an unknown and input.
+template <class TrackerType, class Jacks, class PredictionType>
+void predict_tension(const TrackerType& tracker, int segment, int unknowns, const Jacks& jacks,
+                     PredictionType& prediction) {
+  prediction.value = tracker.tension(segment);
+  for (int p = 0; p < unknowns; ++p) prediction.H[p] = tracker.sensitivity(p, segment);
+  for (int k = 0; k < jacks.size(); ++k) prediction.by_jack[k] = tracker.slope(k, segment);
+}
+
+/// The stroke of a jack [m]: its payout since the start. The same arguments; Cost: all that moves along the
+/// cables once an unknown and jack.
+template <class TrackerType, class Cap, class Jacks, class PredictionType>
+void predict_stroke(const TrackerType& tracker, const CableEnd<Cap>& at, int unknowns, const Jacks& jacks,
+                    PredictionType& prediction) {
+  using Scalar = typename TrackerType::Scalar;
+  const auto of = [&](const auto& moving) { return static_cast<Scalar>(at.in(moving.payout)); };
+  prediction.value = of(tracker.moves());
+  for (int p = 0; p < unknowns; ++p) prediction.H[p] = of(tracker.move_sensitivity(p));
+  for (int k = 0; k < jacks.size(); ++k)
+    prediction.by_jack[k] = of(tracker.move_slope(jacks[k].cable(), jacks[k].end));
+}
+
+/// The axial force of a strut [N], tension positive. `rows` are the CondensedStruts of the scene, `strut` has
+/// the number of the scene; the other arguments as for a stroke. Cost: all that moves along the cables and a
+/// sum over the segments once an unknown and jack.
+template <class TrackerType, class StrutRows, class Jacks, class PredictionType>
+void predict_strut(const TrackerType& tracker, const StrutRows& rows, int strut, int unknowns,
+                   const Jacks& jacks, PredictionType& prediction) {
+  using Scalar = typename TrackerType::Scalar;
+  using Real = typename TrackerType::Real;
+  const auto& model = tracker.model();
+  const auto carried = [&](const auto& elongations) {
+    Real sum = 0;
+    for (int i = 0; i < model.segments; ++i) sum += rows.elongation[i][strut] * elongations[i];
+    return sum;
+  };
+  const auto& loads = tracker.loads();
+  Real value = loads.prestrain * rows.prestrain[strut] + carried(tracker.elongations());
+  for (int i = 0; i < model.loads; ++i) value += loads.factor[i] * rows.load[i][strut];
+  prediction.value = static_cast<Scalar>(value);
+  for (int p = 0; p < unknowns; ++p)
+    prediction.H[p] = static_cast<Scalar>(carried(tracker.elongations_by(tracker.move_sensitivity(p))));
+  for (int k = 0; k < jacks.size(); ++k)
+    prediction.by_jack[k] = static_cast<Scalar>(
+        carried(tracker.elongations_by(tracker.move_slope(jacks[k].cable(), jacks[k].end))));
+}
+
+}  // namespace taut
