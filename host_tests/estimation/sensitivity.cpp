@@ -31,13 +31,14 @@ struct Varied {
     REQUIRE(condensation.run(scene, model).ok());
     taut::find_knowledge(scene, known);
   }
-  void begin(Follower& tracker, bool shared) const {
-    REQUIRE(tracker.start(model).status.ok());
-    for (int j = 0; j < scene.mu.size(); ++j) {
+  auto friction(bool shared) const {
+    return [this, shared](int j) {
       const auto limit = known.limit(0, j, known.mu[j]);
-      if (model.is_locked(j)) continue;
-      tracker.set_friction(j, limit.rho, shared ? 0 : j, limit.slope);
-    }
+      return taut::JointFriction<double>{limit.rho, shared ? 0 : j, limit.slope};
+    };
+  }
+  void begin(Follower& tracker, bool shared) const {
+    REQUIRE(tracker.start(model, friction(shared)).status.ok());
   }
 };
 
@@ -140,13 +141,9 @@ double worst_after_adjusting(std::uint64_t seed, double by) {
     if (!adjusted.advance(given.log[row]).status.ok() || !expected.advance(given.log[row]).status.ok()) break;
     if (row < given.log.size() / 2) continue;
     if (row == given.log.size() / 2) {
-      for (int j = 0; j < given.scene.mu.size(); ++j) {
-        const auto limit = after.known.limit(0, j, after.known.mu[j]);
-        if (!after.model.is_locked(j)) adjusted.set_friction(j, limit.rho, given.shared ? 0 : j, limit.slope);
-      }
       taut::FixedArray<double, most_parameters> change;
       change[given.parameter] = by;
-      REQUIRE(adjusted.adjust(change).ok());
+      REQUIRE(adjusted.adjust(after.friction(given.shared), change).ok());
       CHECK(taut::verify(adjusted).worst() < 1e-9);
     }
     for (int i = 0; i < before.model.segments; ++i)

@@ -76,7 +76,7 @@ struct Sizes {
   template <class Cap>
   struct OfStack {
     using Model = Condensed<Scalar, Cap>;
-    using Solver = ModeSolver<Model, typename Tracker<Model>::Laws>;
+    using Solver = ModeSolver<Model, typename CableSystem<Model, 0>::Laws>;
     static constexpr std::size_t bytes = sizeof(Solver) + 2 * sizeof(FixedList<Candidate, 2 * Cap::joints>) +
                                          sizeof(typename Tracker<Model>::Moving) +
                                          8 * sizeof(typename Solver::Tensions) +

@@ -68,13 +68,13 @@ class Estimator {
 
   /// Begins without loads, with friction as it is known beforehand. `condensed` and `knowledge` must outlive
   /// the estimator. Fails with `capacity_exceeded` if and only if there are more unknown mu than Parameters
-  /// (the amount is what is missing), else as Tracker::bring_on_prestrain() does. Cost: that of the
+  /// (the amount is what is missing), else as Tracker::start() does. Cost: that of the
   /// prestrain.
   Progress<Scalar> start(const CondensedType& condensed, const KnowledgeType& knowledge,
                          const AlarmLimits<Scalar>& limits = {}) {
     const Status known = begin(condensed, knowledge, limits);
     if (!known) return {known, Scalar(0), 0};
-    return tracker_.bring_on_prestrain();
+    return tracker_.start(condensed, filter_.friction(condensed));
   }
   /// The state between two rows. Cost: a copy of it.
   State save() const { return {tracker_.save(), jacks_.save(), filter_.save(), far_ends_.save()}; }
@@ -86,9 +86,9 @@ class Estimator {
     const Status known = begin(condensed, knowledge, limits);
     if (!known) return known;
     jacks_.restore(state.jacks);
-    filter_.restore(tracker_, state.friction);
+    filter_.restore(state.friction);
     far_ends_.restore(state.far_ends);
-    return tracker_.resume(state.tracker);
+    return tracker_.restore(condensed, filter_.friction(condensed), state.tracker);
   }
 
   // A row of readings.
@@ -204,9 +204,8 @@ class Estimator {
     limits_ = limits;
     alarms_.clear();
     is_friction_fine_ = false;
-    tracker_.begin(condensed);
     jacks_.start(condensed, knowledge);
-    const Status known = filter_.start(tracker_, knowledge);
+    const Status known = filter_.start(condensed, knowledge);
     for (std::size_t m = 0; m < remembered_reversals; ++m)
       for (int k = 0; k < jacks_.size(); ++k) {
         const bool has_noise = jacks_.in(knowledge.sensor_sd, k) > 0;

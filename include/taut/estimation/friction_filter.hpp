@@ -45,14 +45,13 @@ class FrictionFilter {
   /// Iterations of one update: the state of the tracker settles in two or three.
   static constexpr int most_iterations = 4;
 
-  /// Begins with the prior, which must outlive the filter; after Tracker::begin(). Fails with
+  /// Begins with the prior, which must outlive the filter. Fails with
   /// `capacity_exceeded` if and only if there are more unknown mu than Parameters; the amount is what is
   /// missing. Cost: two passes over the joints.
-  Status start(TrackerType& tracker, const PriorType& prior) {
+  Status start(const CondensedType& model, const PriorType& prior) {
     prior_ = &prior;
     belief_.clear();
     unknown_of_.fill(-1);
-    const auto& model = tracker.model();
     sliding_.start(model);
     int missing = 0;
     const auto add = [&](Scalar sd) {
@@ -78,7 +77,7 @@ class FrictionFilter {
         const int p = shared ? common : add(sd);
         if (p < 0) continue;
         const Real weight = shared && sum > 0 ? prior.mu[j] * static_cast<Real>(free) / sum : Real(1);
-        depend(tracker, c, j, p, static_cast<Scalar>(weight));
+        depend(c, j, p, static_cast<Scalar>(weight));
       }
     }
     belief_.end_friction();
@@ -90,10 +89,12 @@ class FrictionFilter {
   int add_load_error() { return belief_.size() < Parameters ? belief_.add(Scalar(0)) : -1; }
 
   const State& save() const { return belief_.save(); }
-  /// Goes on where save() was called; after start(), and before Tracker::resume().
-  void restore(TrackerType& tracker, const State& state) {
-    belief_.restore(state);
-    set_friction_limits(tracker);
+  /// Goes on where save() was called; after start().
+  void restore(const State& state) { belief_.restore(state); }
+  /// The friction at which the filter is linearized, for Tracker::start() and Tracker::restore(): a function
+  /// of the joint.
+  auto friction(const CondensedType& model) const {
+    return [this, &model](int joint) { return friction_of(model, joint); };
   }
 
   const BeliefType& belief() const { return belief_; }
@@ -161,7 +162,7 @@ class FrictionFilter {
  private:
   using Values = typename BeliefType::Values;
 
-  void depend(TrackerType& tracker, int c, int j, int p, Scalar weight) {
+  void depend(int c, int j, int p, Scalar weight) {
     unknown_of_[j] = static_cast<std::int16_t>(p);
     weight_[j] = weight;
     if (!(weight > 0)) return;
@@ -169,28 +170,21 @@ class FrictionFilter {
     const Real most_mu = (prior_->capstan[c] ? Real(6) : Real(0.98)) / prior_->grip[j];
     const auto nominal = static_cast<Scalar>(prior_->mu[j]);
     belief_.bound(p, -nominal / weight, (static_cast<Scalar>(most_mu) - nominal) / weight);
-    set_friction_limit(tracker, c, j);
   }
-  void set_friction_limit(TrackerType& tracker, int c, int j) const {
+  JointFriction<Real> friction_of(const CondensedType& model, int j) const {
     const int p = unknown_of_[j];
+    if (p < 0 || !(weight_[j] > 0)) return {};
+    int c = 0;
+    while (j >= model.cables[c].first_joint + model.cables[c].joints()) ++c;
     const Scalar at = belief_.linearized_at(p);
     const auto weight = static_cast<Real>(weight_[j]);
     const auto limit = prior_->limit(c, j, prior_->mu[j] + weight * static_cast<Real>(at));
-    tracker.set_friction(j, at == 0 ? tracker.model().rho[j] : limit.rho, p, weight * limit.slope);
-  }
-  void set_friction_limits(TrackerType& tracker) const {
-    const auto& cables = tracker.model().cables;
-    for (int c = 0; c < cables.size(); ++c) {
-      const auto& cable = cables[c];
-      for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
-        if (unknown_of_[j] >= 0) set_friction_limit(tracker, c, j);
-    }
+    return {at == 0 ? model.rho[j] : limit.rho, p, weight * limit.slope};
   }
   /// Brings the tracker to these values of the unknowns.
   bool relinearize(TrackerType& tracker, const Values& values) {
     const Values change = belief_.linearize_at(values);
-    set_friction_limits(tracker);
-    return tracker.adjust(change).ok();
+    return tracker.adjust(friction(tracker.model()), change).ok();
   }
   /// Whether friction of cable `c` matters to the predicted number.
   template <class CableLayout>

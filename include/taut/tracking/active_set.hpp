@@ -34,6 +34,9 @@ class ActiveSet {
   void begin(const CondensedType& model) {
     model_ = &model;
     held_ = 0;
+    stiffest_ = 0;
+    for (int i = 0; i < model.segments; ++i) stiffest_ = larger(stiffest_, model.coupling(i, i));
+    if (!(stiffest_ > 0)) stiffest_ = 1;
     if constexpr (may_be_either) is_diagonal_ = has_diagonal_coupling();
     clear();
   }
@@ -120,7 +123,14 @@ class ActiveSet {
   }
   /// What an elongation by an active move is in its own segment [N/m].
   Real stiffness(int i) const { return stiffness(active_[i].move); }
-  Real stiffness(const Move& move) const { return model_->coupling(move.lengthened, move.lengthened); }
+  Real stiffness(const Move& move) const {
+    const Real before = model_->coupling(move.lengthened, move.lengthened);
+    if (before > 0) return before;
+    const Real after = move.shortened < 0 ? Real(0) : model_->coupling(move.shortened, move.shortened);
+    return after > 0 ? after : stiffest_;
+  }
+  /// The largest of a segment in its own direction [N/m]; 1 where statics give all forces, and lengths none.
+  Real stiffest() const { return stiffest_; }
 
  private:
   static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
@@ -375,7 +385,7 @@ class ActiveSet {
 
   const CondensedType* model_ = nullptr;
   Actives active_;
-  Real held_ = 0;
+  Real held_ = 0, stiffest_ = 1;
   Links links_;
   BorderedLu<Real, has_rows ? capacity : 0> factors_;
   bool is_diagonal_ = false;

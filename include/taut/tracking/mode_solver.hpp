@@ -57,8 +57,7 @@ class ModeSolver {
     equalities_ = 0;
     pairs_.clear();
     least_.fill(Real(0));
-    stiffest_ = 0;
-    for (int i = 0; i < model.segments; ++i) stiffest_ = larger(stiffest_, model.coupling(i, i));
+    stiffest_ = set.stiffest();
   }
   void add_slip(const Candidate& slip) { pairs_.add({slip.joint, slip.way}); }
   /// `least` is the rate of tension that jacks and friction give it at least.

@@ -1,0 +1,48 @@
+// The one plain value of a tensioning: what has moved, what sticks and slides, the loads reached.
+#pragma once
+
+#include <cstdint>
+
+#include "taut/scene/path.hpp"
+#include "taut/tracking/moves.hpp"
+
+namespace taut {
+
+/// Where a tensioning has come to. All else that a tracker holds is made from it and from the condensed
+/// scene: saved whole, restored whole, it gives the same bits. A plain value: it may be stored and read back
+/// byte by byte, on the same machine and with the same build. SI units.
+template <class CondensedType, int MaxInputs>
+struct CableState {
+  using Scalar = typename CondensedType::Scalar;
+  using Real = typename CondensedType::Real;
+  using Cap = typename CondensedType::Capacity;
+  using Loads = Drive<Real, Cap>;
+
+  Loads now;   ///< load factors, jack forces and locked extensions reached
+  Loads goal;  ///< the end of the path that was asked for
+
+  // Modes of joints and of runs, the parts of cables between anchors, jacks and self-locking joints.
+  FixedArray<JointState, Cap::joints> slides;  ///< stick, or the way: its friction is at this limit
+  FixedList<std::int16_t, Cap::joints> order;  ///< joints that slide, as they began
+  FixedArray<bool, Cap::segments> slack;       ///< of runs: without tension, with length to spare
+  FixedArray<bool, Cap::segments> rests;       ///< of runs: without tension since its jacks are at zero
+  FixedArray<std::int16_t, Cap::segments> representative;  ///< of runs: the segment with the largest tension
+
+  // The present affine piece.
+  Moving<Real, Cap> moved;                ///< slips, extensions and slack lengths where the piece was begun
+  Loads built;                            ///< the loads there
+  FixedArray<bool, Cap::loads> has_load;  ///< load patterns that change along it
+  bool has_map = false;                   ///< there is one
+  bool arrived = false;                   ///< the goal was reached
+  FixedArray<Real, MaxInputs> last;       ///< how the inputs changed last: the direction of sliding
+
+  // Samples without an event.
+  FixedArray<Scalar, Cap::segments> tension;  ///< at `now` [N]
+  FixedArray<bool, MaxInputs> live;           ///< inputs that change from sample to sample
+  FixedArray<Scalar, MaxInputs> reach;        ///< so large forces are still of the order of `peak`
+  bool has_range = false;                     ///< one input alone changes, and how far it may go is known
+
+  Real peak = 0;  ///< the largest force so far: what is small against it is zero [N]
+};
+
+}  // namespace taut

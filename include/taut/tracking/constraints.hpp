@@ -1,0 +1,164 @@
+// From modes to constraints: which tension every active move keeps, and the affine map of the piece.
+#pragma once
+
+#include "taut/tracking/cable_system.hpp"
+
+namespace taut {
+
+/// Puts the active moves of the present modes at work, Eq. (9): a joint that slides keeps T_small = rho
+/// T_big, an unlocked jack its force, a slack run no tension. Then makes the affine map of the piece from
+/// totals, Eqs. (12) and (14).
+template <class Cables>
+class Constraints {
+ public:
+  using Real = typename Cables::Real;
+  using Cap = typename Cables::Cap;
+  using Laws = typename Cables::Laws;
+  using Map = typename Cables::Map;
+  using State = typename Cables::State;
+  using Tensions = typename Cables::Tensions;
+  using Inputs = typename Cables::Inputs;
+  using JackedEnd = typename Cables::JackedEnd;
+
+  explicit Constraints(Cables& cables)
+      : cables_(cables),
+        model_(*cables.model),
+        runs_(cables.runs),
+        laws_(cables.laws),
+        state_(cables.state),
+        map_(cables.map) {}
+
+  /// Puts the moves of the present states at work, in their order. Where laws imply one another, a node is
+  /// held by its cables alone; weak springs then choose among its places, and forces do not depend on them.
+  bool set_up() {
+    cables_.is_set_up = add_all(Real(0)) || add_all(held_at_zero);
+    return cables_.is_set_up;
+  }
+  /// The same if every pivot keeps digits: for a guess, which is not worth less.
+  bool set_up_soundly() {
+    cables_.is_set_up = add_all(Real(0), sound_pivot);
+    return cables_.is_set_up;
+  }
+  /// Only what follows whatever happens, to decide all else from nothing. False if its laws contradict.
+  bool set_up_equalities() {
+    map_.begin(model_);
+    map_.set().hold(held_at_zero);
+    cables_.is_set_up = false;
+    return add_equalities();
+  }
+  /// Whether the laws that imply one another agree; if not, a node is free.
+  bool is_held(bool totally) const {
+    if (!map_.is_held()) return true;
+    if (totally) return !(map_.law_violation(laws_, map_.base(), map_.anchor()) > Real(1e-9) * state_.peak);
+    Inputs dx;
+    cables_.directions(dx);
+    Tensions rate;
+    map_.tension_rates(dx, rate);
+    return !(map_.law_violation(laws_, rate, dx) > Real(1e-9) * larger(cables_.push, state_.peak));
+  }
+  /// Makes the map of the moves at work from totals; they must be frozen at the present state.
+  bool rebuild() {
+    for (int i = 0; i < model_.loads; ++i) state_.has_load[i] = state_.now.factor[i] != state_.goal.factor[i];
+    return make_map();
+  }
+  bool make_map() {
+    map_.clear_inputs();
+    for (const JackedEnd& jack : cables_.jacks) add_jack_input(jack.cable, jack.end);
+    for (int i = 0; i < model_.loads; ++i)
+      if (state_.has_load[i]) map_.add_input(Input::Kind::load, i);
+    if (state_.now.prestrain != state_.goal.prestrain) map_.add_input(Input::Kind::prestrain, 0);
+    typename Map::Moves moves;
+    for (int i = 0; i < map_.active(); ++i) moves[i] = state_.moved.of(map_.move(i));
+    Inputs x;
+    cables_.values(state_.now, x);
+    map_.make(laws_, cables_.totals(), moves, x, [this](const auto& settle) { differentiate(settle); });
+    state_.has_map = true;
+    state_.built = state_.now;
+    return true;
+  }
+
+ private:
+  /// Of a segment's own stiffness, in decisions from zero tension.
+  static constexpr Real held_at_zero = Real(1e-8);
+  /// Pivots of the moves at work, of the largest entry in row and column: none is left; so many digits are
+  /// kept.
+  static constexpr Real least_pivot = Real(1e-12), sound_pivot = Real(1e-4);
+
+  bool add_all(Real held, Real least = least_pivot) {
+    map_.begin(model_);
+    map_.set().hold(held);
+    return add_equalities() && add_slides(least);
+  }
+  /// What follows whatever happens: jacks, spans without tension, joints without friction.
+  bool add_equalities() {
+    for (const JackedEnd& jack : cables_.jacks)
+      if (!add_jack(jack.cable, jack.end)) return false;
+    for (int r = 0; r < runs_.size(); ++r)
+      if (state_.slack[r] ? !add_slack_run(r) : state_.rests[r] && !add_resting_run(r)) return false;
+    // Where another law says the same already, there is nothing to add.
+    for (int j = 0; j < cables_.joints(); ++j)
+      if (cables_.glides(j) && cables_.can_slide(j))
+        static_cast<void>(map_.set().append(laws_, laws_.gliding(j)));
+    return true;
+  }
+  bool add_slides(Real least) {
+    for (const int j : state_.order)
+      if (!map_.set().append(laws_, laws_.sliding(Candidate::of(j, state_.slides[j])), least)) return false;
+    return true;
+  }
+  template <class Settle>
+  void differentiate(const Settle& settle) {
+    if constexpr (Cables::is_adjustable)
+      cables_.derivatives.make(map_, settle,
+                               [this](const auto& moved, Tensions& T) { cables_.carry(moved, T); });
+    else
+      static_cast<void>(settle);
+  }
+  bool add_jack(int c, std::size_t end) {
+    if (state_.goal.jack[c][end].locked || cables_.is_spare(c, end)) return true;
+    const auto on = static_cast<std::int16_t>(model_.cables[c].end_segment(end));
+    return map_.set().append(laws_, {Map::payout_move(model_, 2 * c + static_cast<int>(end)), on, 0, -1});
+  }
+  void add_jack_input(int c, std::size_t end) {
+    const int index = 2 * c + static_cast<int>(end);
+    const auto& start = state_.now.jack[c][end];
+    const auto& goal = state_.goal.jack[c][end];
+    if (!goal.locked && !cables_.is_spare(c, end)) map_.add_input(Input::Kind::jack_force, index);
+    if (goal.locked && start.payout != goal.payout) map_.add_input(Input::Kind::payout, index);
+  }
+  /// Its tensions are zero; its slips and its excess length follow. A ring keeps the slip of one joint: it
+  /// may turn freely.
+  bool add_slack_run(int r) {
+    const Run& run = runs_[r];
+    for (int i = 0; i < run.count; ++i) {
+      const bool last = i == run.count - 1;
+      const Move move = last ? Move::of(Move::Kind::excess, r, run.segment(0)) : laws_.slip(run.joint(i));
+      if (!map_.set().append(laws_, {move, static_cast<std::int16_t>(run.segment(i)), 0, -1})) return false;
+    }
+    return true;
+  }
+  /// Its jacks keep the end segments at zero, its slips all others. Between two jacks the cable may move as a
+  /// whole; one joint keeps its place.
+  bool add_resting_run(int r) {
+    const Run& run = runs_[r];
+    bool at_start = false, at_end = false;
+    for (const JackedEnd& jack : cables_.jacks) {
+      at_start = at_start || (cables_.pulls(jack, run) && jack.end == 0);
+      at_end = at_end || (cables_.pulls(jack, run) && jack.end == 1);
+    }
+    for (int i = at_start && at_end ? 1 : 0; i < run.joints(); ++i)
+      if (!map_.set().append(laws_, {laws_.slip(run.joint(i)),
+                                     static_cast<std::int16_t>(run.segment(at_end ? i : i + 1)), 0, -1}))
+        return false;
+    return true;
+  }
+
+  Cables& cables_;
+  const typename Cables::Model& model_;
+  const Runs<Cap>& runs_;
+  const Laws& laws_;
+  State& state_;
+  Map& map_;
+};
+
+}  // namespace taut

@@ -1,0 +1,168 @@
+// Where a piece of the path ends, whether its forces may be shown, and why there is no answer.
+#pragma once
+
+#include "taut/tracking/cable_system.hpp"
+
+namespace taut {
+
+/// What ends a piece of the path: a joint at its limit, a run that goes slack, or one that is taut again.
+template <class Real>
+struct Ending {
+  Candidate next;
+  std::int16_t run = -1, excess = -1;  ///< the run; its active move
+  Real falling = 0;                    ///< rate of what reached zero
+  Real step = 1;                       ///< where, as a part of what was left of the path
+};
+
+/// Looks along the present piece, Eq. (15); changes nothing but derivatives.
+template <class Cables>
+class EventSearch {
+ public:
+  using Real = typename Cables::Real;
+  using Cap = typename Cables::Cap;
+  using Laws = typename Cables::Laws;
+  using Map = typename Cables::Map;
+  using State = typename Cables::State;
+  using Tensions = typename Cables::Tensions;
+  using Inputs = typename Cables::Inputs;
+  static constexpr Real epsilon = Cables::epsilon, tolerance = Cables::tolerance;
+  using Ending = taut::Ending<Real>;
+
+  explicit EventSearch(Cables& cables)
+      : cables_(cables),
+        model_(*cables.model),
+        runs_(cables.runs),
+        laws_(cables.laws),
+        state_(cables.state),
+        map_(cables.map) {}
+
+  /// How far the present piece goes, as a part of what is left of the path.
+  Real next(const Inputs& dx, Ending& ending) const {
+    Tensions rate;
+    map_.tension_rates(dx, rate);
+    Real step = 1;
+    ending = {};
+    const auto shorten = [&](Real room, Real falling, const Candidate& next, int run, int excess) {
+      // At the limit, and held there by decide(): what is left is rounding.
+      if (room <= cables_.force_tolerance() && falling >= -Real(16) * cables_.rate_tolerance()) return;
+      if (falling >= 0 || room > -falling * step) return;
+      step = room > 0 ? room / -falling : Real(0);
+      ending = {next, static_cast<std::int16_t>(run), static_cast<std::int16_t>(excess), falling, step};
+    };
+    for (int j = 0; j < cables_.joints(); ++j) {
+      if (state_.slides[j] != JointState::stick || !cables_.can_slide(j) || cables_.glides(j)) continue;
+      for (const JointState way : {JointState::forward, JointState::backward}) {
+        const Candidate candidate = Candidate::of(j, way);
+        const Law<Real> limit = laws_.limit(candidate);
+        shorten(limit.of(cables_.force), limit.of(rate), candidate, -1, -1);
+      }
+    }
+    for (int r = 0; r < runs_.size(); ++r) {
+      const int segment = state_.representative[r];
+      if (!state_.slack[r]) shorten(cables_.force[segment], rate[segment], {}, r, -1);
+    }
+    Inputs x;
+    cables_.values(state_.now, x);
+    for (int i = 0; i < map_.active(); ++i)
+      if (map_.move(i).kind == Move::Kind::excess)
+        shorten(map_.stiffness(i) * map_.active_move(i, x), map_.stiffness(i) * map_.move_rate(i, dx), {},
+                map_.move(i).index, i);
+    return step;
+  }
+
+  /// Largest change of a tension, or of what a slack run's excess length stands for, along the whole path
+  /// [N].
+  Real change(const Inputs& dx) const {
+    Tensions rate;
+    map_.tension_rates(dx, rate);
+    Real most = 0;
+    for (int i = 0; i < model_.segments; ++i) most = larger(most, std::fabs(rate[i]));
+    for (int i = 0; i < map_.active(); ++i)
+      if (map_.move(i).kind == Move::Kind::excess)
+        most = larger(most, std::fabs(map_.stiffness(i) * map_.move_rate(i, dx)));
+    return most;
+  }
+  /// How much later the piece would end if friction were other.
+  void meet(const Ending& ending, const Inputs& x) {
+    if (!(-ending.falling > cables_.rate_tolerance())) return;
+    if (ending.excess >= 0)
+      cables_.derivatives.meet_move(map_, x, ending.excess, ending.falling);
+    else if (ending.run >= 0)
+      cables_.derivatives.meet(map_, x, cables_.force, Law<Real>::on(state_.representative[ending.run]), -1,
+                               ending.falling);
+    else if (ending.next.joint >= 0)
+      cables_.derivatives.meet(map_, x, cables_.force, laws_.limit(ending.next), ending.next.joint,
+                               ending.falling);
+  }
+  /// Whether the forces obey the laws of all moves at work, friction where joints stick, and T >= 0: no state
+  /// is shown that was not tested.
+  Status check_forces() const {
+    Real most = state_.peak;
+    for (int i = 0; i < model_.segments; ++i) most = larger(most, std::fabs(cables_.force[i]));
+    const Real least = -Real(8) * tolerance * most;
+    const Status broken = map_.is_held() ? free_node() : Status::at(Code::ill_conditioned, Place::none, -1);
+    Inputs x;
+    cables_.values(state_.now, x);
+    if (map_.law_violation(laws_, cables_.force, x) > -least) return broken;
+    if (!is_in_equilibrium(rounded_totals * most)) return free_node();
+    for (int i = 0; i < model_.segments; ++i)
+      if (!(cables_.force[i] >= least)) return broken;
+    for (int j = 0; j < cables_.joints(); ++j) {
+      if (model_.is_locked(j)) continue;
+      for (const JointState way : {JointState::forward, JointState::backward})
+        if (!(laws_.limit(Candidate::of(j, way)).of(cables_.force) >= least)) return broken;
+    }
+    return Status::success();
+  }
+  /// `pulled_through` if two jacks on one cable differ by all the friction between them, and more so as the
+  /// loads go.
+  Status pulled_through() const {
+    for (int c = 0; c < model_.cables.size(); ++c) {
+      const auto& cable = model_.cables[c];
+      const bool both = !cable.closed && cable.ends[0] == End::jacked && cable.ends[1] == End::jacked &&
+                        !state_.goal.jack[c][0].locked && !state_.goal.jack[c][1].locked;
+      if (!both) continue;
+      Real carried = 1;
+      for (int k = 0; k < cable.joints(); ++k) carried *= laws_.rho(cable.first_joint + k);
+      for (std::size_t end = 0; end < 2; ++end) {
+        const auto& small = state_.now.jack[c][end];
+        const auto& big = state_.now.jack[c][1 - end];
+        const Real room = small.force - carried * big.force;
+        const Real rate = state_.goal.jack[c][end].force - small.force -
+                          carried * (state_.goal.jack[c][1 - end].force - big.force);
+        if (room <= Real(64) * tolerance * larger(small.force, big.force) + epsilon * state_.peak && rate < 0)
+          return Status::at(Code::pulled_through, Place::cable, c);
+      }
+    }
+    return Status::success();
+  }
+  /// `mechanism`, at a joint of a span that should hold its node and has no tension.
+  Status free_node() const {
+    for (int r = 0; r < runs_.size(); ++r)
+      if ((state_.slack[r] || state_.rests[r]) && runs_[r].joint_near() >= 0)
+        return cables_.at_joint(Code::mechanism, runs_[r].joint_near());
+    return cables_.at_joint(Code::mechanism, 0);
+  }
+
+ private:
+  /// Of the largest force: what may be lost where a cable moves much further than it stretches.
+  static constexpr Real rounded_totals = Real(1e-10);
+
+  /// Whether the tensions are those of all moves: where slack cables alone hold a node, it goes so far away
+  /// that rounding of the moves shows.
+  bool is_in_equilibrium(Real tolerated) const {
+    const Tensions T = cables_.totals(cables_.moves());
+    for (int i = 0; i < model_.segments; ++i)
+      if (!(std::fabs(T[i] - cables_.force[i]) <= tolerated)) return false;
+    return true;
+  }
+
+  Cables& cables_;
+  const typename Cables::Model& model_;
+  const Runs<Cap>& runs_;
+  const Laws& laws_;
+  State& state_;
+  Map& map_;
+};
+
+}  // namespace taut

@@ -1,0 +1,469 @@
+// Every decision of stick, slip and slack: which problem is solved, and what its solution means.
+#pragma once
+
+#include "taut/tracking/constraints.hpp"
+#include "taut/tracking/event.hpp"
+#include "taut/tracking/mode_solver.hpp"
+
+namespace taut {
+
+/// Decides the modes of all joints and runs for the next piece of the path, and makes its map.
+///
+/// An ordinary event goes on from the modes of the piece before: one pivot of ModeSolver. Runs at zero
+/// tension are tried pulled straight toward their jacks, then decided from nothing, Eqs. (10) and (11). Where
+/// rates contradict, all forces are found a little further on, and taken if they are near. Where nothing is,
+/// the reason is returned.
+template <class Cables>
+class ModeDecision {
+ public:
+  using Real = typename Cables::Real;
+  using Cap = typename Cables::Cap;
+  using Loads = typename Cables::Loads;
+  using Laws = typename Cables::Laws;
+  using Map = typename Cables::Map;
+  using State = typename Cables::State;
+  using Moving = typename Cables::Moving;
+  using Tensions = typename Cables::Tensions;
+  using Inputs = typename Cables::Inputs;
+  using JackedEnd = typename Cables::JackedEnd;
+  static constexpr Real epsilon = Cables::epsilon, tolerance = Cables::tolerance;
+  using Ending = taut::Ending<Real>;
+
+  explicit ModeDecision(Cables& cables)
+      : cables_(cables),
+        model_(*cables.model),
+        runs_(cables.runs),
+        laws_(cables.laws),
+        state_(cables.state),
+        map_(cables.map),
+        constraints_(cables),
+        events_(cables) {}
+
+  /// Decides what sticks, slides and is slack from here on, and makes the map for it. `ending` is what ended
+  /// the piece before.
+  Status decide(const Ending& ending) {
+    if (further_ == 0) stride_ = 1;
+    further_ = 0;
+    free_joint_ = doubtful_joint_ = -1;
+    find_representatives();
+    find_resting();
+    Spans zero;
+    const bool any_zero = find_zero(ending, zero);
+    const Candidates candidates = at_limit(ending.next, zero);
+    if (!any_zero) {
+      // Most often all goes on as it was.
+      if (state_.has_map && ending.next.joint < 0 && is_consistent(candidates)) return Status::success();
+      cables_.freeze();
+      cables_.drop_map();
+      if ((cables_.is_set_up || constraints_.set_up()) && go_on(candidates)) {
+        constraints_.rebuild();
+        return Status::success();
+      }
+    } else {
+      cables_.freeze();
+    }
+    cables_.drop_map();
+    return begin_anew(zero, candidates);
+  }
+  /// Rates do not tell how it goes on. All forces, at loads a little further on, are a problem that always
+  /// has an answer: it is taken if it is near. If not, friction gives way here, and the structure would jump.
+  /// Steps that follow each other grow, eightfold each, as long as they find an answer.
+  Status find_further_on(Status why) {
+    cables_.freeze();
+    cables_.drop_map();
+    for (;;) {
+      const bool first = stride_ <= Real(1);
+      const Status status = try_further_on(why);
+      stride_ = status ? stride_ * Real(8) : Real(1);
+      if (status || first) return status;
+    }
+  }
+  /// After decide() or find_further_on(): how far all forces were found anew, as a part of what was left of
+  /// the path; 0 if the modes were decided where the piece before ended.
+  Real further() const { return further_; }
+
+ private:
+  using Solver = ModeSolver<typename Cables::Model, Laws>;
+  using Candidates = FixedList<Candidate, 2 * Cap::joints>;
+  using Spans = FixedArray<bool, Cap::segments>;
+  /// Of the largest force: how much further on an answer is looked for, and how near it must be.
+  static constexpr Real small_step = Real(1e-6), nearby = Real(1e-3);
+
+  struct Pull {
+    const JackedEnd* jack = nullptr;
+    Real least = 0;
+    bool is_direct = false;  // no joint on the way has friction
+  };
+
+  /// The segment with the largest tension stands for its span: behind many joints near to self-locking the
+  /// others are rounding.
+  void find_representatives() {
+    for (int r = 0; r < runs_.size(); ++r) {
+      int most = runs_[r].segment(0);
+      for (int i = 1; i < runs_[r].count; ++i)
+        if (cables_.force[runs_[r].segment(i)] > cables_.force[most]) most = runs_[r].segment(i);
+      state_.representative[r] = static_cast<std::int16_t>(most);
+    }
+  }
+  /// A jack at zero that stays there leaves its span slack: no segment has tension, the cable moves over
+  /// every joint as the structure does, and what is too long is the jack's.
+  void find_resting() {
+    for (int r = 0; r < runs_.size(); ++r) {
+      bool rests =
+          cables_.is_jacked(runs_[r]) && cables_.force[state_.representative[r]] <= cables_.force_tolerance();
+      for (const JackedEnd& jack : cables_.jacks)
+        if (cables_.pulls(jack, runs_[r]))
+          rests = rests && state_.now.jack[jack.cable][jack.end].force <= cables_.force_tolerance() &&
+                  state_.goal.jack[jack.cable][jack.end].force <= cables_.force_tolerance();
+      if (rests == state_.rests[r]) continue;
+      cables_.freeze();
+      state_.rests[r] = rests;
+      cables_.drop_set();
+      for (int i = 0; rests && i < runs_[r].joints(); ++i) cables_.stop(runs_[r].joint(i));
+    }
+  }
+  /// Spans that are wholly at zero, where what follows is decided from nothing.
+  bool find_zero(const Ending& ending, Spans& zero) const {
+    bool any = false;
+    for (int r = 0; r < runs_.size(); ++r) {
+      zero[r] = !state_.rests[r] && is_at_zero(r, ending);
+      any = any || zero[r];
+    }
+    return any;
+  }
+  bool is_at_zero(int r, const Ending& ending) const {
+    if (!state_.slack[r]) return cables_.force[state_.representative[r]] <= cables_.force_tolerance();
+    const bool closes = ending.excess >= 0 && ending.run == r;
+    return closes ||
+           excess(r) * model_.coupling(runs_[r].segment(0), runs_[r].segment(0)) <= cables_.force_tolerance();
+  }
+  Real excess(int r) const {
+    if (!state_.has_map) return state_.moved.excess[r];
+    Inputs x;
+    cables_.values(state_.now, x);
+    for (int i = 0; i < map_.active(); ++i)
+      if (map_.move(i).kind == Move::Kind::excess && map_.move(i).index == r) return map_.active_move(i, x);
+    return 0;
+  }
+  /// Whether the rates under the present map agree with its states: v >= 0 where it slides, w >= 0 at the
+  /// other limits.
+  bool is_consistent(const Candidates& candidates) const {
+    Inputs dx;
+    cables_.directions(dx);
+    if (!map_.goes_on(dx, cables_.rate_tolerance())) return false;
+    Tensions rate;
+    map_.tension_rates(dx, rate);
+    const Real least = -cables_.rate_tolerance();
+    for (const Candidate& candidate : candidates)
+      if (state_.slides[candidate.joint] != candidate.way && laws_.limit(candidate).of(rate) < least)
+        return false;
+    return true;
+  }
+  /// Limits that hold: those of joints that slide, the one just reached, and what is as near as rounding. Of
+  /// a joint under tension only the nearer one; where a span is at zero, both.
+  Candidates at_limit(const Candidate& next, const Spans& zero) const {
+    Candidates candidates;
+    for (int j = 0; j < cables_.joints(); ++j) {
+      if (model_.is_locked(j) || cables_.glides(j)) continue;
+      const auto& sides = laws_.sides(j);
+      const int run = runs_.of(sides[0]);
+      if (!zero[run] && !cables_.can_slide(j)) continue;
+      const Candidate ahead = Candidate::of(j, JointState::forward),
+                      back = Candidate::of(j, JointState::backward);
+      if (zero[run]) {
+        candidates.add(ahead);
+        candidates.add(back);
+        continue;
+      }
+      if (state_.slides[j] != JointState::stick) {
+        candidates.add(state_.slides[j] == JointState::forward ? ahead : back);
+        continue;
+      }
+      const Real to_forward = laws_.limit(ahead).of(cables_.force),
+                 to_backward = laws_.limit(back).of(cables_.force);
+      const Real near = tolerance * larger(cables_.force[sides[0]], cables_.force[sides[1]]) +
+                        epsilon * Real(64) * state_.peak;
+      const Candidate& nearer = to_forward <= to_backward ? ahead : back;
+      if (next.joint == j)
+        candidates.add(next);
+      else if (laws_.rho(j) < 1 ? (nearer.way == JointState::forward ? to_forward : to_backward) <= near
+                                : true)
+        candidates.add(nearer);
+      if (!(laws_.rho(j) < 1)) candidates.add(nearer.way == JointState::forward ? back : ahead);
+    }
+    return candidates;
+  }
+
+  // Rates, going on from the piece before.
+
+  /// What a jacked end is to have: the rate of its force, or all of it.
+  Real due_at(const JackedEnd& jack, bool totally) const {
+    const Real now = state_.now.jack[jack.cable][jack.end].force;
+    return totally ? now : state_.goal.jack[jack.cable][jack.end].force - now;
+  }
+  void dues(bool totally, typename Map::Moves& due) const {
+    due.fill(Real(0));
+    for (int i = 0; i < map_.active(); ++i) {
+      const Move& move = map_.move(i);
+      if (move.kind == Move::Kind::payout)
+        due[i] = due_at(cables_.jacks[cables_.number[move.index]], totally);
+    }
+  }
+  /// What slides, begun from what slid: an ordinary event is one pivot.
+  /// Segments of the spans in `tightening` must then gain tension.
+  [[gnu::noinline]] bool go_on(const Candidates& candidates, const Spans* tightening = nullptr) {
+    Tensions stuck;
+    typename Map::Moves due;
+    cables_.stuck_rates(stuck);
+    dues(false, due);
+    Solver solver;
+    solver.begin(model_, laws_, map_.set());
+    for (const Candidate& each : candidates) solver.add_slip(each);
+    if (solver.solve(stuck, due, cables_.rate_tolerance(), true) != Solver::Outcome::solved) {
+      remember_ray(solver);
+      cables_.drop_set();
+      return false;
+    }
+    for (int i = 0; tightening != nullptr && i < model_.segments; ++i)
+      if ((*tightening)[runs_.of(i)] && !(solver.rates()[i] > Real(16) * cables_.rate_tolerance()))
+        return false;
+    read_slides();
+    return true;
+  }
+  /// Where no rate was found: a joint that its node would follow freely, and the last one that was tried.
+  void remember_ray(const Solver& solver) {
+    const int p = solver.last_pair();
+    if (p < 0 || solver.pairs()[p].is_segment()) return;
+    doubtful_joint_ = solver.pairs()[p].index;
+    if (solver.is_free()) free_joint_ = doubtful_joint_;
+  }
+  /// The slips of the set, in its order.
+  void read_slides() {
+    state_.slides.fill(JointState::stick);
+    state_.order.clear();
+    for (int i = 0; i < map_.active(); ++i) {
+      const Active& active = map_.actives()[i];
+      if (!active.slides() || active.sense == 0) continue;
+      state_.slides[active.move.index] = active.sense > 0 ? JointState::forward : JointState::backward;
+      state_.order.add(active.move.index);
+    }
+  }
+
+  // From nothing.
+
+  /// What slides and what is slack, begun from nothing. The moves must be frozen.
+  Status begin_anew(const Spans& zero, const Candidates& candidates) {
+    if (pull_straight(zero, candidates)) return Status::success();
+    if (solve_anew(zero, candidates, false)) return Status::success();
+    if (const Status why = events_.pulled_through(); !why) return why;
+    if (free_joint_ >= 0) return find_further_on(cables_.at_joint(Code::mechanism, free_joint_));
+    return find_further_on(doubtful_joint_ >= 0 ? cables_.at_joint(Code::gives_way, doubtful_joint_)
+                                                : events_.free_node());
+  }
+  /// Where spans at zero become taut, most often every joint slides toward the jack. Tried first: Lemke's
+  /// path goes on from there, and the answer is taken if it gives every segment of these spans tension.
+  [[gnu::noinline]] bool pull_straight(const Spans& zero, const Candidates& candidates) {
+    const auto slack = state_.slack;
+    const auto slides = state_.slides;
+    const auto order = state_.order;
+    const Moving moved = state_.moved;
+    for (int r = 0; r < runs_.size(); ++r) {
+      if (!zero[r]) continue;
+      state_.slack[r] = false;
+      state_.moved.excess[r] = 0;
+      for (int i = 0; i < runs_[r].count; ++i)
+        if (const Pull pull = pull_on(runs_[r], i, false); pull.jack != nullptr) slide_toward(pull, r, i);
+    }
+    cables_.drop_set();
+    if (constraints_.set_up_soundly() && go_on(candidates, &zero)) {
+      constraints_.rebuild();
+      return true;
+    }
+    state_.slack = slack;
+    state_.slides = slides;
+    state_.order = order;
+    state_.moved = moved;
+    free_joint_ = doubtful_joint_ = -1;
+    cables_.drop_set();
+    return false;
+  }
+  void slide_toward(const Pull& pull, int r, int segment) {
+    for_each_joint_toward(*pull.jack, runs_[r], segment, [&](int joint, JointState way) {
+      if (cables_.glides(joint) || state_.slides[joint] == way) return;
+      if (state_.slides[joint] == JointState::stick) state_.order.add(static_cast<std::int16_t>(joint));
+      state_.slides[joint] = way;
+    });
+  }
+  /// From rates, or from all forces where there are none.
+  [[gnu::noinline]] bool solve_anew(const Spans& zero, const Candidates& candidates, bool totally) {
+    const auto was_slack = state_.slack;
+    for (int r = 0; r < runs_.size(); ++r)
+      if (zero[r]) state_.slack[r] = false;
+    bool solved = constraints_.set_up_equalities();
+    if (solved) {
+      Tensions stuck;
+      typename Map::Moves due;
+      if (totally)
+        stuck = cables_.totals();
+      else
+        cables_.stuck_rates(stuck);
+      dues(totally, due);
+      Solver solver;
+      solver.begin(model_, laws_, map_.set());
+      for (int r = 0; r < runs_.size(); ++r)
+        if (zero[r]) add_span(r, totally, solver);
+      for (const Candidate& each : candidates) solver.add_slip(each);
+      const Real none = totally ? Real(16) * epsilon * state_.peak : cables_.rate_tolerance();
+      solved = solver.solve(stuck, due, none, false) == Solver::Outcome::solved;
+      if (solved)
+        adopt(solver, zero, totally);
+      else
+        remember_ray(solver);
+    }
+    solved = solved && constraints_.set_up();
+    if (solved) {
+      constraints_.rebuild();
+      solved = constraints_.is_held(totally);
+    }
+    if (!solved) {
+      state_.slack = was_slack;
+      cables_.drop_set();
+    }
+    return solved;
+  }
+  /// Segments of a span at zero, but for those that a jack gives their tension; joints without friction make
+  /// one of two.
+  void add_span(int r, bool totally, Solver& solver) const {
+    const Run& run = runs_[r];
+    for (int i = 0; i < run.count; ++i) {
+      if (i > 0 && cables_.glides(run.joint(i - 1))) continue;
+      const Pull pull = pull_on(run, i, totally);
+      // Where statics give its force, no length does.
+      if (!(model_.coupling(run.segment(i), run.segment(i)) > 0)) continue;
+      if (!pull.is_direct) solver.add_segment(run.segment(i), larger(Real(0), pull.least));
+    }
+  }
+  /// The jack that gives a segment of a span at zero the larger tension, by what friction leaves of its force
+  /// on the way; `on_the_way(joint, way)` is called for every joint there.
+  Pull pull_on(const Run& run, int i, bool totally) const {
+    Pull strongest;
+    for (const JackedEnd& jack : cables_.jacks) {
+      if (!cables_.pulls(jack, run)) continue;
+      Pull pull{&jack, due_at(jack, totally), true};
+      for_each_joint_toward(jack, run, i, [&](int joint, JointState) {
+        pull.least *= laws_.rho(joint);
+        pull.is_direct = pull.is_direct && cables_.glides(joint);
+      });
+      if (pull.is_direct) return pull;
+      if (strongest.jack == nullptr || pull.least > strongest.least) strongest = pull;
+    }
+    return strongest;
+  }
+  template <class Visit>
+  void for_each_joint_toward(const JackedEnd& jack, const Run& run, int i, Visit visit) const {
+    if (jack.end == 0)
+      for (int k = i; k > 0; --k) visit(run.joint(k - 1), JointState::backward);
+    else
+      for (int k = i; k < run.count - 1; ++k) visit(run.joint(k), JointState::forward);
+  }
+  /// Takes over what was decided. What a segment of a jacked span has too much goes out through the jack,
+  /// over all joints on the way.
+  void adopt(const Solver& solver, const Spans& zero, bool totally) {
+    for (int r = 0; r < runs_.size(); ++r)
+      if (zero[r]) state_.moved.excess[r] = 0;
+    read_slides();
+    FixedArray<Real, Cap::joints> flow;
+    flow.fill(Real(0));
+    for (int p = 0; p < solver.pairs().size(); ++p) {
+      const auto& pair = solver.pairs()[p];
+      if (!solver.is_active(p)) continue;
+      if (!pair.is_segment()) {
+        flow[pair.index] += pair.way == JointState::forward ? solver.value(p) : -solver.value(p);
+        continue;
+      }
+      const int r = runs_.of(pair.index);
+      int i = 0;
+      while (runs_[r].segment(i) != pair.index) ++i;
+      const Pull pull = pull_on(runs_[r], i, totally);
+      if (pull.jack == nullptr) {
+        state_.slack[r] = true;
+        continue;
+      }
+      for_each_joint_toward(*pull.jack, runs_[r], i, [&](int joint, JointState way) {
+        if (cables_.glides(joint)) return;
+        flow[joint] += way == JointState::forward ? solver.value(p) : -solver.value(p);
+        if (state_.slides[joint] == JointState::stick) state_.order.add(static_cast<std::int16_t>(joint));
+        state_.slides[joint] = flow[joint] > 0   ? JointState::forward
+                               : flow[joint] < 0 ? JointState::backward
+                                                 : way;
+      });
+    }
+    const auto slid = state_.order;
+    state_.order.clear();
+    for (const std::int16_t j : slid) {
+      if (state_.slack[runs_.of(laws_.sides(j)[0])])
+        state_.slides[j] = JointState::stick;
+      else
+        state_.order.add(j);
+    }
+  }
+
+  // A little further on.
+
+  Status try_further_on(Status why) {
+    const Real least = cables_.push > 0 ? stride_ * small_step * state_.peak / cables_.push : Real(1);
+    const Real step = least < Real(0.5) ? least : Real(0.5);
+    const Loads before = state_.now;
+    const Tensions forces = cables_.force;
+    const Moving moved = state_.moved;
+    const auto slides = state_.slides;
+    const auto order = state_.order;
+    const auto slack = state_.slack;
+    state_.now = Loads::between(state_.now, state_.goal, step);
+    Spans all;
+    for (int r = 0; r < runs_.size(); ++r) {
+      all[r] = !state_.rests[r];
+      if (all[r]) state_.moved.excess[r] = 0;
+    }
+    Candidates candidates;
+    for (int j = 0; j < cables_.joints(); ++j) {
+      if (model_.is_locked(j) || cables_.glides(j) || state_.rests[runs_.of(laws_.sides(j)[0])]) continue;
+      candidates.add(Candidate::of(j, JointState::forward));
+      candidates.add(Candidate::of(j, JointState::backward));
+    }
+    if (solve_anew(all, candidates, true)) {
+      cables_.find_forces();
+      Real farthest = 0;
+      for (int i = 0; i < model_.segments; ++i)
+        farthest = larger(farthest, std::fabs(cables_.force[i] - forces[i]));
+      const bool is_near = farthest <= nearby * state_.peak;
+      if (is_near && events_.check_forces()) {
+        further_ = step;
+        return Status::success();
+      }
+      if (!is_near && free_joint_ < 0) why = cables_.at_joint(Code::gives_way, doubtful_joint_);
+    }
+    state_.now = before;
+    state_.moved = moved;
+    state_.slides = slides;
+    state_.order = order;
+    state_.slack = slack;
+    cables_.force = forces;
+    cables_.drop_set();
+    return why;
+  }
+
+  Cables& cables_;
+  const typename Cables::Model& model_;
+  const Runs<Cap>& runs_;
+  const Laws& laws_;
+  State& state_;
+  Map& map_;
+  Constraints<Cables> constraints_;
+  EventSearch<Cables> events_;
+  Real stride_ = 1;  // of small steps that follow each other
+  Real further_ = 0;
+  int free_joint_ = -1, doubtful_joint_ = -1;
+};
+
+}  // namespace taut

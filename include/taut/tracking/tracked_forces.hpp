@@ -1,0 +1,113 @@
+// What a tracker answers: forces, moves, joint states, and how they change with the jack's force.
+#pragma once
+
+#include "taut/tracking/cable_system.hpp"
+
+namespace taut {
+
+/// The state that a Tracker has reached. Nothing here changes it; every function may be called from an
+/// interrupt that does not interrupt the tracker itself. Forces [N], moves [m].
+template <class CondensedType, int Parameters>
+class TrackedForces {
+ public:
+  using Scalar = typename CondensedType::Scalar;
+  using Real = typename CondensedType::Real;
+  using Cap = typename CondensedType::Capacity;
+  using Cables = CableSystem<CondensedType, Parameters>;
+  using Loads = typename Cables::Loads;
+  using Moving = typename Cables::Moving;
+  using Tensions = typename Cables::Tensions;
+
+  /// Whether the joint slides, or slid before the load came to rest.
+  bool is_at_limit(int joint) const { return cables_.state.slides[joint] != JointState::stick; }
+  /// rho of a joint as it is used now.
+  Real rho(int joint) const { return cables_.laws.rho(joint); }
+
+  /// Tension of a segment [N], >= 0.
+  Scalar tension(int segment) const {
+    return cables_.state.tension[segment] > 0 ? cables_.state.tension[segment] : Scalar(0);
+  }
+
+  /// Slips, extensions of the jacks and slack lengths [m]. O(segments x inputs).
+  Moving moves() const { return cables_.moves(); }
+  /// Elongations that the moves impose on the segments [m], for CondensedRows.
+  Tensions elongations() const { return cables_.elongations_by(moves()); }
+  /// Elongations that derivatives of the moves impose.
+  template <class Moved>
+  Tensions elongations_by(const Moved& moved) const {
+    return cables_.elongations_by(moved);
+  }
+  /// Derivative of a tension with respect to the force of an unlocked jack, on the present piece [-].
+  Scalar slope(int jack, int segment) const {
+    const int k = cables_.input_of(jack);
+    return k < 0 ? Scalar(0) : cables_.map.rounded_column(k)[segment];
+  }
+  /// The same of a jack's payout [m/N].
+  Scalar payout_slope(int cable, std::size_t end) const {
+    const int k = cables_.input_of(cable, end);
+    if (k < 0) return 0;
+    for (int i = 0; i < cables_.map.active(); ++i)
+      if (cables_.map.move(i).kind == Move::Kind::payout &&
+          cables_.map.move(i).index == 2 * cable + static_cast<int>(end))
+        return static_cast<Scalar>(cables_.map.column_move(k, i));
+    return 0;
+  }
+  /// Derivatives of all moves with respect to the force of an unlocked jack, on the present piece [m/N].
+  Moving move_slope(int cable, std::size_t end) const {
+    Moving moving;
+    const int k = cables_.input_of(cable, end);
+    for (int i = 0; k >= 0 && i < cables_.map.active(); ++i)
+      moving.of(cables_.map.move(i)) = cables_.map.column_move(k, i);
+    return moving;
+  }
+  const CondensedType& model() const { return *cables_.model; }
+  /// The loads and jack forces reached.
+  const Loads& loads() const { return cables_.state.now; }
+  const Runs<Cap>& runs() const { return cables_.runs; }
+  bool is_slack(const Run& run) const { return cables_.is_slack(run.segment(0)); }
+  /// What the joint did on the last piece of the path, apart from slack.
+  JointState motion(int joint) const {
+    for (int i = 0; cables_.state.has_map && i < cables_.map.active(); ++i) {
+      if (cables_.map.move(i).kind != Move::Kind::slip || cables_.map.move(i).index != joint) continue;
+      const Real rate = cables_.map.move_rate(i, cables_.state.last);
+      if (rate == 0 || cables_.state.slides[joint] != JointState::stick)
+        return rate == 0 ? JointState::stick : cables_.state.slides[joint];
+      return rate > 0 ? JointState::forward : JointState::backward;
+    }
+    return JointState::stick;
+  }
+  /// The largest force so far, but for what came and went between two events [N].
+  Scalar peak() const {
+    Scalar most = static_cast<Scalar>(cables_.state.peak);
+    for (int i = 0; i < cables_.model->segments; ++i) most = larger(most, cables_.state.tension[i]);
+    return most;
+  }
+
+  /// The state at the end of the path followed. Forces of struts only if their rows are given.
+  void respond(Response<Scalar, Cap>& response, const CondensedStruts<Scalar, Cap>* struts = nullptr) const {
+    const Moving moved = cables_.moves();
+    for (int i = 0; i < cables_.model->segments; ++i) response.tension[i] = tension(i);
+    cables_.model->resolve_joints(response);
+    for (int c = 0; c < cables_.model->cables.size(); ++c) {
+      for (std::size_t end = 0; end < 2; ++end)
+        response.payout[c][end] = static_cast<Scalar>(moved.payout[c][end]);
+      const auto& cable = cables_.model->cables[c];
+      for (int k = 0; k < cable.joints(); ++k) {
+        const int j = cable.first_joint + k;
+        const auto sides = cable.joint_segments(k);
+        response.slip[j] = static_cast<Scalar>(moved.slip[j]);
+        response.state[j] =
+            cables_.is_slack(sides[0]) && cables_.is_slack(sides[1]) ? JointState::open : motion(j);
+      }
+    }
+    if (struts == nullptr) return;
+    struts->evaluate(*cables_.model, cables_.state.now, cables_.elongations_by(moved), response.strut);
+  }
+
+ protected:
+  using Inputs = typename Cables::Inputs;
+
+  Cables cables_;
+};
+
+}  // namespace taut
