@@ -159,13 +159,39 @@ TEST_CASE(
   for (int i = 0; i < 2; ++i) CHECK(close(bench.T(i), status.ok() ? 3e4 * 5 / 6 : 0, 1e-12));
 }
 
-// Open.
+// Open: it should have them.
 TEST_CASE("a node that hangs on two segments alone has the same forces by the tracker" *
           doctest::should_fail()) {
   hung_node();
   Bench<double, Plane> bench(scene, Solver::tracker);
   REQUIRE(bench.load(0, 3e4).go().ok());
   for (int i = 0; i < 2; ++i) CHECK(close(bench.T(i), 3e4 * 5 / 6, 1e-12));
+}
+
+// Open.
+TEST_CASE(
+    "the sides of a cable that hold two posts have the forces of statics by the tracker, and friction hands "
+    "on" *
+    doctest::should_fail()) {
+  two_posts();
+  const Vector force = by_method_of_joints({{0, 2}, {2, 3}, {3, 1}, {2, 4}, {3, 5}, {0, 4}, {4, 5}, {5, 1}});
+  Bench<double, Plane> bench(scene, Solver::tracker);
+  REQUIRE(bench.started().ok());
+  REQUIRE(bench.load(0, 1).go().ok());
+  CHECK_LAWFUL(bench, double);
+  CHECK(close(bench.T(0), force[5], 1e-11));
+  CHECK(close(bench.T(2), force[7], 1e-11));
+  // What the load gives the middle through the strut beside it is less than friction lets through at both
+  // joints: the tighter side slides.
+  const auto turn = [](int from, int at, int to) {
+    const auto &p = scene.nodes[from].at, &q = scene.nodes[at].at, &r = scene.nodes[to].at;
+    return std::atan2(r[1] - q[1], r[0] - q[0]) - std::atan2(q[1] - p[1], q[0] - p[0]);
+  };
+  const double from_left = force[5] * hand::point_ratio(0.2, turn(0, 4, 5));
+  const double from_right = force[7] * hand::point_ratio(0.2, turn(4, 5, 1));
+  REQUIRE(from_left > from_right);
+  REQUIRE(from_left > force[6] / 2);
+  CHECK(close(bench.T(1), from_left, 1e-11));
 }
 
 TEST_CASE("a structure whose forces have no digits in this precision is refused") {
