@@ -1,15 +1,14 @@
 #include "support/dense.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 
 namespace support {
 
 Vector solved(const Matrix& A, const Vector& b) { return A.fullPivLu().solve(b); }
 
 double rcond(const Matrix& A) {
-  const Vector singular = Eigen::JacobiSVD<Matrix>(A).singularValues();
-  return singular[0] > 0 ? singular[singular.size() - 1] / singular[0] : 0;
+  const Eigen::FullPivLU<Matrix> factors(A);
+  return factors.isInvertible() ? factors.rcond() : 0;
 }
 
 Matrix product(const Matrix& A, const Matrix& B) { return A * B; }

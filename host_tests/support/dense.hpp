@@ -12,7 +12,7 @@ using Vector = Eigen::VectorXd;
 
 /// A^-1 b, by full pivoting.
 Vector solved(const Matrix& A, const Vector& b);
-/// The reciprocal condition number by singular values; 0 if A is singular.
+/// The reciprocal condition number, estimated; 0 if A is singular.
 double rcond(const Matrix& A);
 /// A B.
 Matrix product(const Matrix& A, const Matrix& B);
