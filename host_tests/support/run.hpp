@@ -13,8 +13,8 @@
 
 namespace support {
 
-template <class Scalar, class Cap>
-taut::Sample<Scalar, Cap> rounded(const taut::Sample<double, Cap>& sample) {
+template <class Scalar, class Given, class Cap>
+taut::Sample<Scalar, Cap> rounded(const taut::Sample<Given, Cap>& sample) {
   taut::Sample<Scalar, Cap> copy;
   for (int i = 0; i < Cap::loads; ++i) copy.factor[i] = static_cast<Scalar>(sample.factor[i]);
   for (int c = 0; c < Cap::cables; ++c)
@@ -59,8 +59,15 @@ class Run {
   double verified() const;
   const Tracker& tracker() const { return *tracker_; }
 
+  /// The state reached, with the forces of the struts.
+  taut::Response<Scalar, Cap> response() const;
+  /// Displacement of a node along an axis [m], if the capacity has room for those of all nodes.
+  double displacement(int node, int axis) const;
+
  private:
   std::unique_ptr<Model> model_;
+  std::unique_ptr<taut::CondensedStruts<Scalar, Cap>> struts_;
+  std::unique_ptr<taut::CondensedDisplacements<Scalar, Cap>> displacements_;
   std::unique_ptr<Tracker> tracker_;
   taut::Status condensed_;
   taut::Progress<Scalar> started_;
@@ -69,9 +76,14 @@ class Run {
 // Outside the class, and so not inline: an instance that is declared extern is not compiled again.
 
 template <class Scalar, class SceneType>
-Run<Scalar, SceneType>::Run(const SceneType& scene) : model_(new Model), tracker_(new Tracker) {
+Run<Scalar, SceneType>::Run(const SceneType& scene)
+    : model_(new Model),
+      struts_(new taut::CondensedStruts<Scalar, Cap>),
+      displacements_(new taut::CondensedDisplacements<Scalar, Cap>),
+      tracker_(new Tracker) {
   const auto condensation = std::make_unique<taut::Condensation<Scalar, SceneType>>();
-  condensed_ = condensation->run(scene, *model_);
+  if constexpr (Cap::displacements > 0) displacements_->add_all(scene);
+  condensed_ = condensation->run(scene, *model_, struts_.get(), displacements_.get());
   if (condensed_) started_ = tracker_->start(*model_);
 }
 
@@ -115,6 +127,20 @@ double Run<Scalar, SceneType>::jack_force(int cable, int end) const {
 template <class Scalar, class SceneType>
 double Run<Scalar, SceneType>::verified() const {
   return static_cast<double>(taut::verify(*tracker_).worst());
+}
+
+template <class Scalar, class SceneType>
+taut::Response<Scalar, typename SceneType::Capacity> Run<Scalar, SceneType>::response() const {
+  taut::Response<Scalar, Cap> response;
+  tracker_->respond(response, struts_.get());
+  return response;
+}
+
+template <class Scalar, class SceneType>
+double Run<Scalar, SceneType>::displacement(int node, int axis) const {
+  taut::FixedArray<Scalar, Cap::displacements> all;
+  displacements_->evaluate(*model_, tracker_->loads(), tracker_->elongations(), all);
+  return static_cast<double>(all[node * SceneType::dimension + axis]);
 }
 
 extern template class Run<double, Plane>;

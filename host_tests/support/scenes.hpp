@@ -16,9 +16,11 @@ struct PlaneCapacity : taut::Capacity {
                        forces = 32;
   static constexpr int temperatures = 3, substructures = 12, substructure_nodes = 24;
   static constexpr int substructure_entries = 192;
+  static constexpr int displacements = 2 * nodes;
 };
 struct SpaceCapacity : PlaneCapacity {
   static constexpr int nodes = 28, struts = 72, segments = 8, joints = 8;
+  static constexpr int displacements = 3 * nodes;
 };
 using Plane = taut::Scene<double, 2, PlaneCapacity>;
 using Space = taut::Scene<double, 3, SpaceCapacity>;

@@ -1,7 +1,7 @@
 // Random scenes and load histories: every answer obeys all laws, whatever the scene.
 #include <string>
 
-#include "unit/instances.hpp"
+#include "support/bench.hpp"
 
 using namespace support;
 using taut::Code;
@@ -26,8 +26,8 @@ taut::Cable<double> random_cable(Random& random, std::array<taut::End, 2> ends) 
 
 /// Follows the history in both scalar types and checks every answer.
 template <class Scalar, class SceneType>
-void follow_history(const SceneType& scene, int jacked_end_index) {
-  Bench<Scalar, SceneType> bench(scene);
+void follow_history(const SceneType& scene, Solver solver, int jacked_end_index) {
+  Bench<Scalar, SceneType> bench(scene, solver);
   CAPTURE(std::string(sizeof(Scalar) == sizeof(float) ? "float" : "double"));
   REQUIRE(bench.started().code == Code::ok);
   CHECK_LAWFUL(bench, Scalar);
@@ -43,9 +43,9 @@ void follow_history(const SceneType& scene, int jacked_end_index) {
 }
 
 template <class SceneType>
-void follow_in_both(const SceneType& scene, int jacked_end_index) {
-  follow_history<double>(scene, jacked_end_index);
-  follow_history<float>(scene, jacked_end_index);
+void follow_in_both(const SceneType& scene, Solver solver, int jacked_end_index) {
+  follow_history<double>(scene, solver, jacked_end_index);
+  follow_history<float>(scene, solver, jacked_end_index);
 }
 
 Plane plane;
@@ -53,51 +53,54 @@ Space space;
 
 }  // namespace
 
-TEST_CASE("a plane truss string structure jacked from one end obeys all laws at every load") {
+SOLVER_TEST_CASE("a plane truss string structure jacked from one end obeys all laws at every load", solver) {
   for (std::uint64_t seed = 1; seed <= repetitions; ++seed) {
     CAPTURE(seed);
     Random random(seed);
     const int end = random.below(2);
     truss_string(plane, random_cable(random, end == 0 ? jacked_start : jacked_end), 3 + random.below(6),
                  Variation(random));
-    follow_in_both(plane, end);
+    follow_in_both(plane, solver, end);
   }
 }
 
-TEST_CASE("a prestrained cable of a plane truss string structure obeys all laws when the loads turn round") {
+SOLVER_TEST_CASE(
+    "a prestrained cable of a plane truss string structure obeys all laws when the loads turn round",
+    solver) {
   for (std::uint64_t seed = 1; seed <= repetitions; ++seed) {
     CAPTURE(seed);
     Random random(1000 + seed);
     taut::Cable<double> cable = random_cable(random, anchored);
     cable.prestrain = random.between(0, 2e-3);
     truss_string(plane, cable, 3 + random.below(6), Variation(random));
-    follow_in_both(plane, -1);
+    follow_in_both(plane, solver, -1);
   }
 }
 
-TEST_CASE("a spatial truss string structure jacked from one end obeys all laws at every load") {
+SOLVER_TEST_CASE("a spatial truss string structure jacked from one end obeys all laws at every load",
+                 solver) {
   for (std::uint64_t seed = 1; seed <= repetitions; ++seed) {
     CAPTURE(seed);
     Random random(2000 + seed);
     const int end = random.below(2);
     space_truss_string(space, random_cable(random, end == 0 ? jacked_start : jacked_end), 2 + random.below(4),
                        Variation(random));
-    follow_in_both(space, end);
+    follow_in_both(space, solver, end);
   }
 }
 
-TEST_CASE("a prestrained hoop of a suspen-dome obeys all laws under even and uneven loads") {
+SOLVER_TEST_CASE("a prestrained hoop of a suspen-dome obeys all laws under even and uneven loads", solver) {
   for (std::uint64_t seed = 1; seed <= repetitions; ++seed) {
     CAPTURE(seed);
     Random random(3000 + seed);
     taut::Cable<double> cable = random_cable(random, anchored);
     cable.prestrain = random.between(2e-4, 2e-3);
     dome_ring(space, cable, 3 + random.below(6), Variation(random));
-    follow_in_both(space, -1);
+    follow_in_both(space, solver, -1);
   }
 }
 
-TEST_CASE("a chain on rigid saddles obeys all laws at every jack force") {
+SOLVER_TEST_CASE("a chain on rigid saddles obeys all laws at every jack force", solver) {
   for (std::uint64_t seed = 1; seed <= repetitions; ++seed) {
     CAPTURE(seed);
     Random random(4000 + seed);
@@ -107,17 +110,18 @@ TEST_CASE("a chain on rigid saddles obeys all laws at every jack force") {
     vary_friction(plane, Variation(random));
     plane.add_load();
     plane.add_load();
-    follow_in_both(plane, end);
+    follow_in_both(plane, solver, end);
   }
 }
 
+// Of stepwise alone: the tracker knows no load steps.
 TEST_CASE("sixty-four load steps come closer to a thousand than four do") {
   double off_4 = 0, off_64 = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     Random random(5000 + seed);
     truss_string(plane, steel_cable(0.1 * static_cast<double>(seed)), 8, Variation(random));
     const auto tensions = [](int substeps) {
-      Bench<double, Plane> bench(plane);
+      Bench<double, Plane> bench(plane, Solver::stepwise);
       REQUIRE(bench.started().ok());
       for (const Row& row : {Row{0, 0, 2e5}, {3, 0, 2.2e5}, {-1, 0, 1e5}, {2, 0, 3e5}}) {
         bench.load(0, row.load).jack(0, 1, row.jack);

@@ -1,7 +1,7 @@
 // Cables on an elastic structure, against hand calculations and each other.
+#include "support/bench.hpp"
 #include "support/status_check.hpp"
 #include "unit/hand.hpp"
-#include "unit/instances.hpp"
 
 using namespace support;
 using hand::EA;
@@ -29,23 +29,23 @@ void queen_post(const taut::Cable<double>& cable) {
 
 }  // namespace
 
-TEST_CASE("a jacked cable lifts the spring it runs under by 2 T cos(alpha) / k") {
+SOLVER_TEST_CASE("a jacked cable lifts the spring it runs under by 2 T cos(alpha) / k", solver) {
   queen_post(steel_cable(0));
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   const double T = 2e5;
   REQUIRE(bench.jack(0, 1, T).go().ok());
   CHECK_LAWFUL(bench, double);
   const double lift = 2 * T * cos_alpha / spring;
-  CHECK(close(bench.solver().displacement(1, 1), lift, rounding));
+  CHECK(close(bench.displacement(1, 1), lift, rounding));
   CHECK(close(bench.payout(0, 1), 2 * T * side / EA + 2 * lift * cos_alpha, rounding));
   CHECK(close(bench.response().contact[0], 2 * T * cos_alpha, rounding));
 }
 
-TEST_CASE("an elastic support takes prestrain away") {
+SOLVER_TEST_CASE("an elastic support takes prestrain away", solver) {
   taut::Cable<double> cable = steel_cable(0, anchored);
   cable.prestrain = 2e-3;
   queen_post(cable);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   // k u = 2 T cos(alpha), T = EA prestrain - EA / L u cos(alpha).
   const double T = EA * 2e-3 / (1 + 2 * cos_alpha * cos_alpha * EA / (side * spring));
   CHECK_LAWFUL(bench, double);
@@ -53,11 +53,11 @@ TEST_CASE("an elastic support takes prestrain away") {
   CHECK(close(bench.T(1), T, rounding));
 }
 
-TEST_CASE("a load on the joint is shared between spring and cable by their stiffness") {
+SOLVER_TEST_CASE("a load on the joint is shared between spring and cable by their stiffness", solver) {
   taut::Cable<double> cable = steel_cable(0.2, anchored);
   cable.prestrain = 2e-3;
   queen_post(cable);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   const double before = bench.T(0);
   const double cable_stiffness = 2 * cos_alpha * cos_alpha * EA / side;
   for (const double load : {1e4, -2e4, 5e4}) {
@@ -69,9 +69,9 @@ TEST_CASE("a load on the joint is shared between spring and cable by their stiff
   }
 }
 
-TEST_CASE("friction of one joint on a spring is that of the two tensions at its limit") {
+SOLVER_TEST_CASE("friction of one joint on a spring is that of the two tensions at its limit", solver) {
   queen_post(steel_cable(0.25));
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   const double T2 = 2e5, kappa = 0.25 * sag / half_span;  // mu cot(alpha)
   REQUIRE(bench.jack(0, 1, T2).go().ok());
   CHECK_LAWFUL(bench, double);
@@ -81,7 +81,7 @@ TEST_CASE("friction of one joint on a spring is that of the two tensions at its 
   CHECK(close(bench.payout(0, 1), bench.slip(0) + T2 * side / EA + lift * cos_alpha, rounding));
 }
 
-TEST_CASE("two cables of half the area side by side are one cable") {
+SOLVER_TEST_CASE("two cables of half the area side by side are one cable", solver) {
   static Plane two;
   Random random(11);
   truss_string(scene, steel_cable(0.3), 6, Variation(random));
@@ -91,7 +91,7 @@ TEST_CASE("two cables of half the area side by side are one cable") {
   std::vector<int> path(two.path.begin(), two.path.begin() + twin.nodes);
   two.add_cable(twin, path.data(), twin.nodes);
   for (int j = 0; j < twin.joints(); ++j) two.mu[twin.joints() + j] = two.mu[j];
-  PlaneBench one(scene), pair(two);
+  PlaneBench one(scene, solver), pair(two, solver);
   REQUIRE(pair.started().ok());
   for (const double force : {2e5, 1.2e5, 2.5e5}) {
     REQUIRE(one.load(0, 1).jack(0, 1, force).go().ok());
@@ -104,13 +104,13 @@ TEST_CASE("two cables of half the area side by side are one cable") {
   }
 }
 
-TEST_CASE("tensioning one cable relieves the other that hangs on the same structure") {
+SOLVER_TEST_CASE("tensioning one cable relieves the other that hangs on the same structure", solver) {
   truss_string(scene, steel_cable(0.2), 6);
   taut::Cable<double> second = steel_cable(0.2, anchored);
   second.prestrain = 5e-4;
   std::vector<int> path(scene.path.begin(), scene.path.begin() + 7);
   scene.add_cable(second, path.data(), 7);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   REQUIRE(bench.load(0, 1).go().ok());
   const double before = bench.T(9);
   REQUIRE(bench.jack(0, 1, 2e5).go().ok());
@@ -120,9 +120,9 @@ TEST_CASE("tensioning one cable relieves the other that hangs on the same struct
   CHECK_LAWFUL(bench, double);
 }
 
-TEST_CASE("without friction loads and jack force can be taken back in any order") {
+SOLVER_TEST_CASE("without friction loads and jack force can be taken back in any order", solver) {
   truss_string(scene, steel_cable(0), 8);
-  PlaneBench round_about(scene), straight(scene);
+  PlaneBench round_about(scene, solver), straight(scene, solver);
   REQUIRE(round_about.jack(0, 1, 3e5).go().ok());
   REQUIRE(round_about.load(0, 2).go().ok());
   REQUIRE(round_about.jack(0, 1, 1e5).go().ok());
@@ -135,7 +135,7 @@ TEST_CASE("without friction loads and jack force can be taken back in any order"
     CHECK(close(round_about.slip(j), straight.slip(j), rounding, round_about.largest_force() * 30 / EA));
 }
 
-TEST_CASE("with locked joints a cable is a chain of bars") {
+SOLVER_TEST_CASE("with locked joints a cable is a chain of bars", solver) {
   taut::Cable<double> cable = steel_cable(100, anchored);
   cable.prestrain = 3e-3;
   truss_string(scene, cable, 6);
@@ -147,7 +147,7 @@ TEST_CASE("with locked joints a cable is a chain of bars") {
   bars.prestrain = {};
   bars.mu = {};
   for (int i = 0; i < 6; ++i) bars.add_strut(scene.path[i], scene.path[i + 1], cable_E, cable_A);
-  PlaneBench locked(scene), frame(bars);
+  PlaneBench locked(scene, solver), frame(bars, solver);
   const double start = locked.T(2);
   REQUIRE(start > 0);
   const auto before = locked.response().tension;

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <memory>
 
+#include "support/bench.hpp"
 #include "taut/condensation/condense.hpp"
 #include "taut/tracking/tracker.hpp"
-#include "unit/instances.hpp"
 
 using namespace support;
 
@@ -15,9 +15,6 @@ template <class Cap, int Count>
 struct With : Cap {
   static constexpr int displacements = Count;
 };
-constexpr int all = 2 * PlaneCapacity::nodes;
-using Moved = With<PlaneCapacity, all>;
-using MovedPlane = taut::Scene<double, 2, Moved>;
 
 struct Foot : taut::Capacity {
   static constexpr int nodes = 4, struts = 2, segments = 2, joints = 1, loads = 1, forces = 1;
@@ -25,7 +22,6 @@ struct Foot : taut::Capacity {
 };
 
 Plane scene;
-MovedPlane moved_scene;
 
 /// How close displacements are to be, relative to the largest.
 template <class Scalar>
@@ -34,9 +30,9 @@ constexpr double rounding = sizeof(Scalar) == sizeof(float) ? 1e-6 : 1e-12;
 // What is not asked for takes no room: not in flash, not while condensing, not in the tracker.
 template <class Scalar, int Dimension, class Cap>
 constexpr bool is_free_of_charge() {
-  using Bare = taut::Condensed<Scalar, Cap>;
+  using Bare = taut::Condensed<Scalar, With<Cap, 0>>;
   using Full = taut::Condensed<Scalar, With<Cap, 40>>;
-  using Condensing = taut::Condensation<Scalar, taut::Scene<double, Dimension, Cap>>;
+  using Condensing = taut::Condensation<Scalar, taut::Scene<double, Dimension, With<Cap, 0>>>;
   using CondensingFull = taut::Condensation<Scalar, taut::Scene<double, Dimension, With<Cap, 40>>>;
   return sizeof(Bare) == sizeof(Full) && sizeof(Condensing) == sizeof(CondensingFull) &&
          sizeof(taut::Tracker<Bare>) == sizeof(taut::Tracker<Full>);
@@ -47,57 +43,39 @@ static_assert(is_free_of_charge<float, 2, taut::Capacity>(), "rigid saddles");
 
 template <class Cap>
 constexpr std::size_t row_bytes = sizeof(taut::CondensedDisplacements<float, Cap>::rows);
-static_assert(row_bytes<PlaneCapacity> < 4 * sizeof(double), "without a request there are no rows");
+static_assert(row_bytes<With<PlaneCapacity, 0>> < 4 * sizeof(double), "without a request there are no rows");
 static_assert(row_bytes<With<taut::Capacity, 40>> == row_bytes<taut::Capacity>, "nor between rigid saddles");
 
-/// Follows `moved_scene` with the tracker and the same `scene` with stepwise.
+/// Follows `scene` with the tracker, and with stepwise in load steps.
 template <class Scalar>
 class Pair {
  public:
-  Pair() : bench_(scene) {
-    rows_->add_all(moved_scene);
-    const auto condensation = std::make_unique<taut::Condensation<Scalar, MovedPlane>>();
-    REQUIRE(condensation->run(moved_scene, *model_, nullptr, rows_.get()).ok());
-    REQUIRE(tracker_->start(*model_).status.ok());
-    REQUIRE(bench_.started().ok());
+  Pair() : tracker_(scene, Solver::tracker), stepwise_(scene, Solver::stepwise) {
+    REQUIRE(tracker_.started().ok());
+    REQUIRE(stepwise_.started().ok());
   }
 
   /// The largest difference of a displacement after this row, relative to the largest displacement.
   double follow(double down, double up_left, double jack, int substeps) {
-    taut::Sample<Scalar, Moved> sample;
-    sample.factor[0] = static_cast<Scalar>(down);
-    sample.factor[1] = static_cast<Scalar>(up_left);
-    sample.jack[0][1].force = static_cast<Scalar>(jack);
-    REQUIRE(tracker_->advance(sample).status.ok());
-    REQUIRE(bench_.load(0, down).load(1, up_left).jack(0, 1, jack).go(substeps).ok());
-    taut::FixedArray<Scalar, all> u;
-    rows_->evaluate(*model_, tracker_->loads(), tracker_->elongations(), u);
+    REQUIRE(tracker_.load(0, down).load(1, up_left).jack(0, 1, jack).go().ok());
+    REQUIRE(stepwise_.load(0, down).load(1, up_left).jack(0, 1, jack).go(substeps).ok());
     double most = 0, off = 0;
     for (int node = 0; node < scene.nodes.size(); ++node)
       for (int axis = 0; axis < 2; ++axis) {
-        const double expected = bench_.solver().displacement(node, axis);
+        const double expected = stepwise_.displacement(node, axis);
         most = std::fmax(most, std::fabs(expected));
-        off = std::fmax(off, std::fabs(static_cast<double>(u[2 * node + axis]) - expected));
+        off = std::fmax(off, std::fabs(tracker_.displacement(node, axis) - expected));
       }
     REQUIRE(most > 0);
     return off / most;
   }
-  double T(int segment) const { return bench_.T(segment); }
-  double slip(int joint) const { return bench_.slip(joint); }
+  double T(int segment) const { return stepwise_.T(segment); }
+  double slip(int joint) const { return stepwise_.slip(joint); }
 
  private:
-  using Model = taut::Condensed<Scalar, Moved>;
-  std::unique_ptr<Model> model_{new Model};
-  std::unique_ptr<taut::CondensedDisplacements<Scalar, Moved>> rows_{
-      new taut::CondensedDisplacements<Scalar, Moved>};
-  std::unique_ptr<taut::Tracker<Model>> tracker_{new taut::Tracker<Model>};
-  Bench<double, Plane> bench_;
+  Bench<Scalar, Plane> tracker_;
+  Bench<double, Plane> stepwise_;
 };
-
-void make_truss_strings(const taut::Cable<double>& cable) {
-  truss_string(scene, cable, 6);
-  truss_string(moved_scene, cable, 6);
-}
 
 }  // namespace
 
@@ -143,7 +121,7 @@ TEST_CASE_TEMPLATE("a loaded foot moves as its bars let it", Scalar, float, doub
 TEST_CASE_TEMPLATE("nodes move as stepwise says while the joints slide to and fro", Scalar, float, double) {
   taut::Cable<double> cable = steel_cable(0.2);
   cable.prestrain = 2e-4;
-  make_truss_strings(cable);
+  truss_string(scene, cable, 6);
   Pair<Scalar> pair;
   const double rows[][3] = {{0, 0, 1.5e5}, {1, 0, 2e5}, {1, 0.5, 1e5}, {0.5, 1, 2.4e5}};
   for (const auto& row : rows) {
@@ -157,7 +135,7 @@ TEST_CASE_TEMPLATE("nodes move as stepwise says while the cable is slack, and wh
                    float, double) {
   taut::Cable<double> cable = steel_cable(0, anchored);
   cable.prestrain = 2e-4;
-  make_truss_strings(cable);
+  truss_string(scene, cable, 6);
   Pair<Scalar> pair;
   CHECK(pair.follow(0, 8, 0, 1) <= rounding<Scalar>);
   CHECK(pair.T(0) == 0);
@@ -183,20 +161,20 @@ TEST_CASE("between rigid saddles nothing moves") {
 }
 
 TEST_CASE("a displacement that the scene does not have is refused by its node") {
-  make_truss_strings(steel_cable(0.2));
-  const auto condensation = std::make_unique<taut::Condensation<double, MovedPlane>>();
-  const auto model = std::make_unique<taut::Condensed<double, Moved>>();
-  for (const taut::NodeAxis wrong : {taut::NodeAxis{3, 2}, {3, -1}, {moved_scene.nodes.size(), 0}, {-1, 0}}) {
-    taut::CondensedDisplacements<double, Moved> rows;
+  truss_string(scene, steel_cable(0.2), 6);
+  const auto condensation = std::make_unique<taut::Condensation<double, Plane>>();
+  const auto model = std::make_unique<taut::Condensed<double, PlaneCapacity>>();
+  for (const taut::NodeAxis wrong : {taut::NodeAxis{3, 2}, {3, -1}, {scene.nodes.size(), 0}, {-1, 0}}) {
+    taut::CondensedDisplacements<double, PlaneCapacity> rows;
     rows.add(wrong.node, wrong.axis);
-    const taut::Status status = condensation->run(moved_scene, *model, nullptr, &rows);
+    const taut::Status status = condensation->run(scene, *model, nullptr, &rows);
     CHECK(status.code == taut::Code::out_of_range);
     CHECK(status.place == taut::Place::node);
     CHECK(status.index == wrong.node);
   }
-  taut::CondensedDisplacements<double, Moved> rows;
-  for (int i = 0; i < all + 3; ++i) rows.add(0, 0);
-  const taut::Status status = condensation->run(moved_scene, *model, nullptr, &rows);
+  taut::CondensedDisplacements<double, PlaneCapacity> rows;
+  for (int i = 0; i < PlaneCapacity::displacements + 3; ++i) rows.add(0, 0);
+  const taut::Status status = condensation->run(scene, *model, nullptr, &rows);
   CHECK(status.code == taut::Code::capacity_exceeded);
   CHECK(status.amount == 3);
 }

@@ -3,8 +3,9 @@
 #include <Eigen/LU>
 #include <string>
 
+#include "support/bench.hpp"
+#include "support/equilibrium.hpp"
 #include "support/status_check.hpp"
-#include "unit/instances.hpp"
 
 using namespace support;
 
@@ -150,11 +151,12 @@ std::vector<Vector> distinct(const std::vector<Vector>& all) {
 }
 
 /// Compares where the enumeration finds exactly one answer; returns whether it did.
-bool compare(const Plane& scene, const taut::Sample<double, PlaneCapacity>& sample, bool from_prestrain) {
+bool compare(const Plane& scene, const taut::Sample<double, PlaneCapacity>& sample, Solver solver,
+             bool from_prestrain) {
   const auto found = distinct(Enumeration(scene, sample).solutions());
   REQUIRE(!found.empty());
   if (found.size() > 1) return false;
-  Bench<double, Plane> bench(scene);
+  Bench<double, Plane> bench(scene, solver);
   REQUIRE(bench.started().code == taut::Code::ok);
   if (!from_prestrain) {
     bench.load(0, sample.factor[0]).load(1, sample.factor[1]).jack(0, 1, sample.jack[0][1].force);
@@ -173,7 +175,8 @@ Plane scene;
 
 }  // namespace
 
-TEST_CASE("of all joint states those that contradict nothing are found, for a jack on a loaded structure") {
+SOLVER_TEST_CASE(
+    "of all joint states those that contradict nothing are found, for a jack on a loaded structure", solver) {
   int compared = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     CAPTURE(seed);
@@ -183,12 +186,13 @@ TEST_CASE("of all joint states those that contradict nothing are found, for a ja
     sample.factor[0] = random.between(-0.5, 2);
     sample.factor[1] = random.between(-0.5, 2);
     sample.jack[0][1].force = random.between(5e4, 3e5);
-    compared += compare(scene, sample, false) ? 1 : 0;
+    compared += compare(scene, sample, solver, false) ? 1 : 0;
   }
   CHECK(compared >= 50);  // the others have more than one answer
 }
 
-TEST_CASE("of all joint states those that contradict nothing are found, for uneven prestrain") {
+SOLVER_TEST_CASE("of all joint states those that contradict nothing are found, for uneven prestrain",
+                 solver) {
   int compared = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     CAPTURE(seed);
@@ -196,7 +200,7 @@ TEST_CASE("of all joint states those that contradict nothing are found, for unev
     truss_string(scene, steel_cable(random.between(0.02, 0.8), anchored), 3 + random.below(3),
                  Variation(random));
     for (double& prestrain : scene.prestrain) prestrain = random.between(1e-3, 3e-3);
-    compared += compare(scene, {}, true) ? 1 : 0;
+    compared += compare(scene, {}, solver, true) ? 1 : 0;
   }
   CHECK(compared >= 50);
 }

@@ -1,7 +1,7 @@
 // The independent check sees every kind of spoiled answer.
 #include "support/equilibrium.hpp"
 
-#include "unit/instances.hpp"
+#include "support/bench.hpp"
 
 using namespace support;
 
@@ -12,7 +12,7 @@ using Sample = taut::Sample<double, PlaneCapacity>;
 
 /// An answer that can be spoiled.
 struct Spoiled {
-  const Bench<double, Plane>::Solver* solver;
+  const Engine<double, Plane>* solver;
   Response answer;
   double lift = 0;  // of node 1, which does not belong to it [m]
 
@@ -29,7 +29,7 @@ constexpr double wrong = 1e-6;  // far above rounding, far below what anybody wo
 template <class Spoil>
 Violations after(Spoil spoil) {
   truss_string(scene, steel_cable(0.3), 6);
-  Bench<double, Plane> bench(scene);
+  Bench<double, Plane> bench(scene, Solver::stepwise);
   REQUIRE(bench.load(0, 1).jack(0, 1, 2e5).go().ok());
   Sample sample;
   sample.factor[0] = 1;
@@ -70,6 +70,11 @@ TEST_CASE("tensions further apart than friction can hold are seen") {
 TEST_CASE("a contact or friction force that is not that of the tensions is seen") {
   CHECK(after([](Spoiled& s) { s.answer.contact[1] += wrong * 2e5; }).contact > wrong / 10);
   CHECK(after([](Spoiled& s) { s.answer.friction[1] = -s.answer.friction[1]; }).contact > wrong);
+}
+
+TEST_CASE("a joint that slides without being at the limit that opposes it is seen") {
+  CHECK(after([](Spoiled& s) { s.answer.tension[4] = s.answer.tension[5]; }).off_limit > 1e-3);
+  CHECK(after([](Spoiled& s) { s.answer.state[4] = taut::JointState::backward; }).off_limit > 1e-3);
 }
 
 TEST_CASE("a slip against the pull, or one that friction could have held, is seen") {

@@ -1,9 +1,9 @@
 // The same structure written down differently gives the same answer.
 #include <numeric>
 
+#include "support/bench.hpp"
 #include "support/status_check.hpp"
 #include "support/transform.hpp"
-#include "unit/instances.hpp"
 
 using namespace support;
 
@@ -51,9 +51,9 @@ void compare(const A& a, const B& b, int segments, int struts, const Mapping& ma
 
 /// Follows the history in both scenes, jacked at the end of the first.
 template <class SceneA, class SceneB>
-void follow(const SceneA& a, const SceneB& b, const Mapping& map = {}) {
-  Bench<double, SceneA> first(a);
-  Bench<double, SceneB> second(b);
+void follow(const SceneA& a, const SceneB& b, Solver solver, const Mapping& map = {}) {
+  Bench<double, SceneA> first(a, solver);
+  Bench<double, SceneB> second(b, solver);
   REQUIRE(first.started().ok());
   REQUIRE(second.started().ok());
   for (const Row& row : history) {
@@ -77,7 +77,7 @@ void random_truss(std::uint64_t seed, double seating = 0) {
 
 }  // namespace
 
-TEST_CASE("the order of the nodes does not matter") {
+SOLVER_TEST_CASE("the order of the nodes does not matter", solver) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     CAPTURE(seed);
     random_truss(seed);
@@ -87,51 +87,52 @@ TEST_CASE("the order of the nodes does not matter") {
     for (std::size_t i = order.size() - 1; i > 0; --i)
       std::swap(order[i], order[static_cast<std::size_t>(random.below(static_cast<int>(i) + 1))]);
     permute_nodes(scene, other, order);
-    follow(scene, other);
+    follow(scene, other, solver);
   }
 }
 
-TEST_CASE("a path run through backwards gives the mirrored answer") {
+SOLVER_TEST_CASE("a path run through backwards gives the mirrored answer", solver) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     CAPTURE(seed);
     random_truss(seed);
     reverse_paths(scene, other);
     Mapping map;
     map.mirrored = true;
-    follow(scene, other, map);
+    follow(scene, other, solver, map);
   }
 }
 
-TEST_CASE("a structure turned in space has the same forces") {
+SOLVER_TEST_CASE("a structure turned in space has the same forces", solver) {
   const Eigen::Vector3d axis = Eigen::Vector3d(1, -2, 0.5).normalized();
   for (const double angle : {0.3, 1.0, 2.5}) {
     CAPTURE(angle);
     Random random(3);
     space_truss_string(space, steel_cable(0.3), 4, Variation(random));
     rotate(space, turned, Eigen::AngleAxisd(angle, axis).toRotationMatrix());
-    follow(space, turned);
+    follow(space, turned, solver);
   }
 }
 
-TEST_CASE("a plane structure in space has the same forces") {
+SOLVER_TEST_CASE("a plane structure in space has the same forces", solver) {
   taut::Cable<double> cable = steel_cable(0.3);
   cable.prestrain = 2e-4;
   Random random(5);
   truss_string(scene, cable, 6, Variation(random));
   embed(scene, space);
-  follow(scene, space);
+  follow(scene, space, solver);
 }
 
-TEST_CASE("saddles and wobble in space are those in the plane") {
+SOLVER_TEST_CASE("saddles and wobble in space are those in the plane", solver) {
   taut::Cable<double> cable = steel_cable(0.2);
   cable.law = taut::FrictionLaw::capstan;
   cable.wobble = 0.02;
   truss_string(scene, cable, 5);
   embed(scene, space);
-  follow(scene, space);
+  follow(scene, space, solver);
 }
 
-TEST_CASE("in newton and millimetre, or kilonewton and metre, the numbers are those of newton and metre") {
+SOLVER_TEST_CASE(
+    "in newton and millimetre, or kilonewton and metre, the numbers are those of newton and metre", solver) {
   for (const auto& units : {std::pair<double, double>{1e3, 1.0}, {1.0, 1e-3}, {1e-3, 1e-6}}) {
     CAPTURE(units.first);
     CAPTURE(units.second);
@@ -140,11 +141,11 @@ TEST_CASE("in newton and millimetre, or kilonewton and metre, the numbers are th
     map.length = units.first;
     map.force = units.second;
     change_units(scene, other, map.length, map.force);
-    follow(scene, other, map);
+    follow(scene, other, solver, map);
   }
 }
 
-TEST_CASE("a substructure with the matrix of a bar is a strut") {
+SOLVER_TEST_CASE("a substructure with the matrix of a bar is a strut", solver) {
   random_truss(6);
   const int struts = scene.struts.size();
   other = scene;
@@ -164,7 +165,7 @@ TEST_CASE("a substructure with the matrix of a bar is a strut") {
     other.add_substructure(strut.nodes.data(), 2, stiffness);
   }
   REQUIRE(other.substructures.size() == 5);
-  Bench<double, Plane> first(scene), second(other);
+  Bench<double, Plane> first(scene, solver), second(other, solver);
   for (const Row& row : history) {
     for (auto* bench : {&first, &second}) {
       bench->load(0, row.load).load(1, row.other_load).jack(0, 1, row.jack);
@@ -175,9 +176,9 @@ TEST_CASE("a substructure with the matrix of a bar is a strut") {
   }
 }
 
-TEST_CASE("what happened before a start leaves no trace") {
+SOLVER_TEST_CASE("what happened before a start leaves no trace", solver) {
   random_truss(7, 3e-3);
-  Bench<double, Plane> used(scene), fresh(scene);
+  Bench<double, Plane> used(scene, solver), fresh(scene, solver);
   REQUIRE(used.load(0, 1).load(1, -3).jack(0, 1, 3e5).go().ok());
   REQUIRE(used.lock(0, 1).go().ok());
   REQUIRE(used.restart().ok());

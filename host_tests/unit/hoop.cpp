@@ -1,7 +1,7 @@
 // Closed hoops: no end, every node a joint.
+#include "support/bench.hpp"
 #include "support/status_check.hpp"
 #include "unit/hand.hpp"
-#include "unit/instances.hpp"
 
 using namespace support;
 using hand::EA;
@@ -28,30 +28,32 @@ void hexagon(double mu, double prestrain) {
 
 }  // namespace
 
-TEST_CASE(
-    "an evenly prestrained hoop on rigid saddles has EA x prestrain everywhere, whatever the friction") {
+SOLVER_TEST_CASE(
+    "an evenly prestrained hoop on rigid saddles has EA x prestrain everywhere, whatever the friction",
+    solver) {
   for (const double mu : {0.0, 0.2, 3.0}) {
     hexagon(mu, 1e-3);
-    Bench<double, Plane> bench(scene);
+    Bench<double, Plane> bench(scene, solver);
     REQUIRE(bench.started().ok());
     CHECK_LAWFUL(bench, double);
     for (int i = 0; i < 6; ++i) CHECK(close(bench.T(i), EA * 1e-3, rounding));
   }
 }
 
-TEST_CASE("without friction uneven prestrain of a hoop evens out to its mean") {
+SOLVER_TEST_CASE("without friction uneven prestrain of a hoop evens out to its mean", solver) {
   hexagon(0, 0);
   for (int i = 0; i < 6; ++i) scene.prestrain[i] = 1e-4 * (1 + i * i);
-  Bench<double, Plane> bench(scene);
+  Bench<double, Plane> bench(scene, solver);
   REQUIRE(bench.started().ok());
   CHECK_LAWFUL(bench, double);
   for (int i = 0; i < 6; ++i) CHECK(close(bench.T(i), EA * 1e-4 * (6 + 55) / 6, rounding));
 }
 
-TEST_CASE("with friction one tighter side of a hoop hands on as much as its joints let through") {
+SOLVER_TEST_CASE("with friction one tighter side of a hoop hands on as much as its joints let through",
+                 solver) {
   hexagon(0.2, 5e-4);
   scene.prestrain[2] = 1.5e-3;
-  Bench<double, Plane> bench(scene);
+  Bench<double, Plane> bench(scene, solver);
   REQUIRE(bench.started().ok());
   CHECK_LAWFUL(bench, double);
   // By symmetry about side 2: the two joints beside it slide to their limit, then the next two; the last two
@@ -67,9 +69,10 @@ TEST_CASE("with friction one tighter side of a hoop hands on as much as its join
   CHECK(close(bench.T(5), low, rounding));
 }
 
-TEST_CASE("without friction all sides of a dome ring have the same tension under an uneven load") {
+SOLVER_TEST_CASE("without friction all sides of a dome ring have the same tension under an uneven load",
+                 solver) {
   dome_ring(ring, hoop_cable(0, 1e-3), 8);
-  Bench<double, Space> bench(ring);
+  Bench<double, Space> bench(ring, solver);
   REQUIRE(bench.started().ok());
   for (const double factor : {1.0, -0.5, 3.0}) {
     REQUIRE(bench.load(1, factor).go().ok());
@@ -78,10 +81,10 @@ TEST_CASE("without friction all sides of a dome ring have the same tension under
   }
 }
 
-TEST_CASE("an even load on an even dome ring moves no cable, whatever the friction") {
+SOLVER_TEST_CASE("an even load on an even dome ring moves no cable, whatever the friction", solver) {
   for (const double mu : {0.0, 0.3}) {
     dome_ring(ring, hoop_cable(mu, 1e-3), 6);
-    Bench<double, Space> bench(ring);
+    Bench<double, Space> bench(ring, solver);
     REQUIRE(bench.started().ok());
     const double before = bench.T(0);
     REQUIRE(bench.load(0, 1).go().ok());
@@ -94,9 +97,9 @@ TEST_CASE("an even load on an even dome ring moves no cable, whatever the fricti
   }
 }
 
-TEST_CASE("a dome ring goes slack as a whole and comes back") {
+SOLVER_TEST_CASE("a dome ring goes slack as a whole and comes back", solver) {
   dome_ring(ring, hoop_cable(0.2, 2e-4), 6);
-  Bench<double, Space> bench(ring);
+  Bench<double, Space> bench(ring, solver);
   REQUIRE(bench.started().ok());
   const double before = bench.T(0);
   REQUIRE(bench.load(2, 3).go().ok());
@@ -107,7 +110,7 @@ TEST_CASE("a dome ring goes slack as a whole and comes back") {
   for (int i = 0; i < 6; ++i) CHECK(close(bench.T(i), before, rounding));
 }
 
-TEST_CASE("a hoop with hardly any friction finds the state of its joints") {
+SOLVER_TEST_CASE("a hoop with hardly any friction finds the state of its joints", solver) {
   // Of four hundred random rings one in which changing all joints that disagree at once goes round in
   // circles.
   Random random(3019);
@@ -116,7 +119,7 @@ TEST_CASE("a hoop with hardly any friction finds the state of its joints") {
   cable.prestrain = random.between(2e-4, 2e-3);
   const int sides = 3 + random.below(6);
   dome_ring(ring, cable, sides, Variation(random));
-  Bench<double, Space> bench(ring);
+  Bench<double, Space> bench(ring, solver);
   REQUIRE(bench.started().code == taut::Code::ok);
   CHECK_LAWFUL(bench, double);
 }

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "support/bench.hpp"
 #include "support/status_check.hpp"
 #include "unit/hand.hpp"
-#include "unit/instances.hpp"
 
 using namespace support;
 using hand::Chain;
@@ -56,29 +56,29 @@ void pull_and_lock(PlaneBench& bench) {
 
 }  // namespace
 
-TEST_CASE("locking without draw-in changes nothing") {
+SOLVER_TEST_CASE("locking without draw-in changes nothing", solver) {
   const Chain chain{6, 0.3};
   make(chain, 0);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   pull_and_lock(bench);
   check_tensions(bench, [&](int i) { return F * chain.reach(i); });
 }
 
-TEST_CASE("without friction the draw-in costs EA / L x seating everywhere") {
+SOLVER_TEST_CASE("without friction the draw-in costs EA / L x seating everywhere", solver) {
   const Chain chain{6, 0};
   make(chain, 6e-3);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   pull_and_lock(bench);
   check_tensions(bench, [&](int) { return F - EA / chain.total_length() * 6e-3; });
 }
 
-TEST_CASE("with friction the draw-in is felt as far as the change of friction carries it") {
+SOLVER_TEST_CASE("with friction the draw-in is felt as far as the change of friction carries it", solver) {
   const Chain chain{8, 0.3};
   bool partly = false, wholly = false;
   for (const double seating : {0.2e-3, 1e-3, 4e-3, 25e-3}) {
     CAPTURE(seating);
     make(chain, seating);
-    PlaneBench bench(scene);
+    PlaneBench bench(scene, solver);
     pull_and_lock(bench);
     const double X = force_after_draw_in(chain, seating);
     check_tensions(bench, [&](int i) { return std::min(F * chain.reach(i), X / chain.reach(i)); });
@@ -88,9 +88,9 @@ TEST_CASE("with friction the draw-in is felt as far as the change of friction ca
   CHECK(wholly);
 }
 
-TEST_CASE("a locked end keeps its payout less the draw-in") {
+SOLVER_TEST_CASE("a locked end keeps its payout less the draw-in", solver) {
   make({6, 0.3}, 3e-3);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   REQUIRE(bench.jack(0, 1, F).go().ok());
   const double drawn = bench.payout(0, 1);
   REQUIRE(bench.lock(0, 1).go().ok());
@@ -99,28 +99,28 @@ TEST_CASE("a locked end keeps its payout less the draw-in") {
   CHECK(close(bench.payout(0, 1), drawn - 3e-3, rounding));  // drawn in once only
 }
 
-TEST_CASE("a draw-in longer than the elongation leaves the cable slack") {
+SOLVER_TEST_CASE("a draw-in longer than the elongation leaves the cable slack", solver) {
   const Chain chain{4, 0.2};
   make(chain, 0.1);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   pull_and_lock(bench);
   check_tensions(bench, [](int) { return 0.0; });
   for (int j = 0; j < 3; ++j) CHECK(bench.response().state[j] == taut::JointState::open);
 }
 
-TEST_CASE("a draw-in in many steps is the draw-in in one") {
+SOLVER_TEST_CASE("a draw-in in many steps is the draw-in in one", solver) {
   make({7, 0.25}, 4e-3);
-  PlaneBench at_once(scene), in_steps(scene);
+  PlaneBench at_once(scene, solver), in_steps(scene, solver);
   pull_and_lock(at_once);
   REQUIRE(in_steps.jack(0, 1, F).go().ok());
   REQUIRE(in_steps.lock(0, 1).go(16).ok());
   for (int i = 0; i < 7; ++i) CHECK(close(in_steps.T(i), at_once.T(i), rounding, F));
 }
 
-TEST_CASE("what the load cell of a locked end says is of no account") {
+SOLVER_TEST_CASE("what the load cell of a locked end says is of no account", solver) {
   const Chain chain{5, 0.3};
   make(chain, 0);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   pull_and_lock(bench);
   for (const double reading : {0.0, -5.0, 9 * F, std::numeric_limits<double>::quiet_NaN()}) {
     REQUIRE(bench.jack(0, 1, reading).lock(0, 1).go().ok());
@@ -128,11 +128,11 @@ TEST_CASE("what the load cell of a locked end says is of no account") {
   }
 }
 
-TEST_CASE("a jack set on again lifts the end off at the force that was left there") {
+SOLVER_TEST_CASE("a jack set on again lifts the end off at the force that was left there", solver) {
   const Chain chain{7, 0.3};
   const double seating = 3e-3;
   make(chain, seating);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   pull_and_lock(bench);
   const double X = force_after_draw_in(chain, seating), payout = bench.payout(0, 1);
   REQUIRE(bench.jack(0, 1, X).go().ok());
@@ -146,29 +146,29 @@ TEST_CASE("a jack set on again lifts the end off at the force that was left ther
   }
 }
 
-TEST_CASE("every lock-off draws in anew") {
+SOLVER_TEST_CASE("every lock-off draws in anew", solver) {
   const Chain chain{5, 0};
   make(chain, 2e-3);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   for (int stage = 0; stage < 3; ++stage) {
     pull_and_lock(bench);
     check_tensions(bench, [&](int) { return F - EA / chain.total_length() * 2e-3; });
   }
 }
 
-TEST_CASE("a cable of one segment loses EA / L x seating at lock-off") {
+SOLVER_TEST_CASE("a cable of one segment loses EA / L x seating at lock-off", solver) {
   make({1, 0}, 1e-3);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   pull_and_lock(bench);
   check_tensions(bench, [](int) { return F - EA / chain_length(0) * 1e-3; });
 }
 
-TEST_CASE("a locked cable that is warmed loses EA alpha dT and gets it back") {
+SOLVER_TEST_CASE("a locked cable that is warmed loses EA alpha dT and gets it back", solver) {
   const Chain chain{5, 0};
   const double expansion = 1.2e-5;
   make(chain, 0, expansion);
   scene.add_temperature(scene.add_load(), 0, 10);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   pull_and_lock(bench);
   for (const double factor : {1.0, 3.0, -2.0, 0.0}) {
     REQUIRE(bench.load(0, factor).go().ok());
@@ -176,11 +176,12 @@ TEST_CASE("a locked cable that is warmed loses EA alpha dT and gets it back") {
   }
 }
 
-TEST_CASE("a cable that is warmed under a jack keeps its force and is drawn out by alpha dT L") {
+SOLVER_TEST_CASE("a cable that is warmed under a jack keeps its force and is drawn out by alpha dT L",
+                 solver) {
   const Chain chain{5, 0};
   make(chain, 0, 1.2e-5);
   scene.add_temperature(scene.add_load(), 0, 10);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   REQUIRE(bench.jack(0, 1, F).go().ok());
   const double before = bench.payout(0, 1);
   REQUIRE(bench.load(0, 1).go().ok());
@@ -188,11 +189,12 @@ TEST_CASE("a cable that is warmed under a jack keeps its force and is drawn out 
   CHECK(close(bench.payout(0, 1) - before, 1.2e-5 * 10 * chain.total_length(), 1e-9));
 }
 
-TEST_CASE("cooling a locked cable adds the same force everywhere, for that brings no joint to its limit") {
+SOLVER_TEST_CASE(
+    "cooling a locked cable adds the same force everywhere, for that brings no joint to its limit", solver) {
   const Chain chain{6, 0.3};
   make(chain, 0, 1.2e-5);
   scene.add_temperature(scene.add_load(), 0, 10);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   pull_and_lock(bench);
   REQUIRE(bench.load(0, -1).go().ok());
   check_tensions(bench, [&](int i) { return F * chain.reach(i) + EA * 1.2e-5 * 10; });

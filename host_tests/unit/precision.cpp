@@ -2,8 +2,8 @@
 #include <functional>
 #include <string>
 
+#include "support/bench.hpp"
 #include "support/status_check.hpp"
-#include "unit/instances.hpp"
 
 using namespace support;
 
@@ -19,9 +19,9 @@ constexpr Row history[] = {{0, 0, 1e5, false},     {1, 0, 2e5, false},   {1, 0, 
                            {1, 0.5, 2.2e5, false}, {0.2, 1, 1e5, false}, {0, 0, 0, false}};
 
 template <class SceneType>
-void compare(const SceneType& scene, int jacked) {
-  Bench<double, SceneType> fine(scene);
-  Bench<float, SceneType> coarse(scene);
+void compare(const SceneType& scene, Solver solver, int jacked) {
+  Bench<double, SceneType> fine(scene, solver);
+  Bench<float, SceneType> coarse(scene, solver);
   REQUIRE(fine.started().ok());
   REQUIRE(coarse.started().ok());
   double largest = 0;
@@ -60,50 +60,50 @@ Space space;
 
 }  // namespace
 
-TEST_CASE("chains on rigid saddles have the same forces in single precision") {
+SOLVER_TEST_CASE("chains on rigid saddles have the same forces in single precision", solver) {
   for (const double mu : {0.0, 0.1, 0.3}) {
     rigid_saddles(plane, cable_of(mu, jacked_end, 0), chain_points(8));
     plane.add_load();
     plane.add_load();
-    compare(plane, 1);
+    compare(plane, solver, 1);
   }
 }
 
-TEST_CASE("plane truss string structures have the same forces in single precision") {
+SOLVER_TEST_CASE("plane truss string structures have the same forces in single precision", solver) {
   for (const double mu : {0.0, 0.1, 0.3, 0.6})
     for (const int panels : {3, 6, 8}) {
       CAPTURE(mu);
       CAPTURE(panels);
       truss_string(plane, cable_of(mu, jacked_end, 0), panels);
-      compare(plane, 1);
+      compare(plane, solver, 1);
       truss_string(plane, cable_of(mu, jacked_start, 0), panels);
-      compare(plane, 0);
+      compare(plane, solver, 0);
       truss_string(plane, cable_of(mu, anchored, 1e-3), panels);
-      compare(plane, -1);
+      compare(plane, solver, -1);
     }
 }
 
-TEST_CASE("spatial truss string structures have the same forces in single precision") {
+SOLVER_TEST_CASE("spatial truss string structures have the same forces in single precision", solver) {
   for (const double mu : {0.0, 0.2, 0.5}) {
     CAPTURE(mu);
     space_truss_string(space, cable_of(mu, jacked_end, 0), 4);
-    compare(space, 1);
+    compare(space, solver, 1);
   }
 }
 
-TEST_CASE("rings of suspen-domes have the same forces in single precision") {
+SOLVER_TEST_CASE("rings of suspen-domes have the same forces in single precision", solver) {
   for (const double mu : {0.0, 0.1, 0.3}) {
     CAPTURE(mu);
     dome_ring(space, cable_of(mu, anchored, 1e-3), 8);
-    compare(space, -1);
+    compare(space, solver, -1);
   }
 }
 
-TEST_CASE("a far origin costs single precision nothing, for geometry is taken in double") {
+SOLVER_TEST_CASE("a far origin costs single precision nothing, for geometry is taken in double", solver) {
   truss_string(plane, cable_of(0.2, jacked_end, 0), 6);
   for (auto& node : plane.nodes) {
     node.at[0] += 5e5;
     node.at[1] += 5e6;
   }
-  compare(plane, 1);
+  compare(plane, solver, 1);
 }

@@ -1,8 +1,9 @@
 // A scene that is itself in single precision.
 #include <memory>
 
+#include "support/bench.hpp"
 #include "support/status_check.hpp"
-#include "unit/instances.hpp"
+#include "taut/stepwise/stepwise.hpp"
 
 using namespace support;
 
@@ -34,7 +35,7 @@ TEST_CASE("a scene in single precision is solved like the same numbers in double
   same.A = double(cable.A);
   rounded.add_cable(same, path.data(), 4);
   const auto solver = std::make_unique<taut::Stepwise<float, Single>>();
-  Bench<double, Plane> bench(rounded);
+  Bench<double, Plane> bench(rounded, Solver::stepwise);
   taut::Sample<float, PlaneCapacity> sample;
   sample.jack[0][1].force = 1e5f;
   REQUIRE(solver->start(single).ok());

@@ -1,9 +1,9 @@
 // Cables that lose their tension and get it back.
 #include <algorithm>
 
+#include "support/bench.hpp"
 #include "support/status_check.hpp"
 #include "unit/hand.hpp"
-#include "unit/instances.hpp"
 
 using namespace support;
 using hand::EA;
@@ -30,12 +30,13 @@ double tension_difference(const PlaneBench& a, const PlaneBench& b) {
 
 }  // namespace
 
-TEST_CASE("a warmed cable goes slack at the temperature that eats its prestrain, and comes back") {
+SOLVER_TEST_CASE("a warmed cable goes slack at the temperature that eats its prestrain, and comes back",
+                 solver) {
   taut::Cable<double> cable = prestrained(0, 1e-3);
   cable.alpha = 1e-5;
   rigid_saddles(scene, cable, chain_points(4));
   scene.add_temperature(scene.add_load(), 0, 1);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   for (const double kelvin : {50.0, 99.0, 101.0, 150.0, 120.0, 99.0, 0.0, 200.0, 20.0}) {
     CAPTURE(kelvin);
     REQUIRE(bench.load(0, kelvin).go().ok());
@@ -46,14 +47,14 @@ TEST_CASE("a warmed cable goes slack at the temperature that eats its prestrain,
   }
 }
 
-TEST_CASE("while the cable is slack the structure carries the load alone") {
+SOLVER_TEST_CASE("while the cable is slack the structure carries the load alone", solver) {
   truss_string(scene, prestrained(0.2, 2e-4), 6);
   truss_string(bare, prestrained(0.2, 2e-4), 6);
   bare.cables = {};
   bare.path = {};
   bare.prestrain = {};
   bare.mu = {};
-  PlaneBench with(scene), without(bare);
+  PlaneBench with(scene, solver), without(bare, solver);
   REQUIRE(with.load(1, 8).go().ok());
   REQUIRE(without.load(1, 8).go().ok());
   REQUIRE(with.T(0) == 0);
@@ -62,9 +63,10 @@ TEST_CASE("while the cable is slack the structure carries the load alone") {
     CHECK(close(with.response().strut[i], without.response().strut[i], rounding, with.largest_force()));
 }
 
-TEST_CASE("without friction a cable that was slack on the way has the tension of the straight way") {
+SOLVER_TEST_CASE("without friction a cable that was slack on the way has the tension of the straight way",
+                 solver) {
   truss_string(scene, prestrained(0, 4e-4), 6);
-  PlaneBench there_and_back(scene), straight(scene);
+  PlaneBench there_and_back(scene, solver), straight(scene, solver);
   for (const double relief : {8.0, 1.0, 10.0}) REQUIRE(there_and_back.load(1, relief).go().ok());
   REQUIRE(there_and_back.load(1, 0).load(0, 1).go().ok());
   REQUIRE(straight.load(0, 1).go().ok());
@@ -72,13 +74,13 @@ TEST_CASE("without friction a cable that was slack on the way has the tension of
   CHECK(tension_difference(there_and_back, straight) <= rounding * there_and_back.largest_force());
 }
 
-TEST_CASE("with friction a cable that was slack obeys all laws when it is tightened again") {
+SOLVER_TEST_CASE("with friction a cable that was slack obeys all laws when it is tightened again", solver) {
   bool was_slack = false;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
     Random random(seed);
     truss_string(scene, prestrained(random.between(0.05, 0.6), 3e-4), 3 + random.below(6), Variation(random));
-    PlaneBench bench(scene);
+    PlaneBench bench(scene, solver);
     for (const double relief : {0.0, 12.0, 3.0, 0.0, -3.0, 14.0, -1.0}) {
       REQUIRE(bench.load(1, relief).load(0, 0.3).go().ok());
       CHECK_LAWFUL(bench, double);
@@ -89,21 +91,21 @@ TEST_CASE("with friction a cable that was slack obeys all laws when it is tighte
   CHECK(was_slack);
 }
 
-TEST_CASE("a cable between anchors is slack from a negative prestrain on") {
+SOLVER_TEST_CASE("a cable between anchors is slack from a negative prestrain on", solver) {
   rigid_saddles(scene, prestrained(0.2, -1e-4), chain_points(5));
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   REQUIRE(bench.started().ok());
   CHECK_LAWFUL(bench, double);
   for (int i = 0; i < 5; ++i) CHECK(bench.T(i) == 0);
 }
 
-TEST_CASE("one slack segment pulls its neighbours slack unless a locked joint lies between") {
+SOLVER_TEST_CASE("one slack segment pulls its neighbours slack unless a locked joint lies between", solver) {
   rigid_saddles(scene, prestrained(0.2, 0), chain_points(4));
   scene.prestrain[0] = 1e-3;
   scene.prestrain[1] = -3e-3;  // too long by more than the first segment is too short
   scene.prestrain[2] = scene.prestrain[3] = 5e-4;
   scene.mu[1] = 10;
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   CHECK_LAWFUL(bench, double);
   CHECK(bench.T(0) == 0);
   CHECK(bench.T(1) == 0);
@@ -113,12 +115,12 @@ TEST_CASE("one slack segment pulls its neighbours slack unless a locked joint li
   CHECK(bench.response().state[1] != JointState::open);
 }
 
-TEST_CASE("a jack draws a cable straight that was laid too long") {
+SOLVER_TEST_CASE("a jack draws a cable straight that was laid too long", solver) {
   taut::Cable<double> cable = steel_cable(0.2);
   cable.prestrain = -1e-3;
   rigid_saddles(scene, cable, chain_points(4));
   const hand::Chain chain{4, 0.2};
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   REQUIRE(bench.jack(0, 1, 1e5).go().ok());
   CHECK_LAWFUL(bench, double);
   double elongation = 1e-3 * chain.total_length();
@@ -129,12 +131,12 @@ TEST_CASE("a jack draws a cable straight that was laid too long") {
   CHECK(close(bench.payout(0, 1), elongation, rounding));
 }
 
-TEST_CASE("a jack takes hold of a cable that went slack behind its locked end") {
+SOLVER_TEST_CASE("a jack takes hold of a cable that went slack behind its locked end", solver) {
   taut::Cable<double> cable = steel_cable(0.3);
   cable.seating = 0.1;
   rigid_saddles(scene, cable, chain_points(5));
   const hand::Chain chain{5, 0.3};
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   REQUIRE(bench.jack(0, 1, 2e5).go().ok());
   REQUIRE(bench.lock(0, 1).go().ok());
   REQUIRE(bench.T(4) == 0);
@@ -143,12 +145,12 @@ TEST_CASE("a jack takes hold of a cable that went slack behind its locked end") 
   for (int i = 0; i < 5; ++i) CHECK(close(bench.T(i), 1e5 * chain.reach(i), rounding));
 }
 
-TEST_CASE("a cable that was slack has forgotten the forces that friction had kept in it") {
+SOLVER_TEST_CASE("a cable that was slack has forgotten the forces that friction had kept in it", solver) {
   taut::Cable<double> cable = steel_cable(0.3);
   cable.alpha = 1e-5;
   rigid_saddles(scene, cable, chain_points(5));
   scene.add_temperature(scene.add_load(), 0, 1);
-  PlaneBench bench(scene);
+  PlaneBench bench(scene, solver);
   REQUIRE(bench.jack(0, 1, 2e5).go().ok());
   REQUIRE(bench.lock(0, 1).go().ok());
   const hand::Chain chain{5, 0.3};
@@ -163,9 +165,10 @@ TEST_CASE("a cable that was slack has forgotten the forces that friction had kep
   for (int i = 0; i < 5; ++i) CHECK(close(bench.T(i), EA * 1e-5 * 20, 1e-10));
 }
 
-TEST_CASE("a prestrained cable that was slack takes the same forces in one step as in a hundred") {
+SOLVER_TEST_CASE("a prestrained cable that was slack takes the same forces in one step as in a hundred",
+                 solver) {
   truss_string(scene, prestrained(0.3, 4e-4), 6);
-  PlaneBench at_once(scene), in_steps(scene);
+  PlaneBench at_once(scene, solver), in_steps(scene, solver);
   for (PlaneBench* bench : {&at_once, &in_steps}) {
     REQUIRE(bench->load(0, 1).go(100).ok());
     REQUIRE(bench->load(1, 20).load(0, 0).go(100).ok());

@@ -55,15 +55,14 @@ class Structure {
     return judge(residual(force, imposed));
   }
 
-  /// Force of a segment in the last solution, given its imposed elongation [N].
+  /// Force of a segment in the last solution, given its imposed elongation [N]. Exactly zero if nothing
+  /// resists the elongations, as where the structure is statically determinate.
   Scalar tension(int segment, Scalar imposed) const {
-    const auto& bar = elements_.segments[segment];
-    return (bar.axial * (elongation(bar.nodes, bar.line) + Word{imposed, 0})).value();
+    return is_unresisted() ? Scalar(0) : force_of(elements_.segments[segment], imposed);
   }
   /// Force of a strut in the last solution [N].
   Scalar strut_force(int strut) const {
-    const auto& bar = elements_.struts[strut];
-    return (bar.axial * elongation(bar.nodes, bar.line)).value();
+    return is_unresisted() ? Scalar(0) : force_of(elements_.struts[strut], Scalar(0));
   }
   /// Displacement of a node in the last solution [m].
   Scalar node_displacement(int node, int axis) const { return displacement(node, axis).value(); }
@@ -143,28 +142,40 @@ class Structure {
     return sum;
   }
 
+  template <class Bar>
+  Scalar force_of(const Bar& bar, Scalar imposed) const {
+    return (bar.axial * (elongation(bar.nodes, bar.line) + Word{imposed, 0})).value();
+  }
+  /// Whether all forces are rounding of what they were summed from.
+  bool is_unresisted() const { return largest_ <= 16 * epsilon * epsilon * coarsest_; }
+
   void push(int node, int axis, Scalar force) {
     const int unknown = unknown_[node * dimension + axis];
     largest_ = std::fmax(largest_, std::fabs(force));
     if (unknown >= 0) residual_[unknown] += force;
   }
   template <class Bar>
-  void pull(const Bar& bar, Scalar force) {
+  void pull(const Bar& bar, Scalar imposed) {
+    const Scalar force = force_of(bar, imposed);
+    for (const int node : bar.nodes)
+      for (int axis = 0; axis < dimension; ++axis)
+        coarsest_ = std::fmax(coarsest_, bar.axial * std::fabs(displacement(node, axis).hi));
     for (int axis = 0; axis < dimension; ++axis) {
       push(bar.nodes[0], axis, bar.line.direction[axis] * force);
       push(bar.nodes[1], axis, -bar.line.direction[axis] * force);
     }
   }
 
-  /// Puts loads minus element forces into residual_; returns the largest part relative to the largest force.
+  /// Puts loads minus element forces into residual_; returns the largest part relative to the largest force,
+  /// or zero if there is none but rounding.
   template <class Forces, class Elongations>
   Scalar residual(Forces force, Elongations imposed) {
-    largest_ = 0;
+    largest_ = coarsest_ = 0;
     for (int i = 0; i < count_; ++i) residual_[i] = 0;
     for (int node = 0; node < scene_->nodes.size(); ++node)
       for (int axis = 0; axis < dimension; ++axis) push(node, axis, force(node, axis));
-    for (int i = 0; i < scene_->struts.size(); ++i) pull(elements_.struts[i], strut_force(i));
-    for (int i = 0; i < segments(); ++i) pull(elements_.segments[i], tension(i, imposed(i)));
+    for (int i = 0; i < scene_->struts.size(); ++i) pull(elements_.struts[i], Scalar(0));
+    for (int i = 0; i < segments(); ++i) pull(elements_.segments[i], imposed(i));
     for (int i = 0; i < scene_->substructures.size(); ++i) {
       const SubstructureElement<SceneType> K(*scene_, i);
       for (int row = 0; row < K.size(); ++row) {
@@ -176,7 +187,7 @@ class Structure {
     }
     Scalar most = 0;
     for (int i = 0; i < count_; ++i) most = std::fmax(most, std::fabs(residual_[i]));
-    return most > 0 ? most / largest_ : Scalar(0);
+    return most > 0 && !is_unresisted() ? most / largest_ : Scalar(0);
   }
 
   Status judge(Scalar imbalance) const {
@@ -224,7 +235,8 @@ class Structure {
   FixedArray<int, max_unknowns> first_;
   FixedArray<Word, max_unknowns> u_;
   FixedArray<Scalar, max_unknowns> residual_;
-  Scalar largest_ = 0;
+  Scalar largest_ = 0;   // force
+  Scalar coarsest_ = 0;  // stiffness x displacement: of these, forces are small differences
   int count_ = 0;
 };
 
