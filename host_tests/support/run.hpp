@@ -46,7 +46,8 @@ class Run {
 
   taut::Progress<Scalar> advance(const Sample& sample, int event_budget = Tracker::default_budget);
 
-  /// Puts the tracker's state into a new one, as after a power failure.
+  /// Puts the state into a new tracker, as after a power failure: all caches are dropped. Fails unless the
+  /// new one has the same state, compared whole.
   taut::Status replace_tracker();
 
   double tension(int segment) const;
@@ -94,7 +95,10 @@ template <class Scalar, class SceneType>
 taut::Status Run<Scalar, SceneType>::replace_tracker() {
   const auto state = std::make_unique<typename Tracker::State>(tracker_->save());
   tracker_.reset(new Tracker);
-  return tracker_->restore(*model_, *state);
+  const taut::Status restored = tracker_->restore(*model_, *state);
+  if (restored && !(tracker_->save() == *state))
+    return taut::Status::at(taut::Code::bad_sample, taut::Place::none, -1);
+  return restored;
 }
 
 template <class Scalar, class SceneType>

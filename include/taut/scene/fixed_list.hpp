@@ -47,6 +47,14 @@ class FixedList {
   constexpr T* begin() { return items_.data(); }
   constexpr T* end() { return items_.data() + size(); }
 
+  /// Whether both have the same items in the same order.
+  friend constexpr bool operator==(const FixedList& a, const FixedList& b) {
+    if (a.size() != b.size()) return false;
+    for (int i = 0; i < a.size(); ++i)
+      if (!(a[i] == b[i])) return false;
+    return true;
+  }
+
  private:
   std::array<T, static_cast<std::size_t>(N)> items_{};
   int size_ = 0;
@@ -63,6 +71,11 @@ struct FixedArray {
   constexpr const T& operator[](int i) const { return items[static_cast<std::size_t>(i)]; }
   constexpr void fill(const T& value) {
     for (T& item : items) item = value;
+  }
+  friend constexpr bool operator==(const FixedArray& a, const FixedArray& b) {
+    for (int i = 0; i < N; ++i)
+      if (!(a[i] == b[i])) return false;
+    return true;
   }
 };
 

@@ -18,11 +18,17 @@ struct Drive {
     bool locked = false;
     Scalar force = 0;   ///< [N]
     Scalar payout = 0;  ///< extension of the jack [m]
+    friend bool operator==(const JackedEnd& a, const JackedEnd& b) {
+      return a.locked == b.locked && a.force == b.force && a.payout == b.payout;
+    }
   };
   FixedArray<Scalar, Cap::loads> factor;
   FixedArray<std::array<JackedEnd, 2>, Cap::cables> jack;
   Scalar prestrain = 0;  ///< 0 to 1: how much of the prestrain there is
 
+  friend bool operator==(const Drive& a, const Drive& b) {
+    return a.factor == b.factor && a.jack == b.jack && a.prestrain == b.prestrain;
+  }
   /// The point `part` of the way from `a` to `b`; locks are those of `b`.
   static Drive between(const Drive& a, const Drive& b, Scalar part) {
     if (part >= Scalar(1)) return b;

@@ -43,6 +43,15 @@ struct CableState {
   bool has_range = false;                     ///< one input alone changes, and how far it may go is known
 
   Real peak = 0;  ///< the largest force so far: what is small against it is zero [N]
+
+  /// Compares the whole.
+  friend bool operator==(const CableState& a, const CableState& b) {
+    return a.now == b.now && a.goal == b.goal && a.slides == b.slides && a.order == b.order &&
+           a.slack == b.slack && a.rests == b.rests && a.representative == b.representative &&
+           a.moved == b.moved && a.built == b.built && a.has_load == b.has_load && a.has_map == b.has_map &&
+           a.arrived == b.arrived && a.last == b.last && a.tension == b.tension && a.live == b.live &&
+           a.reach == b.reach && a.has_range == b.has_range && a.peak == b.peak;
+  }
 };
 
 }  // namespace taut

@@ -64,6 +64,9 @@ struct Moving {
   FixedArray<std::array<Real, 2>, Cap::cables> payout;  ///< at start and end of every cable [m]
   FixedArray<Real, Cap::segments> excess;  ///< length that every run has too much [m], zero if taut
 
+  friend bool operator==(const Moving& a, const Moving& b) {
+    return a.slip == b.slip && a.payout == b.payout && a.excess == b.excess;
+  }
   /// What `move` has come to.
   Real& of(const Move& move) {
     if (move.kind == Move::Kind::excess) return excess[move.index];

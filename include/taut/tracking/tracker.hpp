@@ -230,9 +230,9 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   /// Not in one frame with the samples that need no more than goes_along().
   [[gnu::noinline]] Progress<Scalar> approach(const Sample<Scalar, Cap>& sample, int event_budget) {
     if (samples_.follow(cables_, sample)) return {};
-    samples_.forget(cables_);
     const Status usable = check_sample(*cables_.model, sample);
     if (!usable) return {usable, Scalar(0), 0};
+    samples_.forget(cables_);
     set_goal(sample);
     for (const JackedEnd& jack : cables_.jacks)
       if (cables_.is_spare(jack.cable, jack.end) && !cables_.spare_agrees(jack.cable))
