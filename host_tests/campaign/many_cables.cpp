@@ -234,7 +234,7 @@ class Trial {
     LoadSteps::Moves moves;
     moves.excess.assign(std::size_t(scene.prestrain.size()), 0);
     for (int r = 0; r < tracker.runs().size(); ++r)
-      moves.excess[std::size_t(tracker.runs()[r].segment(0))] = Exact(reached.excess[r]);
+      moves.excess[std::size_t(tracker.runs()[r].segment(0))] = Exact(reached.slack_length[r]);
     for (int j = 0; j < scene.mu.size(); ++j) moves.slip.push_back(Exact(reached.slip[j]));
     for (int k = 0; k < scene.loads; ++k) {
       now.factors.push_back(Exact(loads.factor[k]));

@@ -144,19 +144,20 @@ TEST_CASE_TEMPLATE("a move whose law follows from the others is refused", On, St
     SetOn<Cable> set;
     set.begin(cable.model);
     CHECK(set.append(cable.laws, cable.payout(1)));
-    CHECK_FALSE(set.append(cable.laws, cable.excess(4)));
-    CHECK(set.append(cable.laws, cable.excess(3)));
-    check_set(cable, set, {cable.payout(1), cable.excess(3)}, random, 8);
+    CHECK_FALSE(set.append(cable.laws, cable.slack_length(4)));
+    CHECK(set.append(cable.laws, cable.slack_length(3)));
+    check_set(cable, set, {cable.payout(1), cable.slack_length(3)}, random, 8);
   }
   SUBCASE("a joint slides between two segments whose tensions are given") {
     const Cable cable(random, 5, false, On::coupled);
     SetOn<Cable> set;
     set.begin(cable.model);
-    CHECK(set.append(cable.laws, cable.excess(1)));
-    CHECK(set.append(cable.laws, cable.excess(2)));
+    CHECK(set.append(cable.laws, cable.slack_length(1)));
+    CHECK(set.append(cable.laws, cable.slack_length(2)));
     CHECK_FALSE(set.append(cable.laws, cable.slip(1, true)));
     CHECK(set.append(cable.laws, cable.slip(2, true)));
-    CHECK_FALSE(set.append(cable.laws, cable.excess(3)));  // segment 3 has its tension through the joint
+    CHECK_FALSE(
+        set.append(cable.laws, cable.slack_length(3)));  // segment 3 has its tension through the joint
   }
   SUBCASE("a hoop slides around as a whole") {
     const Cable cable(random, 4, true, On::coupled);
@@ -164,7 +165,7 @@ TEST_CASE_TEMPLATE("a move whose law follows from the others is refused", On, St
     set.begin(cable.model);
     for (int joint = 0; joint < 3; ++joint) CHECK(set.append(cable.laws, cable.slip(joint, joint != 1)));
     CHECK_FALSE(set.append(cable.laws, cable.slip(3, true)));
-    CHECK(set.append(cable.laws, cable.excess(2)));
+    CHECK(set.append(cable.laws, cable.slack_length(2)));
   }
   SUBCASE("a cable slides through from jack to jack") {
     const Cable cable(random, 3, false, On::coupled);

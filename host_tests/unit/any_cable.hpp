@@ -60,10 +60,11 @@ struct AnyCable {
 
   taut::Active slip(int joint, bool forward) const {
     return laws.sliding(
-        taut::Candidate::of(joint, forward ? taut::JointState::forward : taut::JointState::backward));
+        taut::SlipMode::of(joint, forward ? taut::JointState::forward : taut::JointState::backward));
   }
-  taut::Active excess(int segment) const {
-    return {taut::Move::of(taut::Move::Kind::excess, segment, segment), static_cast<std::int16_t>(segment)};
+  taut::Active slack_length(int segment) const {
+    return {taut::Move::of(taut::Move::Kind::slack_length, segment, segment),
+            static_cast<std::int16_t>(segment)};
   }
   taut::Active payout(int end) const {
     const int segment = end == 0 ? 0 : n() - 1;
@@ -73,7 +74,7 @@ struct AnyCable {
   taut::Active any(Random& random) const {
     const int kind = random.below(10);
     if (kind < 7 && model.joints > 0) return slip(random.below(model.joints), random.coin());
-    if (kind < 9 || model.cables[0].closed) return excess(random.below(n()));
+    if (kind < 9 || model.cables[0].closed) return slack_length(random.below(n()));
     return payout(random.below(2));
   }
 

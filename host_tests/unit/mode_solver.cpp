@@ -112,8 +112,8 @@ struct Decision {
     for (std::size_t p = 0; p < problem.pairs.size(); ++p) {
       const taut::Active& pair = problem.pairs[p];
       if (pair.slides())
-        solver.add_slip(taut::Candidate::of(pair.move.index,
-                                            pair.sense > 0 ? JointState::forward : JointState::backward));
+        solver.add_slip(
+            taut::SlipMode::of(pair.move.index, pair.sense > 0 ? JointState::forward : JointState::backward));
       else
         solver.add_segment(pair.on, problem.least[p]);
     }
@@ -185,7 +185,7 @@ Problem<Cap> from_zero_tension(const AnyCable<Cap>& cable, Random& random) {
   for (int i = 0; i < cable.n() - static_cast<int>(problem.follow.size()); ++i) {
     double left = pull;
     for (int j = i; pull > 0 && j < cable.model.joints; ++j) left *= cable.model.rho[j];
-    problem.pairs.push_back(cable.excess(i));
+    problem.pairs.push_back(cable.slack_length(i));
     problem.least.push_back(left);
   }
   for (int j = 0; j < cable.model.joints; ++j)

@@ -77,7 +77,7 @@ struct Sizes {
   struct OfStack {
     using Model = Condensed<Scalar, Cap>;
     using Solver = ModeSolver<Model, typename CableSystem<Model, 0>::Laws>;
-    static constexpr std::size_t bytes = sizeof(Solver) + 2 * sizeof(FixedList<Candidate, 2 * Cap::joints>) +
+    static constexpr std::size_t bytes = sizeof(Solver) + 2 * sizeof(FixedList<SlipMode, 2 * Cap::joints>) +
                                          sizeof(typename Tracker<Model>::Moving) +
                                          8 * sizeof(typename Solver::Tensions) +
                                          8 * sizeof(typename Solver::Moves) + 1024;

@@ -252,9 +252,9 @@ class Estimator {
     for (const EndType& end : far_ends_.ends()) {
       const EndReading<Scalar>& given = end.in(readings.ends);
       if (!given.has_force) continue;
-      const Outcome outcome = gathers ? far_ends_.gather(given.force, tracker_, filter_, jacks_)
-                                      : far_ends_.measure(end, given.force, tracker_, filter_, jacks_);
-      if (outcome != Outcome::waits) note(outcome, alarm_at(Alarm::Kind::sensor, end));
+      const Update update = gathers ? far_ends_.gather(given.force, tracker_, filter_, jacks_)
+                                    : far_ends_.measure(end, given.force, tracker_, filter_, jacks_);
+      if (update != Update::waits) note(update, alarm_at(Alarm::Kind::sensor, end));
     }
   }
   void learn_waiting() {
@@ -273,17 +273,17 @@ class Estimator {
     }
     predict(filter_.prediction());
     if (!filter_.is_informative(tracker_, contradiction.cable, sd))
-      note(Outcome::no_information, contradiction);
+      note(Update::no_information, contradiction);
     else
       note(filter_.update(tracker_, predict, jacks_.readings(filter_.prior()), {reading, sd, Scalar(0)}),
            contradiction);
   }
-  void note(Outcome outcome, const Alarm& contradiction) {
-    if (outcome == Outcome::updated)
+  void note(Update update, const Alarm& contradiction) {
+    if (update == Update::updated)
       is_friction_fine_ = false;
-    else if (outcome == Outcome::contradiction)
+    else if (update == Update::contradiction)
       alarms_.add(contradiction);
-    else if (outcome == Outcome::no_information)
+    else if (update == Update::no_information)
       alarms_.add(Alarm::of(Alarm::Kind::no_information, contradiction.cable, contradiction.place));
   }
 

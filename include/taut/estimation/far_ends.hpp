@@ -61,31 +61,30 @@ class FarEnds {
   }
 
   /// Takes a reading [N] of the cell at `end` into account at once. Cost: that of FilterType::update().
-  [[nodiscard]] Outcome measure(const EndType& end, Scalar reading, TrackerType& tracker, FilterType& filter,
-                                const Jacks& jacks) {
+  [[nodiscard]] Update measure(const EndType& end, Scalar reading, TrackerType& tracker, FilterType& filter,
+                               const Jacks& jacks) {
     const Scalar sd = end.in(filter.prior().sensor_sd);
     const auto predict = [&](auto& prediction) { predict_at(end, tracker, filter, jacks, prediction); };
     predict(filter.prediction());
-    if (!filter.is_informative(tracker, end.cable(), sd)) return Outcome::no_information;
+    if (!filter.is_informative(tracker, end.cable(), sd)) return Update::no_information;
     count_learned(1);
     return filter.update(tracker, predict, jacks.readings(filter.prior()), {reading, sd, Scalar(0)});
   }
   /// Where gathers(): gathers a reading [N] of the only cell. Cost: a few operations; that of update() with
   /// the last one for which there is room.
-  [[nodiscard]] Outcome gather(Scalar reading, TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
+  [[nodiscard]] Update gather(Scalar reading, TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
     Gathered<Scalar>& gathered = state_.gathered;
     const Scalar driven = jacks[0].driven.force, load = jacks[0].locked ? driven : jacks[0].raw;
-    if (gathered.size == 0 && !begin_gathering(driven, tracker, filter, jacks))
-      return Outcome::no_information;
+    if (gathered.size == 0 && !begin_gathering(driven, tracker, filter, jacks)) return Update::no_information;
     const Scalar off = gathered.off_line(load, reading);
-    if (!(off * off <= FilterType::BeliefType::gate * gathered.spread)) return Outcome::contradiction;
+    if (!(off * off <= FilterType::BeliefType::gate * gathered.spread)) return Update::contradiction;
     gathered.add(load, driven, off);
     has_gathered_ = true;
-    return gathered.is_full() ? learn(tracker, filter, jacks) : Outcome::waits;
+    return gathered.is_full() ? learn(tracker, filter, jacks) : Update::waits;
   }
   /// Takes what waits, if anything does, into account as one measurement. Cost: that of FilterType::update().
-  [[nodiscard]] Outcome learn(TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
-    if (!has_waiting()) return Outcome::waits;
+  [[nodiscard]] Update learn(TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
+    if (!has_waiting()) return Update::waits;
     const Gathered<Scalar> all = state_.gathered;
     state_.gathered.size = 0;
     count_learned(all.size);

@@ -15,7 +15,7 @@
 namespace taut {
 
 /// What became of a reading.
-enum class Outcome : std::uint8_t {
+enum class Update : std::uint8_t {
   updated,         ///< it is known from here on
   waits,           ///< it is taken into account later, with others
   no_information,  ///< joints stick that matter to it: nothing is learned
@@ -137,16 +137,16 @@ class FrictionFilter {
   /// been relinearized. Returns `contradiction` if and only if the innovation is outside of the gate. Cost:
   /// that of Belief::innovate(), and in the worst case four times that of Tracker::adjust().
   template <class Predict>
-  [[nodiscard]] Outcome update(TrackerType& tracker, const Predict& predict, const JackReadings& jacks,
-                               const Measured<Scalar>& measured) {
+  [[nodiscard]] Update update(TrackerType& tracker, const Predict& predict, const JackReadings& jacks,
+                              const Measured<Scalar>& measured) {
     belief_.update_errors(jacks);
     for (int iteration = 1;; ++iteration) {
-      if (!belief_.innovate(prediction_, jacks, measured)) return Outcome::contradiction;
+      if (!belief_.innovate(prediction_, jacks, measured)) return Update::contradiction;
       const bool goes_on = belief_.is_nonlinear() && relinearize(tracker, belief_.updated_mean()) &&
                            iteration < most_iterations;
       if (!goes_on) {
         belief_.update();
-        return Outcome::updated;
+        return Update::updated;
       }
       predict(prediction_);
     }

@@ -36,11 +36,11 @@ struct LoadFilterTuning {
   /// Samples from one new hypothesis to the next: where nothing surprises, it does not matter where exactly
   /// one begins.
   static constexpr std::int8_t pause = 3;
-  /// The same while readings wait: nothing has surprised then.
+  /// Samples from one to the next while readings wait: nothing has surprised then.
   static constexpr std::int8_t long_pause = 24;
   /// A reading farther off than so many standard deviations surprises: a hypothesis begins at once.
   static constexpr Level surprise = 2;
-  /// The same for readings that wait: the square of their drift, in its variances.
+  /// For readings that wait: the square of their drift, in its variances.
   static constexpr Level suspicious = Level(0.5);
   /// Run lengths beyond this are as good as one another.
   static constexpr int long_run = 1024;
@@ -95,7 +95,7 @@ struct LoadFilterTuning {
 
   /// That it has come so far, by the estimate.
   static constexpr Level confirm_load = Level(3.3);
-  /// The same by a mean of readings: that of few is tried a million times in a long hold.
+  /// By a mean of readings: that of few is tried a million times in a long hold.
   static constexpr Level confirm_mean = 5;
   /// That it has reversed: a wrong reversal is remembered by friction.
   static constexpr Level confirm_reversal = 5;

@@ -266,7 +266,7 @@ class ActiveSet {
     const int joint = i + 1 < row.count ? row.joint(i) : -1;
     return Cap::joints == 0 || joint < 0 ? -1 : links_.slip[joint];
   }
-  /// The same if a ratio of tensions links the two segments.
+  /// The active slip after segment `i` if a ratio of tensions links the two segments, else -1.
   int ratio_after(const Row& row, int i) const {
     const int slip = slip_after(row, i);
     return slip >= 0 && active_[slip].slides() ? slip : -1;

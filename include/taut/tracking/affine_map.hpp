@@ -26,7 +26,7 @@ class AffineMap {
   using Tensions = FixedArray<Real, Cap::segments>;
   using Moves = FixedArray<Real, max_active>;
   using Inputs = FixedArray<Real, max_inputs>;
-  /// The same in the scene's scalar.
+  /// Tensions in the scene's scalar.
   using Rounded = FixedArray<Scalar, Cap::segments>;
 
   /// Empties the map. The model must outlive it.
@@ -56,7 +56,8 @@ class AffineMap {
   void make(const Laws& laws, const Tensions& T, const Moves& moves, const Inputs& anchor,
             Differentiate differentiate) {
     has_slack_ = false;
-    for (const Active& active : actives()) has_slack_ = has_slack_ || active.move.kind == Move::Kind::excess;
+    for (const Active& active : actives())
+      has_slack_ = has_slack_ || active.move.kind == Move::Kind::slack_length;
     anchor_ = anchor;
     base_ = T;
     base_moves_ = moves;
@@ -105,7 +106,7 @@ class AffineMap {
 
   /// Whether every move keeps the sign it must have when input `k` alone grows, or shrinks.
   bool keeps(int k, bool up) const { return up ? keeps_if_up_[k] : keeps_if_down_[k]; }
-  /// The same going along `dx`, give or take `tolerance` [N].
+  /// Whether every move keeps the sign it must have going along `dx`, give or take `tolerance` [N].
   bool goes_on(const Inputs& dx, Real tolerance) const {
     for (int i = 0; i < active(); ++i)
       if (!goes_on(i, dx, tolerance)) return false;
@@ -128,7 +129,7 @@ class AffineMap {
   /// Whether at `x` every slack run still has length to spare.
   bool stays_slack(const Inputs& x) const {
     for (int i = 0; i < active(); ++i)
-      if (move(i).kind == Move::Kind::excess && active_move(i, x) < 0) return false;
+      if (move(i).kind == Move::Kind::slack_length && active_move(i, x) < 0) return false;
     return true;
   }
 

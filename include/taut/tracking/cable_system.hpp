@@ -56,7 +56,7 @@ struct CableSystem {
   Tensions force;          ///< where the last event, or the last call with events, ended [N]
   Real push = 0;           ///< largest change of force that the path would make with every joint stuck [N]
   bool is_set_up = false;  ///< the moves of the map are those of the present modes
-  bool has_spare = false;  ///< a cable of one segment has two jacks at work
+  bool has_redundant_jack = false;  ///< a cable of one segment has two jacks at work
 
   /// Begins without loads; the goal is the prestrain.
   void begin(const CondensedType& condensed) {
@@ -73,7 +73,7 @@ struct CableSystem {
     for (int r = 0; r < runs.size(); ++r)
       state.representative[r] = static_cast<std::int16_t>(runs[r].segment(0));
     force = {};
-    find_spare();
+    find_redundant_jack();
     map.begin(condensed);
     drop_set();
     if constexpr (is_adjustable) derivatives.begin();
@@ -113,16 +113,17 @@ struct CableSystem {
     return segment == run.segment(0) || segment == run.segment(run.count - 1);
   }
   /// On a cable of one segment with two jacks at work the start's payout rests, and the end's does for both.
-  bool is_spare(int c, std::size_t end) const {
+  bool is_redundant(int c, std::size_t end) const {
     return end == 0 && model->cables[c].segments() == 1 && model->cables[c].ends[1] == End::jacked &&
            !state.goal.jack[c][0].locked && !state.goal.jack[c][1].locked;
   }
-  void find_spare() {
-    has_spare = false;
-    for (const JackedEnd& jack : jacks) has_spare = has_spare || is_spare(jack.cable, jack.end);
+  void find_redundant_jack() {
+    has_redundant_jack = false;
+    for (const JackedEnd& jack : jacks)
+      has_redundant_jack = has_redundant_jack || is_redundant(jack.cable, jack.end);
   }
   /// Two jacks on one segment balance only if they pull alike.
-  bool spare_agrees(int c) const {
+  bool redundant_agrees(int c) const {
     const Real F0 = state.goal.jack[c][0].force, F1 = state.goal.jack[c][1].force;
     return std::fabs(F0 - F1) <= Real(64) * tolerance * larger(F0, F1);
   }
@@ -140,8 +141,8 @@ struct CableSystem {
     return !(laws.rho(joint) < 1);
   }
 
-  /// What a joint that is about to slide holds of the larger force with the smaller one: that little counts.
-  Real held(const Candidate& next) const { return next.joint < 0 ? Real(1) : laws.rho(next.joint); }
+  /// rho of a joint that is about to slide: it scales the tolerance of its smaller force.
+  Real held(const SlipMode& next) const { return next.joint < 0 ? Real(1) : laws.rho(next.joint); }
   Status at_joint(Code code, int joint) const {
     for (int c = 0; c < model->cables.size(); ++c) {
       const int j = joint - model->cables[c].first_joint;
@@ -153,7 +154,7 @@ struct CableSystem {
 
   // Moves.
 
-  /// Slips, payouts and excess lengths at the end of the path followed.
+  /// Slips, payouts and slack lengths at the end of the path followed.
   Moving moves() const {
     Moving moving = state.moved;
     if (!state.has_map) return moving;
@@ -252,7 +253,7 @@ struct CableSystem {
   void carry(const Moved& moved, Tensions& T) const {
     model->coupling.add(model->segments, elongations_by(moved), T);
   }
-  /// The same of derivatives of the moves.
+  /// Elongations that moves, or derivatives of moves, impose on the segments [m].
   template <class Moved>
   Tensions elongations_by(const Moved& moved) const {
     Tensions e;
@@ -267,7 +268,7 @@ struct CableSystem {
       e[model->cables[jack.cable].end_segment(jack.end)] +=
           static_cast<Real>(moved.payout[jack.cable][jack.end]);
     for (int r = 0; r < runs.size(); ++r)
-      if (state.slack[r]) e[runs[r].segment(0)] += static_cast<Real>(moved.excess[r]);
+      if (state.slack[r]) e[runs[r].segment(0)] += static_cast<Real>(moved.slack_length[r]);
   }
 
   // What is rounding.

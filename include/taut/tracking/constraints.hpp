@@ -34,7 +34,7 @@ class Constraints {
     cables_.is_set_up = add_all(Real(0)) || add_all(held_at_zero);
     return cables_.is_set_up;
   }
-  /// The same if every pivot keeps digits: for a guess, which is not worth less.
+  /// Puts the active moves at work only if every pivot keeps digits: a guess is not worth less.
   bool set_up_soundly() {
     cables_.is_set_up = add_all(Real(0), sound_pivot);
     return cables_.is_set_up;
@@ -103,7 +103,7 @@ class Constraints {
   }
   bool add_slides(Real least) {
     for (const int j : state_.order)
-      if (!map_.set().append(laws_, laws_.sliding(Candidate::of(j, state_.slides[j])), least)) return false;
+      if (!map_.set().append(laws_, laws_.sliding(SlipMode::of(j, state_.slides[j])), least)) return false;
     return true;
   }
   template <class Settle>
@@ -115,7 +115,7 @@ class Constraints {
       static_cast<void>(settle);
   }
   bool add_jack(int c, std::size_t end) {
-    if (state_.goal.jack[c][end].locked || cables_.is_spare(c, end)) return true;
+    if (state_.goal.jack[c][end].locked || cables_.is_redundant(c, end)) return true;
     const auto on = static_cast<std::int16_t>(model_.cables[c].end_segment(end));
     return map_.set().append(laws_, {Map::payout_move(model_, 2 * c + static_cast<int>(end)), on, 0, -1});
   }
@@ -123,16 +123,17 @@ class Constraints {
     const int index = 2 * c + static_cast<int>(end);
     const auto& start = state_.now.jack[c][end];
     const auto& goal = state_.goal.jack[c][end];
-    if (!goal.locked && !cables_.is_spare(c, end)) map_.add_input(Input::Kind::jack_force, index);
+    if (!goal.locked && !cables_.is_redundant(c, end)) map_.add_input(Input::Kind::jack_force, index);
     if (goal.locked && start.payout != goal.payout) map_.add_input(Input::Kind::payout, index);
   }
-  /// Its tensions are zero; its slips and its excess length follow. A ring keeps the slip of one joint: it
+  /// Its tensions are zero; its slips and its slack length follow. A ring keeps the slip of one joint: it
   /// may turn freely.
   bool add_slack_run(int r) {
     const Run& run = runs_[r];
     for (int i = 0; i < run.count; ++i) {
       const bool last = i == run.count - 1;
-      const Move move = last ? Move::of(Move::Kind::excess, r, run.segment(0)) : laws_.slip(run.joint(i));
+      const Move move =
+          last ? Move::of(Move::Kind::slack_length, r, run.segment(0)) : laws_.slip(run.joint(i));
       if (!map_.set().append(laws_, {move, static_cast<std::int16_t>(run.segment(i)), 0, -1})) return false;
     }
     return true;

@@ -8,10 +8,10 @@ namespace taut {
 /// What ends a piece of the path: a joint at its limit, a run that goes slack, or one that is taut again.
 template <class Real>
 struct Ending {
-  Candidate next;
-  std::int16_t run = -1, excess = -1;  ///< the run; its active move
-  Real falling = 0;                    ///< rate of what reached zero
-  Real step = 1;                       ///< where, as a part of what was left of the path
+  SlipMode next;
+  std::int16_t run = -1, slack = -1;  ///< the run; the active move of its slack length
+  Real falling = 0;                   ///< rate of what reached zero
+  Real step = 1;                      ///< where, as a part of what was left of the path
 };
 
 /// Looks along the present piece, Eq. (15); changes nothing but derivatives.
@@ -42,19 +42,19 @@ class EventSearch {
     map_.tension_rates(dx, rate);
     Real step = 1;
     ending = {};
-    const auto shorten = [&](Real room, Real falling, const Candidate& next, int run, int excess) {
+    const auto shorten = [&](Real room, Real falling, const SlipMode& next, int run, int slack) {
       // At the limit, and held there by decide(): what is left is rounding.
       if (room <= cables_.force_tolerance() && falling >= -Real(16) * cables_.rate_tolerance()) return;
       if (falling >= 0 || room > -falling * step) return;
       step = room > 0 ? room / -falling : Real(0);
-      ending = {next, static_cast<std::int16_t>(run), static_cast<std::int16_t>(excess), falling, step};
+      ending = {next, static_cast<std::int16_t>(run), static_cast<std::int16_t>(slack), falling, step};
     };
     for (int j = 0; j < cables_.joints(); ++j) {
       if (state_.slides[j] != JointState::stick || !cables_.can_slide(j) || cables_.glides(j)) continue;
       for (const JointState way : {JointState::forward, JointState::backward}) {
-        const Candidate candidate = Candidate::of(j, way);
-        const Law<Real> limit = laws_.limit(candidate);
-        shorten(limit.of(cables_.force), limit.of(rate), candidate, -1, -1);
+        const SlipMode mode = SlipMode::of(j, way);
+        const Law<Real> limit = laws_.limit(mode);
+        shorten(limit.of(cables_.force), limit.of(rate), mode, -1, -1);
       }
     }
     for (int r = 0; r < runs_.size(); ++r) {
@@ -64,13 +64,13 @@ class EventSearch {
     Inputs x;
     cables_.values(state_.now, x);
     for (int i = 0; i < map_.active(); ++i)
-      if (map_.move(i).kind == Move::Kind::excess)
+      if (map_.move(i).kind == Move::Kind::slack_length)
         shorten(map_.stiffness(i) * map_.active_move(i, x), map_.stiffness(i) * map_.move_rate(i, dx), {},
                 map_.move(i).index, i);
     return step;
   }
 
-  /// Largest change of a tension, or of what a slack run's excess length stands for, along the whole path
+  /// Largest change of a tension, or of what a slack run's slack length stands for, along the whole path
   /// [N].
   Real change(const Inputs& dx) const {
     Tensions rate;
@@ -78,21 +78,21 @@ class EventSearch {
     Real most = 0;
     for (int i = 0; i < model_.segments; ++i) most = larger(most, std::fabs(rate[i]));
     for (int i = 0; i < map_.active(); ++i)
-      if (map_.move(i).kind == Move::Kind::excess)
+      if (map_.move(i).kind == Move::Kind::slack_length)
         most = larger(most, std::fabs(map_.stiffness(i) * map_.move_rate(i, dx)));
     return most;
   }
   /// How much later the piece would end if friction were other.
-  void meet(const Ending& ending, const Inputs& x) {
+  void find_saltation(const Ending& ending, const Inputs& x) {
     if (!(-ending.falling > cables_.rate_tolerance())) return;
-    if (ending.excess >= 0)
-      cables_.derivatives.meet_move(map_, x, ending.excess, ending.falling);
+    if (ending.slack >= 0)
+      cables_.derivatives.find_saltation_of_move(map_, x, ending.slack, ending.falling);
     else if (ending.run >= 0)
-      cables_.derivatives.meet(map_, x, cables_.force, Law<Real>::on(state_.representative[ending.run]), -1,
-                               ending.falling);
+      cables_.derivatives.find_saltation(
+          map_, x, cables_.force, Law<Real>::on(state_.representative[ending.run]), -1, ending.falling);
     else if (ending.next.joint >= 0)
-      cables_.derivatives.meet(map_, x, cables_.force, laws_.limit(ending.next), ending.next.joint,
-                               ending.falling);
+      cables_.derivatives.find_saltation(map_, x, cables_.force, laws_.limit(ending.next), ending.next.joint,
+                                         ending.falling);
   }
   /// Whether the forces obey the laws of all moves at work, friction where joints stick, and T >= 0: no state
   /// is shown that was not tested.
@@ -110,7 +110,7 @@ class EventSearch {
     for (int j = 0; j < cables_.joints(); ++j) {
       if (model_.is_locked(j)) continue;
       for (const JointState way : {JointState::forward, JointState::backward})
-        if (!(laws_.limit(Candidate::of(j, way)).of(cables_.force) >= least)) return broken;
+        if (!(laws_.limit(SlipMode::of(j, way)).of(cables_.force) >= least)) return broken;
     }
     return Status::success();
   }

@@ -49,13 +49,13 @@ class ModeDecision {
     find_resting();
     Spans zero;
     const bool any_zero = find_zero(ending, zero);
-    const Candidates candidates = at_limit(ending.next, zero);
+    const SlipModes modes = at_limit(ending.next, zero);
     if (!any_zero) {
       // Most often all goes on as it was.
-      if (state_.has_map && ending.next.joint < 0 && is_consistent(candidates)) return Status::success();
+      if (state_.has_map && ending.next.joint < 0 && is_consistent(modes)) return Status::success();
       cables_.freeze();
       cables_.drop_map();
-      if ((cables_.is_set_up || constraints_.set_up()) && go_on(candidates)) {
+      if ((cables_.is_set_up || constraints_.set_up()) && go_on(modes)) {
         constraints_.rebuild();
         return Status::success();
       }
@@ -63,7 +63,7 @@ class ModeDecision {
       cables_.freeze();
     }
     cables_.drop_map();
-    return begin_anew(zero, candidates);
+    return begin_anew(zero, modes);
   }
   /// Rates do not tell how it goes on. All forces, at loads a little further on, are a problem that always
   /// has an answer: it is taken if it is near. If not, friction gives way here, and the structure would jump.
@@ -84,7 +84,7 @@ class ModeDecision {
 
  private:
   using Solver = ModeSolver<typename Cables::Model, Laws>;
-  using Candidates = FixedList<Candidate, 2 * Cap::joints>;
+  using SlipModes = FixedList<SlipMode, 2 * Cap::joints>;
   using Spans = FixedArray<bool, Cap::segments>;
   /// Of the largest force: how much further on an answer is looked for, and how near it must be.
   static constexpr Real small_step = Real(1e-6), nearby = Real(1e-3);
@@ -133,65 +133,65 @@ class ModeDecision {
   }
   bool is_at_zero(int r, const Ending& ending) const {
     if (!state_.slack[r]) return cables_.force[state_.representative[r]] <= cables_.force_tolerance();
-    const bool closes = ending.excess >= 0 && ending.run == r;
-    return closes ||
-           excess(r) * model_.coupling(runs_[r].segment(0), runs_[r].segment(0)) <= cables_.force_tolerance();
+    const bool closes = ending.slack >= 0 && ending.run == r;
+    return closes || slack_length(r) * model_.coupling(runs_[r].segment(0), runs_[r].segment(0)) <=
+                         cables_.force_tolerance();
   }
-  Real excess(int r) const {
-    if (!state_.has_map) return state_.moved.excess[r];
+  Real slack_length(int r) const {
+    if (!state_.has_map) return state_.moved.slack_length[r];
     Inputs x;
     cables_.values(state_.now, x);
     for (int i = 0; i < map_.active(); ++i)
-      if (map_.move(i).kind == Move::Kind::excess && map_.move(i).index == r) return map_.active_move(i, x);
+      if (map_.move(i).kind == Move::Kind::slack_length && map_.move(i).index == r)
+        return map_.active_move(i, x);
     return 0;
   }
   /// Whether the rates under the present map agree with its states: v >= 0 where it slides, w >= 0 at the
   /// other limits.
-  bool is_consistent(const Candidates& candidates) const {
+  bool is_consistent(const SlipModes& modes) const {
     Inputs dx;
     cables_.directions(dx);
     if (!map_.goes_on(dx, cables_.rate_tolerance())) return false;
     Tensions rate;
     map_.tension_rates(dx, rate);
     const Real least = -cables_.rate_tolerance();
-    for (const Candidate& candidate : candidates)
-      if (state_.slides[candidate.joint] != candidate.way && laws_.limit(candidate).of(rate) < least)
-        return false;
+    for (const SlipMode& mode : modes)
+      if (state_.slides[mode.joint] != mode.way && laws_.limit(mode).of(rate) < least) return false;
     return true;
   }
   /// Limits that hold: those of joints that slide, the one just reached, and what is as near as rounding. Of
   /// a joint under tension only the nearer one; where a span is at zero, both.
-  Candidates at_limit(const Candidate& next, const Spans& zero) const {
-    Candidates candidates;
+  SlipModes at_limit(const SlipMode& next, const Spans& zero) const {
+    SlipModes modes;
     for (int j = 0; j < cables_.joints(); ++j) {
       if (model_.is_locked(j) || cables_.glides(j)) continue;
       const auto& sides = laws_.sides(j);
       const int run = runs_.of(sides[0]);
       if (!zero[run] && !cables_.can_slide(j)) continue;
-      const Candidate ahead = Candidate::of(j, JointState::forward),
-                      back = Candidate::of(j, JointState::backward);
+      const SlipMode ahead = SlipMode::of(j, JointState::forward),
+                     back = SlipMode::of(j, JointState::backward);
       if (zero[run]) {
-        candidates.add(ahead);
-        candidates.add(back);
+        modes.add(ahead);
+        modes.add(back);
         continue;
       }
       if (state_.slides[j] != JointState::stick) {
-        candidates.add(state_.slides[j] == JointState::forward ? ahead : back);
+        modes.add(state_.slides[j] == JointState::forward ? ahead : back);
         continue;
       }
       const Real to_forward = laws_.limit(ahead).of(cables_.force),
                  to_backward = laws_.limit(back).of(cables_.force);
       const Real near = tolerance * larger(cables_.force[sides[0]], cables_.force[sides[1]]) +
                         epsilon * Real(64) * state_.peak;
-      const Candidate& nearer = to_forward <= to_backward ? ahead : back;
+      const SlipMode& nearer = to_forward <= to_backward ? ahead : back;
       if (next.joint == j)
-        candidates.add(next);
+        modes.add(next);
       else if (laws_.rho(j) < 1 ? (nearer.way == JointState::forward ? to_forward : to_backward) <= near
                                 : true)
-        candidates.add(nearer);
-      if (!(laws_.rho(j) < 1)) candidates.add(nearer.way == JointState::forward ? back : ahead);
+        modes.add(nearer);
+      if (!(laws_.rho(j) < 1)) modes.add(nearer.way == JointState::forward ? back : ahead);
     }
-    return candidates;
+    return modes;
   }
 
   // Rates, going on from the piece before.
@@ -211,14 +211,14 @@ class ModeDecision {
   }
   /// What slides, begun from what slid: an ordinary event is one pivot.
   /// Segments of the spans in `tightening` must then gain tension.
-  [[gnu::noinline]] bool go_on(const Candidates& candidates, const Spans* tightening = nullptr) {
+  [[gnu::noinline]] bool go_on(const SlipModes& modes, const Spans* tightening = nullptr) {
     Tensions stuck;
     typename Map::Moves due;
     cables_.stuck_rates(stuck);
     dues(false, due);
     Solver solver;
     solver.begin(model_, laws_, map_.set());
-    for (const Candidate& each : candidates) solver.add_slip(each);
+    for (const SlipMode& each : modes) solver.add_slip(each);
     if (solver.solve(stuck, due, cables_.rate_tolerance(), true) != Solver::Outcome::solved) {
       remember_ray(solver);
       cables_.drop_set();
@@ -252,9 +252,9 @@ class ModeDecision {
   // From nothing.
 
   /// What slides and what is slack, begun from nothing. The moves must be frozen.
-  Status begin_anew(const Spans& zero, const Candidates& candidates) {
-    if (pull_straight(zero, candidates)) return Status::success();
-    if (solve_anew(zero, candidates, false)) return Status::success();
+  Status begin_anew(const Spans& zero, const SlipModes& modes) {
+    if (pull_straight(zero, modes)) return Status::success();
+    if (solve_anew(zero, modes, false)) return Status::success();
     if (const Status why = events_.pulled_through(); !why) return why;
     if (free_joint_ >= 0) return find_further_on(cables_.at_joint(Code::mechanism, free_joint_));
     return find_further_on(doubtful_joint_ >= 0 ? cables_.at_joint(Code::gives_way, doubtful_joint_)
@@ -262,7 +262,7 @@ class ModeDecision {
   }
   /// Where spans at zero become taut, most often every joint slides toward the jack. Tried first: Lemke's
   /// path goes on from there, and the answer is taken if it gives every segment of these spans tension.
-  [[gnu::noinline]] bool pull_straight(const Spans& zero, const Candidates& candidates) {
+  [[gnu::noinline]] bool pull_straight(const Spans& zero, const SlipModes& modes) {
     const auto slack = state_.slack;
     const auto slides = state_.slides;
     const auto order = state_.order;
@@ -270,12 +270,12 @@ class ModeDecision {
     for (int r = 0; r < runs_.size(); ++r) {
       if (!zero[r]) continue;
       state_.slack[r] = false;
-      state_.moved.excess[r] = 0;
+      state_.moved.slack_length[r] = 0;
       for (int i = 0; i < runs_[r].count; ++i)
         if (const Pull pull = pull_on(runs_[r], i, false); pull.jack != nullptr) slide_toward(pull, r, i);
     }
     cables_.drop_set();
-    if (constraints_.set_up_soundly() && go_on(candidates, &zero)) {
+    if (constraints_.set_up_soundly() && go_on(modes, &zero)) {
       constraints_.rebuild();
       return true;
     }
@@ -295,7 +295,7 @@ class ModeDecision {
     });
   }
   /// From rates, or from all forces where there are none.
-  [[gnu::noinline]] bool solve_anew(const Spans& zero, const Candidates& candidates, bool totally) {
+  [[gnu::noinline]] bool solve_anew(const Spans& zero, const SlipModes& modes, bool totally) {
     const auto was_slack = state_.slack;
     for (int r = 0; r < runs_.size(); ++r)
       if (zero[r]) state_.slack[r] = false;
@@ -312,7 +312,7 @@ class ModeDecision {
       solver.begin(model_, laws_, map_.set());
       for (int r = 0; r < runs_.size(); ++r)
         if (zero[r]) add_span(r, totally, solver);
-      for (const Candidate& each : candidates) solver.add_slip(each);
+      for (const SlipMode& each : modes) solver.add_slip(each);
       const Real none = totally ? Real(16) * epsilon * state_.peak : cables_.rate_tolerance();
       solved = solver.solve(stuck, due, none, false) == Solver::Outcome::solved;
       if (solved)
@@ -370,7 +370,7 @@ class ModeDecision {
   /// over all joints on the way.
   void adopt(const Solver& solver, const Spans& zero, bool totally) {
     for (int r = 0; r < runs_.size(); ++r)
-      if (zero[r]) state_.moved.excess[r] = 0;
+      if (zero[r]) state_.moved.slack_length[r] = 0;
     read_slides();
     FixedArray<Real, Cap::joints> flow;
     flow.fill(Real(0));
@@ -423,15 +423,15 @@ class ModeDecision {
     Spans all;
     for (int r = 0; r < runs_.size(); ++r) {
       all[r] = !state_.rests[r];
-      if (all[r]) state_.moved.excess[r] = 0;
+      if (all[r]) state_.moved.slack_length[r] = 0;
     }
-    Candidates candidates;
+    SlipModes modes;
     for (int j = 0; j < cables_.joints(); ++j) {
       if (model_.is_locked(j) || cables_.glides(j) || state_.rests[runs_.of(laws_.sides(j)[0])]) continue;
-      candidates.add(Candidate::of(j, JointState::forward));
-      candidates.add(Candidate::of(j, JointState::backward));
+      modes.add(SlipMode::of(j, JointState::forward));
+      modes.add(SlipMode::of(j, JointState::backward));
     }
-    if (solve_anew(all, candidates, true)) {
+    if (solve_anew(all, modes, true)) {
       cables_.find_forces();
       Real farthest = 0;
       for (int i = 0; i < model_.segments; ++i)

@@ -45,7 +45,7 @@ class ModeSolver {
     std::int16_t index = 0;
     JointState way = JointState::stick;
     bool is_segment() const { return way == JointState::stick; }
-    Candidate slip() const { return {index, way}; }
+    SlipMode slip() const { return {index, way}; }
   };
 
   /// Begins with no pair. `set` has the moves that follow whatever happens, and the slips that go on for
@@ -59,7 +59,7 @@ class ModeSolver {
     least_.fill(Real(0));
     stiffest_ = set.stiffest();
   }
-  void add_slip(const Candidate& slip) { pairs_.add({slip.joint, slip.way}); }
+  void add_slip(const SlipMode& slip) { pairs_.add({slip.joint, slip.way}); }
   /// `least` is the rate of tension that jacks and friction give it at least.
   void add_segment(int segment, Real least) {
     least_[segment] = least;
@@ -122,7 +122,7 @@ class ModeSolver {
   Active active_of(int p) const {
     const Pair& pair = pairs_[p];
     Active active = pair.is_segment()
-                        ? Active{Move::of(Move::Kind::excess, pair.index, pair.index), pair.index, 0}
+                        ? Active{Move::of(Move::Kind::slack_length, pair.index, pair.index), pair.index, 0}
                         : laws_->sliding(pair.slip());
     active.pair = static_cast<std::int16_t>(p);
     return active;

@@ -10,9 +10,9 @@
 namespace taut {
 
 /// Something that moves along a cable and imposes an elongation: the slip of a joint lengthens the segment
-/// before it and shortens the one after, a payout or an excess length lengthens one segment.
+/// before it and shortens the one after, a payout or an slack length lengthens one segment.
 struct Move {
-  enum class Kind : std::uint8_t { slip, payout, excess } kind = Kind::slip;
+  enum class Kind : std::uint8_t { slip, payout, slack_length } kind = Kind::slip;
   std::int16_t index = 0;       ///< joint; 2 x cable + end; run
   std::int16_t lengthened = 0;  ///< segment
   std::int16_t shortened = 0;   ///< segment, slip only; else -1
@@ -62,14 +62,14 @@ template <class Real, class Cap>
 struct Moving {
   FixedArray<Real, Cap::joints> slip;                   ///< delta of every joint [m]
   FixedArray<std::array<Real, 2>, Cap::cables> payout;  ///< at start and end of every cable [m]
-  FixedArray<Real, Cap::segments> excess;  ///< length that every run has too much [m], zero if taut
+  FixedArray<Real, Cap::segments> slack_length;  ///< length that every run has too much [m], zero if taut
 
   friend bool operator==(const Moving& a, const Moving& b) {
-    return a.slip == b.slip && a.payout == b.payout && a.excess == b.excess;
+    return a.slip == b.slip && a.payout == b.payout && a.slack_length == b.slack_length;
   }
   /// What `move` has come to.
   Real& of(const Move& move) {
-    if (move.kind == Move::Kind::excess) return excess[move.index];
+    if (move.kind == Move::Kind::slack_length) return slack_length[move.index];
     if (move.kind == Move::Kind::payout)
       return payout[move.index / 2][static_cast<std::size_t>(move.index % 2)];
     return slip[move.index];
@@ -98,11 +98,11 @@ typename CondensedType::Real resistance(const CondensedType& model,
 }
 
 /// A limit of a joint: sliding forward keeps T_before = rho T_after, backward T_after = rho T_before.
-struct Candidate {
+struct SlipMode {
   std::int16_t joint = -1;
   JointState way = JointState::stick;
 
-  static Candidate of(int joint, JointState way) { return {static_cast<std::int16_t>(joint), way}; }
+  static SlipMode of(int joint, JointState way) { return {static_cast<std::int16_t>(joint), way}; }
 };
 
 /// Moves and laws of the joints of a condensed scene. If `Adjustable`, their rho can be changed.
@@ -128,10 +128,10 @@ class JointLaws {
     if (Cap::joints == 0) return {};
     return {Move::Kind::slip, static_cast<std::int16_t>(joint), sides_[joint][0], sides_[joint][1]};
   }
-  Law<Real> limit(const Candidate& candidate) const {
-    const auto& sides = sides_[candidate.joint];
-    const bool forward = candidate.way == JointState::forward;
-    return {sides[forward ? 0 : 1], sides[forward ? 1 : 0], rho(candidate.joint)};
+  Law<Real> limit(const SlipMode& mode) const {
+    const auto& sides = sides_[mode.joint];
+    const bool forward = mode.way == JointState::forward;
+    return {sides[forward ? 0 : 1], sides[forward ? 1 : 0], rho(mode.joint)};
   }
   Real rho(int joint) const {
     if constexpr (Adjustable)
@@ -140,9 +140,8 @@ class JointLaws {
       return model_->rho[joint];
   }
   void set_rho(int joint, Real rho) { rho_[joint] = rho; }
-  Active sliding(const Candidate& candidate) const {
-    return {slip(candidate.joint), -1,
-            static_cast<std::int8_t>(candidate.way == JointState::forward ? 1 : -1), -1};
+  Active sliding(const SlipMode& mode) const {
+    return {slip(mode.joint), -1, static_cast<std::int8_t>(mode.way == JointState::forward ? 1 : -1), -1};
   }
   /// A joint without friction slides both ways.
   Active gliding(int joint) const { return {slip(joint), -1, 0, -1}; }

@@ -31,7 +31,7 @@ class SamplePath {
   /// Goes to the sample if no state changes on the way; both ends of the straight path within the limits is
   /// enough. Otherwise nothing is changed.
   [[nodiscard]] bool follow(Cables& cables, const Sample<Scalar, Cap>& sample) {
-    if (!cables.state.has_map || !cables.state.arrived || cables.has_spare) return false;
+    if (!cables.state.has_map || !cables.state.arrived || cables.has_redundant_jack) return false;
     Given x;
     if (!read(cables, sample, x)) return false;
     bool keeps = true, regroups = false, moves = false;
@@ -63,11 +63,11 @@ class SamplePath {
     }
     return true;
   }
-  /// The same if one load alone changes, and stays where nothing happens.
+  /// Goes to the sample if one load alone changes, and stays within the range that is known.
   [[nodiscard]] bool goes_along(Cables& cables, const Sample<Scalar, Cap>& sample) {
     return only_ >= 0 && stays_in_range(cables, sample);
   }
-  /// The same if the force of this jack alone changes, by its number.
+  /// Goes to this force of a jack, by its number, if it alone changes and stays within the range.
   [[nodiscard]] bool goes_along(Cables& cables, int jack, Scalar force) {
     return only_ >= 0 && cables.jacks[jack].input == only_ && goes_to(cables, force);
   }
@@ -127,7 +127,8 @@ class SamplePath {
   /// Forces closer than this part of the largest force so far are equal.
   static constexpr Scalar quick_tolerance = sizeof(Scalar) == sizeof(float) ? Scalar(1e-6) : Scalar(1e-12);
 
-  /// The same where the only input that changes has a range: false if anything else changes, or it leaves it.
+  /// Goes to the sample where the only input that changes has a range: false if anything else changes, or it
+  /// leaves it.
   bool stays_in_range(Cables& cables, const Sample<Scalar, Cap>& sample) {
     const int k = only_;
     Scalar x = at_[k];
@@ -147,7 +148,7 @@ class SamplePath {
     }
     return goes_to(cables, x);
   }
-  /// Of that input.
+  /// Goes to this value of the only input that changes.
   bool goes_to(Cables& cables, Scalar x) {
     const int k = only_;
     const Scalar step = x - at_[k];
@@ -155,7 +156,7 @@ class SamplePath {
       const Scalar dx = x - anchor_[k];
       if (!(dx >= range_[0] && dx <= range_[1]) || !cables.map.keeps(k, step > 0)) return false;
       const Rounded& column = cables.map.rounded_column(k);
-      // So few are done sooner than counted.
+      // A fixed trip count: the compiler unrolls.
       const int n = Cap::segments <= 16 ? Cap::segments : cables.model->segments;
       for (int i = 0; i < n; ++i) cables.state.tension[i] = constant_[i] + dx * column[i];
       go_to(cables, k, x);
@@ -234,7 +235,7 @@ class SamplePath {
       for (int way = 0; way < 2; ++way) {
         const int small = sides[static_cast<std::size_t>(way)],
                   big = sides[static_cast<std::size_t>(1 - way)];
-        narrow(constant_[small] - rho_[j] * constant_[big] - spare_[j],
+        narrow(constant_[small] - rho_[j] * constant_[big] - slip_margin_[j],
                column[small] - rho_[j] * column[big]);
       }
     }
@@ -262,8 +263,8 @@ class SamplePath {
       for (int i = 0; i < cables.model->segments; ++i) T[i] += dx * column[i];
     }
   }
-  /// The friction cones, and T >= 0: with something to spare where a joint sticks or a run is taut, give or
-  /// take rounding where a law holds them at the limit.
+  /// The friction cones, and T >= 0: with something to slip_margin where a joint sticks or a run is taut,
+  /// give or take rounding where a law holds them at the limit.
   bool is_within_limits(const Cables& cables, const Rounded& T) const {
     if constexpr (Cap::joints > 0) {
       for (const auto& cable : cables.model->cables)
@@ -279,12 +280,13 @@ class SamplePath {
     // The joint after segment i is joint i of an open cable, joint i + 1 of a hoop.
     const int after = cable.first_joint + (cable.closed ? 1 : 0);
     const Scalar* const rho = rho_.items.data() + after;
-    const Scalar* const spare = spare_.items.data() + after;
+    const Scalar* const slip_margin = slip_margin_.items.data() + after;
     BitsOf<Scalar> bits = 0;
     for (int i = 0; i + 1 < n; ++i)
-      bits |= bits_of(t[i] - rho[i] * t[i + 1] - spare[i]) | bits_of(t[i + 1] - rho[i] * t[i] - spare[i]);
+      bits |= bits_of(t[i] - rho[i] * t[i + 1] - slip_margin[i]) |
+              bits_of(t[i + 1] - rho[i] * t[i] - slip_margin[i]);
     if (cable.closed) {
-      const Scalar closing = rho_[cable.first_joint], left = spare_[cable.first_joint];
+      const Scalar closing = rho_[cable.first_joint], left = slip_margin_[cable.first_joint];
       bits |= bits_of(t[n - 1] - closing * t[0] - left) | bits_of(t[0] - closing * t[n - 1] - left);
     }
     return bits >= 0;
@@ -293,9 +295,9 @@ class SamplePath {
   void set_limits(const Cables& cables) {
     margin_ = quick_tolerance * static_cast<Scalar>(cables.state.peak);
     for (int j = 0; j < cables.joints(); ++j)
-      spare_[j] = cables.state.slides[j] == JointState::stick && cables.can_slide(j) && !cables.glides(j)
-                      ? margin_
-                      : -margin_;
+      slip_margin_[j] =
+          cables.state.slides[j] == JointState::stick && cables.can_slide(j) && !cables.glides(j) ? margin_
+                                                                                                  : -margin_;
     has_resting_ = false;
     for (int r = 0; r < cables.runs.size(); ++r) {
       may_be_zero_[r] = cables.state.slack[r] || cables.is_jacked(cables.runs[r]);
@@ -306,9 +308,9 @@ class SamplePath {
   FixedArray<Scalar, Cap::loads> factor_;  // the loads reached
   FixedArray<Scalar, Cap::joints> rho_;
   Rounded constant_;                             // the map's base and all inputs that do not change
-  FixedArray<Scalar, Cap::joints> spare_;        // least T_small - rho T_big of every joint
+  FixedArray<Scalar, Cap::joints> slip_margin_;  // least T_small - rho T_big of every joint
   FixedArray<bool, Cap::segments> may_be_zero_;  // of runs
-  Scalar margin_ = 0;                            // what is to be spared where nothing is at its limit
+  Scalar margin_ = 0;                            // what is to be left where nothing is at its limit
   Given at_, anchor_;
   Given least_;  // a jack does not push, and takes a resting run along only in an event
   FixedArray<int, Cap::loads> load_input_;  // in the map, or -1

@@ -34,7 +34,7 @@ class Sensitivity {
   void begin() {
     frozen_ = {};
     parameter_.fill(-1);
-    later_.fill(Real(0));
+    event_shift_.fill(Real(0));
   }
   /// The parameter that the joint's friction depends on, or -1, and the derivative of its rho.
   void depend(int joint, int parameter, Real slope) {
@@ -96,19 +96,20 @@ class Sensitivity {
 
   /// At inputs `x` a law that falls at the rate `falling` along `direction` reached its limit. `joint` is
   /// whose limit it is, or -1.
-  void meet(const Map& map, const Inputs& x, const Tensions& T, const Law<Real>& law, int joint,
-            Real falling) {
+  void find_saltation(const Map& map, const Inputs& x, const Tensions& T, const Law<Real>& law, int joint,
+                      Real falling) {
     for (int p = 0; p < frozen_.used; ++p) {
       Real change = static_cast<Real>(tension(map, p, law.first, x, map.anchor()));
       if (law.second >= 0)
         change -= law.weight * static_cast<Real>(tension(map, p, law.second, x, map.anchor()));
       if (joint >= 0 && parameter_[joint] == p) change -= slope_[joint] * T[law.second];
-      later_[p] = -change / falling;
+      event_shift_[p] = -change / falling;
     }
   }
-  /// The same where the active move `i` came to its end.
-  void meet_move(const Map& map, const Inputs& x, int i, Real falling) {
-    for (int p = 0; p < frozen_.used; ++p) later_[p] = -move(map, p, i, x) * map.stiffness(i) / falling;
+  /// At inputs `x` the active move `i` came to its end at the rate `falling`: by how much later if friction
+  /// were other.
+  void find_saltation_of_move(const Map& map, const Inputs& x, int i, Real falling) {
+    for (int p = 0; p < frozen_.used; ++p) event_shift_[p] = -move(map, p, i, x) * map.stiffness(i) / falling;
   }
   /// From here on parameter `p` is by how much further input `k` went before it turned, or before its jack
   /// was locked.
@@ -119,14 +120,14 @@ class Sensitivity {
       of_move(map.move(i), p) = static_cast<Scalar>(map.column_move(k, i));
   }
   /// What comes next is not at an event.
-  void pass() { later_.fill(Real(0)); }
+  void pass() { event_shift_.fill(Real(0)); }
 
   /// Takes the derivatives where they are; `direction` is that of the inputs on the way here.
   void freeze(const Map& map, const Inputs& x, const Inputs& direction) {
     for (int p = 0; p < frozen_.used; ++p)
       for (int i = 0; i < map.active(); ++i)
         of_move(map.move(i), p) =
-            static_cast<Scalar>(move(map, p, i, x) + later_[p] * map.move_rate(i, direction));
+            static_cast<Scalar>(move(map, p, i, x) + event_shift_[p] * map.move_rate(i, direction));
   }
 
  private:
@@ -164,7 +165,8 @@ class Sensitivity {
   Frozen frozen_;
   FixedArray<std::int16_t, Cap::joints> parameter_;
   FixedArray<Real, Cap::joints> slope_;
-  FixedArray<Real, Parameters> later_;  // by how much of what was left of the path the event comes later
+  FixedArray<Real, Parameters>
+      event_shift_;  // by how much of what was left of the path the event comes later
   FixedArray<FixedArray<Scalar, Cap::segments>, Parameters> base_;
   FixedArray<FixedArray<Scalar, Map::max_active>, Parameters> base_moves_;
   FixedArray<FixedArray<FixedArray<Scalar, Cap::segments>, Map::max_inputs>, Parameters> column_;

@@ -42,7 +42,7 @@ class TrackedForces {
     const int k = cables_.input_of(jack);
     return k < 0 ? Scalar(0) : cables_.map.rounded_column(k)[segment];
   }
-  /// The same of a jack's payout [m/N].
+  /// Derivative of a jack's extension with respect to its force, on the present piece [m/N].
   Scalar payout_slope(int cable, std::size_t end) const {
     const int k = cables_.input_of(cable, end);
     if (k < 0) return 0;

@@ -96,13 +96,13 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   Status restore(const CondensedType& condensed, const State& saved) {
     return restore(condensed, as_condensed, saved);
   }
-  /// The same with the friction that was used when the state was saved.
+  /// Goes on with the friction that was used when the state was saved.
   template <class Friction>
   Status restore(const CondensedType& condensed, const Friction& friction, const State& saved) {
     begin(condensed, friction);
     cables_.state = saved;
     if constexpr (is_adjustable) cables_.derivatives.set_frozen(saved);
-    cables_.find_spare();
+    cables_.find_redundant_jack();
     const Status broken = Status::at(Code::bad_sample, Place::none, -1);
     if (!(saved.peak >= 0)) return broken;
     // The piece was begun at other loads than those reached.
@@ -235,7 +235,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     samples_.forget(cables_);
     set_goal(sample);
     for (const JackedEnd& jack : cables_.jacks)
-      if (cables_.is_spare(jack.cable, jack.end) && !cables_.spare_agrees(jack.cable))
+      if (cables_.is_redundant(jack.cable, jack.end) && !cables_.redundant_agrees(jack.cable))
         return {Status::at(Code::pulled_through, Place::cable, jack.cable), Scalar(0), 0};
     for (int i = 0; i < cables_.model->loads; ++i) {
       if (cables_.state.has_load[i] || cables_.state.goal.factor[i] == cables_.state.now.factor[i]) continue;
@@ -311,7 +311,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     cables_.state.last = dx;
     cables_.values(cables_.state.now, x);
     if constexpr (is_adjustable)
-      if (!done) events.meet(ending, x);
+      if (!done) events.find_saltation(ending, x);
     return status;
   }
 
@@ -337,7 +337,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     for (const JackedEnd& jack : cables_.jacks)
       cables_.state.now.jack[jack.cable][jack.end].locked =
           cables_.state.goal.jack[jack.cable][jack.end].locked;
-    cables_.find_spare();
+    cables_.find_redundant_jack();
     // A jack that takes hold of a slack run draws it straight; its payout follows from its force.
     for (int r = 0; r < cables_.runs.size(); ++r)
       if (cables_.state.slack[r] && cables_.is_jacked(cables_.runs[r])) draw_straight(r);
@@ -349,8 +349,8 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     for (int j = 0; j < cables_.joints(); ++j)
       cables_.state.moved.slip[j] += by * static_cast<Real>(derivative.slip[j]);
     for (int r = 0; r < cables_.runs.size(); ++r)
-      cables_.state.moved.excess[r] =
-          larger(Real(0), cables_.state.moved.excess[r] + by * static_cast<Real>(derivative.excess[r]));
+      cables_.state.moved.slack_length[r] = larger(
+          Real(0), cables_.state.moved.slack_length[r] + by * static_cast<Real>(derivative.slack_length[r]));
     for (const JackedEnd& jack : cables_.jacks) {
       const Real more = by * static_cast<Real>(derivative.payout[jack.cable][jack.end]);
       cables_.state.moved.payout[jack.cable][jack.end] += more;
@@ -365,7 +365,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     for (int j = 0; j < cables_.joints(); ++j) {
       if (cables_.state.slides[j] != JointState::stick || !cables_.can_slide(j)) continue;
       for (const JointState way : {JointState::forward, JointState::backward})
-        if (cables_.laws.limit(Candidate::of(j, way)).of(cables_.force) < -cables_.force_tolerance()) {
+        if (cables_.laws.limit(SlipMode::of(j, way)).of(cables_.force) < -cables_.force_tolerance()) {
           cables_.state.slides[j] = way;
           cables_.state.order.add(static_cast<std::int16_t>(j));
           any = true;
@@ -381,8 +381,8 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
                           !cables_.state.goal.jack[run.cable][0].locked;
     cables_.state.slack[r] = false;
     const auto straighten = [&](auto& moved) {
-      for (int i = 0; !at_start && i < run.joints(); ++i) moved.slip[run.joint(i)] += moved.excess[r];
-      moved.excess[r] = 0;
+      for (int i = 0; !at_start && i < run.joints(); ++i) moved.slip[run.joint(i)] += moved.slack_length[r];
+      moved.slack_length[r] = 0;
     };
     straighten(cables_.state.moved);
     if constexpr (is_adjustable) cables_.derivatives.for_each([&](auto& moved, int) { straighten(moved); });

@@ -1,4 +1,4 @@
-// A check that trusts nobody: is the state that a tracker reached an answer at all?
+// Independent check of the state that a tracker reached.
 #pragma once
 
 #include <cmath>
@@ -54,7 +54,7 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Para
   for_each_jacked_end(model.cables, [&](int c, std::size_t end) {
     e[model.cables[c].end_segment(end)] += moves.payout[c][end];
   });
-  for (int r = 0; r < tracker.runs().size(); ++r) e[tracker.runs()[r].segment(0)] += moves.excess[r];
+  for (int r = 0; r < tracker.runs().size(); ++r) e[tracker.runs()[r].segment(0)] += moves.slack_length[r];
   for (int i = 0; i < model.segments; ++i) {
     T[i] = loads.prestrain * model.prestrain[i];
     for (int k = 0; k < model.loads; ++k) T[i] += loads.factor[k] * model.load[k][i];
@@ -77,7 +77,7 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Para
     const auto& run = tracker.runs()[r];
     if (!tracker.is_slack(run)) continue;
     const Real stiffness = model.coupling(run.segment(0), run.segment(0));
-    raise(verdict.compression, -moves.excess[r] * stiffness * unit);
+    raise(verdict.compression, -moves.slack_length[r] * stiffness * unit);
     for (int i = 0; i < run.count; ++i) raise(verdict.compression, std::fabs(T[run.segment(i)]) * unit);
   }
   for (int c = 0; c < model.cables.size(); ++c) {
