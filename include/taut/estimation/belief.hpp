@@ -106,7 +106,7 @@ class Belief {
   Scalar mean(int p) const { return state_.mean[p]; }
   Scalar linearized_at(int p) const { return state_.linearized_at[p]; }
   Scalar variance(int p) const { return state_.covariance[p][p]; }
-  /// Variance of a number whose derivative with respect to unknown `p` is derivative(p). Cost: half the
+  /// Variance S P S^T, Eq. (20), of a number whose derivative by unknown `p` is derivative(p). Cost: half the
   /// square of the unknowns in use.
   template <class Derivatives>
   [[gnu::always_inline]] Scalar variance_of(const Derivatives& derivative) const {
@@ -143,8 +143,9 @@ class Belief {
     has_errors_ = true;
     has_news_ = false;
   }
-  /// Compares a reading with its prediction. Returns false if and only if the innovation is outside of the
-  /// gate. Changes nothing that is known before update(). Cost: the square of the unknowns in use and jacks.
+  /// Compares a reading with its prediction, Eqs. (21), (22) and (24). Returns false if and only if the
+  /// innovation is outside of the gate. Changes nothing that is known before update(). Cost: the square of
+  /// the unknowns in use and jacks.
   [[nodiscard]] bool innovate(const PredictionType& prediction, const JackReadings& jacks,
                               const Measured<Scalar>& measured) {
     const Scalar sd = measured.sd;
@@ -200,7 +201,8 @@ class Belief {
   bool is_nonlinear() const { return innovation_.is_nonlinear; }
   /// After innovate(): the mean that would follow.
   const Values& updated_mean() const { return innovation_.updated_mean; }
-  /// After innovate(): the reading is known from here on. Cost: half the square of the unknowns in use.
+  /// After innovate(): the reading is known from here on, Eq. (23). Cost: half the square of the unknowns in
+  /// use.
   void update() {
     for (int p = 0; p < in_use_; ++p) {
       state_.mean[p] = innovation_.updated_mean[p];

@@ -32,9 +32,10 @@ struct BoundWidths {
 /// cable.
 ///
 /// Whatever the history, every joint keeps rho T_big <= T_small with rho at the largest mu of its band. So a
-/// load cell bounds its segment, and a bound carries over a joint as T rho <= T' <= T / rho; bounds from all
-/// load cells of the cable hold at once. They are as narrow as friction alone allows: some history leads to
-/// every force within them, on rigid saddles. A joint that is locked, or may be, carries nothing over.
+/// load cell bounds its segment, and a bound carries over a joint as T rho <= T' <= T / rho, Eq. (25); bounds
+/// from all load cells of the cable hold at once. They are as narrow as friction alone allows: some history
+/// leads to every force within them, on rigid saddles. A joint that is locked, or may be, carries nothing
+/// over.
 ///
 /// `ranges` are those of all segments of the scene; the segments of cable `c` are filled. Returns whether any
 /// load cell was read. A range that is empty says that the readings contradict the band of mu.

@@ -25,7 +25,7 @@ struct Knowledge {
   FixedArray<std::array<Scalar, 2>, Cap::cables> sensor_sd;  ///< of the load cells at both ends [N]
 
   /// rho = T_small / T_big at which a joint of cable `c` slides, and its derivative with respect to mu:
-  /// (1 - kappa) / (1 + kappa) with kappa = mu cot(alpha), or exp(-mu (beta + k s)).
+  /// (1 - kappa) / (1 + kappa) with kappa = mu cot(alpha), or exp(-mu (beta + k s)); Eqs. (4), (5), (17).
   struct Limit {
     Real rho, slope;
   };

@@ -10,10 +10,10 @@ namespace taut {
 /// Derivatives of everything that moves along the cables, and of the tensions, with respect to `Parameters`
 /// numbers on which the friction of the joints depends; at fixed loads.
 ///
-/// A sliding joint keeps T_small = rho T_big, so its derivative keeps T'_small = rho T'_big + rho' T_big. A
-/// joint that sticks keeps the derivative of its slip. Where sliding ends at an event, that is at a load that
-/// itself depends on friction, the derivative jumps by the rate of slip times the derivative of that load.
-/// Like tensions, derivatives are affine in the inputs while no state changes.
+/// A sliding joint keeps T_small = rho T_big, so its derivative keeps T'_small = rho T'_big + rho' T_big, Eq.
+/// (16). A joint that sticks keeps the derivative of its slip. Where sliding ends at an event, that is at a
+/// load that itself depends on friction, the derivative jumps by the rate of slip times the derivative of
+/// that load, Eq. (18). Like tensions, derivatives are affine in the inputs while no state changes.
 template <class CondensedType, class Laws, int Parameters>
 class Sensitivity {
  public:

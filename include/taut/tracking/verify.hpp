@@ -22,8 +22,8 @@ struct Verdict {
   Scalar worst() const { return larger(larger(imbalance, compression), larger(outside, off_limit)); }
 };
 
-/// Recomputes equilibrium, T >= 0, the friction cones, and that what slides slides against its friction at
-/// its limit.
+/// Recomputes equilibrium, Eq. (8), T >= 0, the friction cones, Eq. (3), and that what slides slides against
+/// its friction at its limit, Eq. (9).
 ///
 /// Uses the condensed scene and the moves alone, none of what the tracker keeps for speed: segments^2
 /// multiplications.
