@@ -71,7 +71,7 @@ class Constraints {
     for (int i = 0; i < map_.active(); ++i) moves[i] = state_.moved.of(map_.move(i));
     Inputs x;
     cables_.values(state_.now, x);
-    map_.make(laws_, cables_.totals(), moves, x, [this](const auto& settle) { differentiate(settle); });
+    map_.make(laws_, cables_.totals(), moves, x, [&](const auto& settle) { differentiate(settle); });
     state_.has_map = true;
     state_.built = state_.now;
     return true;

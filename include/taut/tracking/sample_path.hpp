@@ -155,10 +155,13 @@ class SamplePath {
     if (step != 0) {
       const Scalar dx = x - anchor_[k];
       if (!(dx >= range_[0] && dx <= range_[1]) || !cables.map.keeps(k, step > 0)) return false;
-      const Rounded& column = cables.map.rounded_column(k);
+      // The three never overlap, which the compiler cannot know.
+      Scalar* const __restrict T = cables.state.tension.items.data();
+      const Scalar* const __restrict base = constant_.items.data();
+      const Scalar* const __restrict column = cables.map.rounded_column(k).items.data();
       // A fixed trip count: the compiler unrolls.
       const int n = Cap::segments <= 16 ? Cap::segments : cables.model->segments;
-      for (int i = 0; i < n; ++i) cables.state.tension[i] = constant_[i] + dx * column[i];
+      for (int i = 0; i < n; ++i) T[i] = base[i] + dx * column[i];
       go_to(cables, k, x);
     }
     cables.state.last[k] = static_cast<Real>(step);
