@@ -47,8 +47,7 @@
 //
 //   Fails as validate(); with `mechanism` if a node is free to move with all joints stuck (between rigid
 //   saddles: if a node is not held); with `ill_conditioned` if a node is held so weakly that this cannot be
-//   told, or a solve does not reach equilibrium to 2e-12 of its largest force, in double for float, too
-//   (where it makes no force at all, as in a statically determinate structure, that may refuse a sound one);
+//   told, or a solve does not reach equilibrium to 2e-12 of its largest force, in double for float, too;
 //   with `capacity_exceeded` if its factor has more entries than Capacity::profile, or too many
 //   displacements are asked for; with `out_of_range` for a displacement that the scene has not. `condensed`
 //   is of no use then. Costs one factorization within the skyline of the stiffness matrix and 1 + L + n
@@ -72,12 +71,13 @@
 //     `gives_way`         no answer goes on from here: the structure would jump,
 //     `ill_conditioned`   equilibrium is not reached to rounding,
 //     `state_iterations`  events follow one another, and the path does not go on.
-//   Then, or when the event budget is spent (fraction < 1 and no error), the state is the equilibrium
-//   reached, and the next call goes on from there. "Where the theory ends" in include/taut/README.md says
-//   where these may be wrong. start() fails as the path of the prestrain does.
+//   Then, or when the event budget is spent (fraction < 1 and no error), the state is the last that was
+//   tested against friction, T >= 0 and equilibrium, and the next call goes on from there. "Where the theory
+//   ends" in include/taut/README.md says where these may be wrong. start() fails as the path of the prestrain
+//   does.
 //
 //   Costs n (K + L) without an event, n where one input alone changes. A call has at most `event_budget`
-//   events, 64 + 16 n by default. An event solves up to three complementarity problems of at most n + 2 J
+//   events, 64 + 16 n by default. An event solves up to five complementarity problems of at most n + 2 J
 //   pairs, each with 16 pivots a pair, and makes one map, n^2 (K + L). A pivot costs n^2 on a structure, n^3
 //   if constraints are factored anew, and n between rigid saddles. Most events are one pivot. tension()
 //   costs nothing; respond() n (J + K + L), and n + L for every strut. save() is a copy; restore() factors
