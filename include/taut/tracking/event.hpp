@@ -100,11 +100,12 @@ class EventSearch {
     Real most = state_.peak;
     for (int i = 0; i < model_.segments; ++i) most = larger(most, std::fabs(cables_.force[i]));
     const Real least = -Real(8) * tolerance * most;
-    const Status broken = map_.is_held() ? free_node() : Status::at(Code::ill_conditioned, Place::none, -1);
+    const Status imprecise = Status::at(Code::ill_conditioned, Place::none, -1);
+    const Status broken = map_.is_held() ? free_node() : imprecise;
     Inputs x;
     cables_.values(state_.now, x);
     if (map_.law_violation(laws_, cables_.force, x) > -least) return broken;
-    if (!is_in_equilibrium(rounded_totals * most)) return free_node();
+    if (!is_in_equilibrium(rounded_totals * most)) return map_.has_slack() ? free_node() : imprecise;
     for (int i = 0; i < model_.segments; ++i)
       if (!(cables_.force[i] >= least)) return broken;
     for (int j = 0; j < cables_.joints(); ++j) {
