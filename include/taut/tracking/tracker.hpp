@@ -317,7 +317,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
 
   // From sample to path.
 
-  /// Sets cables_.state.goal; where a lock changes, also the present drive at the state reached.
+  /// Sets the goal; where a lock changes, also the present drive at the state reached.
   void set_goal(const Sample<Scalar, Cap>& sample) {
     bool changes = false;
     for (const JackedEnd& jack : cables_.jacks)
