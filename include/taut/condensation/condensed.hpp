@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "taut/numerics/axpy.hpp"
 #include "taut/numerics/wide.hpp"
 #include "taut/scene/fixed_list.hpp"
 #include "taut/scene/path.hpp"
@@ -28,8 +29,12 @@ struct ElasticCoupling {
   template <class Vector>
   void add(int n, const Vector& e, Vector& T) const {
     for (int k = 0; k < n; ++k)
-      if (e[k] != 0)
-        for (int i = 0; i < n; ++i) T[i] += entries[k * Segments + i] * e[k];
+      if (e[k] != 0) add(n, k, e[k], T);
+  }
+  /// The same where segment k alone is lengthened.
+  template <class Vector>
+  void add(int n, int k, Scalar by, Vector& T) const {
+    axpy(n, by, &entries[k * Segments], &T[0]);
   }
 };
 
@@ -46,6 +51,10 @@ struct NoCoupling {
   template <class Vector>
   void add(int n, const Vector& e, Vector& T) const {
     for (int i = 0; i < n; ++i) T[i] += axial[i] * e[i];
+  }
+  template <class Vector>
+  void add(int, int k, Scalar by, Vector& T) const {
+    T[k] += axial[k] * by;
   }
 };
 
