@@ -41,7 +41,7 @@ class Constraints {
   }
   /// Only what follows whatever happens, to decide all else from nothing. False if its laws contradict.
   bool set_up_equalities() {
-    map_.begin(model_);
+    map_.clear();
     map_.set().hold(held_at_zero);
     cables_.is_set_up = false;
     return add_equalities();
@@ -85,7 +85,7 @@ class Constraints {
   static constexpr Real least_pivot = Real(1e-12), sound_pivot = Real(1e-4);
 
   bool add_all(Real held, Real least = least_pivot) {
-    map_.begin(model_);
+    map_.clear();
     map_.set().hold(held);
     return add_equalities() && add_slides(least);
   }
