@@ -53,9 +53,10 @@ class ModeDecision {
     if (!any_zero) {
       // Most often all goes on as it was.
       if (state_.has_map && ending.next.joint < 0 && is_consistent(modes)) return Status::success();
+      const bool is_mapped = state_.has_map && !map_.is_held();
       cables_.freeze();
       cables_.drop_map();
-      if ((cables_.is_set_up || constraints_.set_up()) && go_on(modes)) {
+      if ((cables_.is_set_up || constraints_.set_up()) && go_on(modes, nullptr, is_mapped)) {
         constraints_.rebuild();
         return Status::success();
       }
@@ -210,16 +211,25 @@ class ModeDecision {
     }
   }
   /// What slides, begun from what slid: an ordinary event is one pivot.
-  /// Segments of the spans in `tightening` must then gain tension.
-  [[gnu::noinline]] bool go_on(const SlipModes& modes, const Spans* tightening = nullptr) {
+  /// Segments of the spans in `tightening` must then gain tension. `is_mapped`: the map is that of the set.
+  [[gnu::noinline]] bool go_on(const SlipModes& modes, const Spans* tightening = nullptr,
+                               bool is_mapped = false) {
     Tensions stuck;
     typename Map::Moves due;
+    typename Solver::Response mapped;
     cables_.stuck_rates(stuck);
     dues(false, due);
+    if (is_mapped) {
+      Inputs dx;
+      cables_.directions(dx);
+      map_.tension_rates(dx, mapped.T);
+      for (int i = 0; i < map_.active(); ++i) mapped.moves[i] = map_.move_rate(i, dx);
+    }
     Solver solver;
     solver.begin(model_, laws_, map_.set());
     for (const SlipMode& each : modes) solver.add_slip(each);
-    if (solver.solve(stuck, due, cables_.rate_tolerance(), true) != Solver::Outcome::solved) {
+    if (solver.solve(stuck, due, cables_.rate_tolerance(), true, is_mapped ? &mapped : nullptr) !=
+        Solver::Outcome::solved) {
       remember_ray(solver);
       cables_.drop_set();
       return false;
@@ -271,8 +281,13 @@ class ModeDecision {
       if (!zero[r]) continue;
       state_.slack[r] = false;
       state_.moved.slack_length[r] = 0;
-      for (int i = 0; i < runs_[r].count; ++i)
-        if (const Pull pull = pull_on(runs_[r], i, false); pull.jack != nullptr) slide_toward(pull, r, i);
+      // From the jacks outward: the joints that leave first are the last of the set, and little is made anew.
+      for (const std::size_t end : {std::size_t(0), std::size_t(1)})
+        for (int k = 0; k < runs_[r].count; ++k) {
+          const int i = end == 0 ? k : runs_[r].count - 1 - k;
+          const Pull pull = pull_on(runs_[r], i, false);
+          if (pull.jack != nullptr && pull.jack->end == end) slide_toward(pull, r, i);
+        }
     }
     cables_.drop_set();
     if (constraints_.set_up_soundly() && go_on(modes, &zero)) {

@@ -48,6 +48,12 @@ class ModeSolver {
     SlipMode slip() const { return {index, way}; }
   };
 
+  /// Tensions and moves of the set, or their rates.
+  struct Response {
+    Tensions T;
+    Moves moves;
+  };
+
   /// Begins with no pair. `set` has the moves that follow whatever happens, and the slips that go on for
   /// sure.
   void begin(const CondensedType& model, const Laws& laws, Set& set) {
@@ -80,8 +86,10 @@ class ModeSolver {
   /// Otherwise the set has no slips and the problem is solved from zero.
   ///
   /// At most 16 pivots a pair, each with two or three solutions of the set. On success the set has the slips
-  /// that slide and the segments that go slack.
-  Outcome solve(const Tensions& stuck, Moves due, Real none, bool go_on) {
+  /// that slide and the segments that go slack. `known`: where all goes on with the set as it is, if that has
+  /// been worked out.
+  Outcome solve(const Tensions& stuck, const Moves& due, Real none, bool go_on,
+                const Response* known = nullptr) {
     due_ = due;
     none_ = none;
     pivots_ = 0;
@@ -97,7 +105,7 @@ class ModeSolver {
     for (int p = 0; p < pairs_.size(); ++p) scale_[p] = std::sqrt(stiffness(active_of(p)) / stiffest_);
     if (go_on) {
       bool any = false;
-      if (!keep_what_goes_on(stuck, any)) return Outcome::singular;
+      if (!keep_what_goes_on(stuck, known, any)) return Outcome::singular;
       if (!any) return Outcome::solved;
     } else {
       if (!begin_from_zero(stuck)) return Outcome::singular;
@@ -133,6 +141,8 @@ class ModeSolver {
     return pair.is_segment() ? T[pair.index] : laws_->limit(pair.slip()).of(T);
   }
   Real stiffness(const Active& active) const { return set_->stiffness(active.move); }
+  /// The elongation of a segment that changes its own tension by one [m/N].
+  Real unit(int p) const { return set_->flexibility(active_of(p).move); }
   /// Symmetric scaling to a unit diagonal: what a unit of the covering variable adds to a row [-].
   Real cover(int p) const {
     if (!covers_[p]) return 0;
@@ -164,14 +174,20 @@ class ModeSolver {
     return true;
   }
   /// `any`: whether a limit is violated then.
-  bool keep_what_goes_on(const Tensions& stuck, bool& any) {
+  bool keep_what_goes_on(const Tensions& stuck, const Response* known, bool& any) {
     covers_.fill(false);
     for (int i = equalities_; i < set_->size(); ++i) name((*set_)[i], i);
     for (int rounds = set_->size() - equalities_; rounds >= 0; --rounds) {
       T_ = stuck;
       Moves moves;
       moves.fill(Real(0));
-      set_->settle(*laws_, due_, T_, moves);
+      if (known != nullptr) {
+        T_ = known->T;
+        moves = known->moves;
+        known = nullptr;
+      } else {
+        set_->settle(*laws_, due_, T_, moves);
+      }
       // From the last one on, so that the factors of the first are kept.
       int gone = set_->size();
       any = false;
@@ -221,11 +237,8 @@ class ModeSolver {
   void perturb() {
     T_tie_.fill(Real(0));
     if (covers_all_) {
-      Tensions e;
-      e.fill(Real(0));
       for (int p = 0; p < pairs_.size(); ++p)
-        if (pairs_[p].is_segment()) e[pairs_[p].index] -= perturbation(p) / stiffness(active_of(p));
-      set_->carry(e, T_tie_);
+        if (pairs_[p].is_segment()) set_->carry(pairs_[p].index, -perturbation(p) * unit(p), T_tie_);
       Moves moves, dues;
       moves.fill(Real(0));
       dues.fill(Real(0));
@@ -247,12 +260,6 @@ class ModeSolver {
     bool enters = false;  // the entering move, rather than its row
     int pair = -1;
   };
-  /// What a unit of a move makes of tensions and moves of the set.
-  struct Response {
-    Tensions T;
-    Moves moves;
-  };
-
   Outcome follow_path() {
     int leaving = -1;
     const auto is_first = [&](Real value, Real tie, Real by, Real& needed, Real& needed_tie) {
@@ -308,11 +315,8 @@ class ModeSolver {
   }
 
   void respond(const Active& to, Response& response) const {
-    Tensions e;
-    e.fill(Real(0));
-    to.move.impose(sign(to) / stiffness(to), e);
     response.T.fill(Real(0));
-    set_->carry(e, response.T);
+    set_->carry(to.move, sign(to) * set_->flexibility(to.move), response.T);
     settle_rates(response, false);
   }
   void respond_to_cover(Response& response) const {
@@ -324,13 +328,9 @@ class ModeSolver {
       any = any || (active.slides() && active.pair >= 0 && covers_[active.pair]);
     }
     if (!any) return;
-    if (covers_all_) {
-      Tensions e;
-      e.fill(Real(0));
+    if (covers_all_)
       for (int p = 0; p < pairs_.size(); ++p)
-        if (pairs_[p].is_segment()) e[pairs_[p].index] -= cover(p) / stiffness(active_of(p));
-      set_->carry(e, response.T);
-    }
+        if (pairs_[p].is_segment()) set_->carry(pairs_[p].index, -cover(p) * unit(p), response.T);
     settle_rates(response, true);
   }
   void settle_rates(Response& response, bool is_cover) const {
