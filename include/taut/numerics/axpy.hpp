@@ -5,6 +5,13 @@
 
 namespace taut {
 
+/// Whether the processor works on several numbers at a time, as far as Eigen knows.
+#ifdef EIGEN_VECTORIZE
+constexpr bool takes_several = true;
+#else
+constexpr bool takes_several = false;
+#endif
+
 /// y += a x for the first n entries, which must not overlap. Every entry is one product and one sum: the same
 /// bits on every machine, however many are taken at a time.
 template <class Scalar>

@@ -57,7 +57,7 @@ class ModeDecision {
       cables_.freeze();
       cables_.drop_map();
       if ((cables_.is_set_up || constraints_.set_up()) && go_on(modes, nullptr, is_mapped)) {
-        constraints_.rebuild();
+        constraints_.rebuild(ending.has_total);
         return Status::success();
       }
     } else {

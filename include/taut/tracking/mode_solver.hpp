@@ -90,7 +90,7 @@ class ModeSolver {
   /// been worked out.
   Outcome solve(const Tensions& stuck, const Moves& due, Real none, bool go_on,
                 const Response* known = nullptr) {
-    due_ = due;
+    due_ = &due;
     none_ = none;
     pivots_ = 0;
     z_ = z_tie_ = 0;
@@ -102,7 +102,8 @@ class ModeSolver {
     place_.fill(inactive);
     equalities_ = 0;
     while (equalities_ < set_->size() && (*set_)[equalities_].sense == 0) ++equalities_;
-    for (int p = 0; p < pairs_.size(); ++p) scale_[p] = std::sqrt(stiffness(active_of(p)) / stiffest_);
+    for (int p = 0; p < pairs_.size(); ++p)
+      scale_[segment_of(p)] = std::sqrt(stiffness(active_of(p)) / stiffest_);
     if (go_on) {
       bool any = false;
       if (!keep_what_goes_on(stuck, known, any)) return Outcome::singular;
@@ -148,7 +149,11 @@ class ModeSolver {
     if (!covers_[p]) return 0;
     return scale(p);
   }
-  Real scale(int p) const { return scale_[p]; }
+  Real scale(int p) const { return scale_[segment_of(p)]; }
+  /// Which its move lengthens: moves that lengthen the same one have the same stiffness.
+  int segment_of(int p) const {
+    return pairs_[p].is_segment() ? pairs_[p].index : laws_->sides(pairs_[p].index)[0];
+  }
   /// In general position, and the same everywhere.
   Real perturbation(int p) const {
     const auto scattered = (static_cast<std::uint32_t>(p) + 1U) * 2654435769U;
@@ -168,7 +173,7 @@ class ModeSolver {
     Moves moves, dues;
     moves.fill(Real(0));
     dues.fill(Real(0));
-    for (int i = 0; i < set_->size(); ++i) dues[i] = i < equalities_ ? due_[i] : least_[(*set_)[i].on];
+    for (int i = 0; i < set_->size(); ++i) dues[i] = i < equalities_ ? (*due_)[i] : least_[(*set_)[i].on];
     set_->settle(*laws_, dues, T_, moves);
     keep_values(moves, value_, Real(1));
     return true;
@@ -186,7 +191,7 @@ class ModeSolver {
         moves = known->moves;
         known = nullptr;
       } else {
-        set_->settle(*laws_, due_, T_, moves);
+        set_->settle(*laws_, *due_, T_, moves);
       }
       // From the last one on, so that the factors of the first are kept.
       int gone = set_->size();
@@ -253,9 +258,8 @@ class ModeSolver {
 
   // The path.
 
-  struct Direction {
-    Tensions T;
-    Moves moves;
+  /// At first the response to the covering variable alone: there is one storage for both.
+  struct Direction : Response {
     Real z = 0, entering = 0, pending = 0;
     bool enters = false;  // the entering move, rather than its row
     int pair = -1;
@@ -271,11 +275,11 @@ class ModeSolver {
       return true;
     };
     Real needed = 0, needed_tie = -std::numeric_limits<Real>::max();
-    Response covering;
-    respond_to_cover(covering);
+    Direction direction;
+    respond_to_cover(direction);
     for (int p = 0; p < pairs_.size(); ++p) {
       if (place_[p] != inactive) continue;
-      const Real by = row(p, covering.T) + direct(p);
+      const Real by = row(p, direction.T) + direct(p);
       if (row(p, T_) < -none_ && by > 0 && is_first(row(p, T_), tie_of_row(p), by, needed, needed_tie))
         leaving = p;
     }
@@ -283,7 +287,7 @@ class ModeSolver {
     for (int i = equalities_; i < set_->size(); ++i) {
       const Active& active = (*set_)[i];
       if (active.pair < 0) continue;
-      const Real by = sign(active) * covering.moves[i] * stiffness(active);
+      const Real by = sign(active) * direction.moves[i] * stiffness(active);
       if (value_[active.pair] < -none_ && by > 0 &&
           is_first(value_[active.pair], tie_[active.pair], by, needed, needed_tie)) {
         leaving = active.pair;
@@ -292,8 +296,7 @@ class ModeSolver {
     }
     if (leaving < 0) return Outcome::solved;
     largest_ = needed;
-    raise_cover(covering, needed, needed_tie);
-    Direction direction;
+    raise_cover(direction, needed, needed_tie);
     direction.pair = leaving;
     direction.enters = !leaves_set;
     if (leaves_set && !leave(leaving)) return Outcome::singular;
@@ -348,16 +351,24 @@ class ModeSolver {
 
   /// Along which the laws of the set hold, that of the pending slip, and that of the entering one.
   bool find(Direction& direction) {
-    Response covering, entering, pending;
-    respond_to_cover(covering);
+    Response other;  // one storage: what is pending is worked out twice where something else enters
+    respond_to_cover(direction);
     const int e = direction.pair, k = pending_;
-    if (direction.enters) respond(active_of(e), entering);
-    if (is_pending_) respond(active_of(k), pending);
-    const Real rz = row(e, covering.T) + direct(e);
+    const Real rz = row(e, direction.T) + direct(e);
     Real by_z = 0, by_entering = 0, by_pending = 0;
+    Real rk = 0, kk = 0, re = 0, ke = 0;
+    if (is_pending_) {
+      respond(active_of(k), other);
+      rk = row(e, other.T);
+      kk = row(k, other.T);
+    }
+    if (direction.enters) {
+      respond(active_of(e), other);
+      re = row(e, other.T);
+      if (is_pending_) ke = row(k, other.T);
+    }
     if (!is_pending_) {
       if (direction.enters) {
-        const Real re = row(e, entering.T);
         by_entering = std::fabs(rz);
         by_z = rz < 0 ? re : -re;
       } else {
@@ -365,10 +376,8 @@ class ModeSolver {
         if (rz == 0) return false;
       }
     } else {
-      const Real kz = row(k, covering.T) + direct(k), kk = row(k, pending.T);
-      const Real rk = row(e, pending.T);
+      const Real kz = row(k, direction.T) + direct(k);
       if (direction.enters) {
-        const Real re = row(e, entering.T), ke = row(k, entering.T);
         // The cross product of the two rows, in the order entering, pending, z.
         by_entering = rk * kz - rz * kk;
         by_pending = rz * ke - re * kz;
@@ -395,14 +404,16 @@ class ModeSolver {
     direction.z = by_z;
     direction.entering = by_entering;
     direction.pending = by_pending;
-    for (int i = 0; i < model_->segments; ++i) direction.T[i] = by_z * covering.T[i];
-    for (int i = 0; i < set_->size(); ++i) direction.moves[i] = by_z * covering.moves[i];
-    const auto add = [&](const Response& response, Real times) {
-      for (int i = 0; i < model_->segments; ++i) direction.T[i] += times * response.T[i];
-      for (int i = 0; i < set_->size(); ++i) direction.moves[i] += times * response.moves[i];
+    for (int i = 0; i < model_->segments; ++i) direction.T[i] *= by_z;
+    for (int i = 0; i < set_->size(); ++i) direction.moves[i] *= by_z;
+    const auto add_other = [&](Real times) {
+      axpy(model_->segments, times, &other.T[0], &direction.T[0]);
+      axpy(set_->size(), times, &other.moves[0], &direction.moves[0]);
     };
-    if (direction.enters) add(entering, by_entering);
-    if (is_pending_) add(pending, by_pending);
+    if (direction.enters) add_other(by_entering);
+    if (!is_pending_) return true;
+    if (direction.enters) respond(active_of(k), other);
+    add_other(by_pending);
     return true;
   }
 
@@ -539,11 +550,11 @@ class ModeSolver {
   FixedList<Pair, max_pairs> pairs_;
   FixedArray<bool, max_pairs> covers_;
   FixedArray<std::int8_t, max_pairs> place_;  // inactive, in the set (0), pending (1)
-  FixedArray<Real, max_pairs> scale_;
+  Tensions scale_;
   FixedArray<Real, max_pairs> value_, tie_;  // of h and v [N]; the second part decides among ties
   Tensions least_;                           // L
   Tensions T_, T_tie_;
-  Moves due_;
+  const Moves* due_ = nullptr;
   int equalities_ = 0;  // the first moves of the set: they follow whatever happens
   int pending_ = 0;     // a slip that is at work but would make the set singular
   int pivots_ = 0;
