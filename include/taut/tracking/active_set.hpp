@@ -353,37 +353,38 @@ class ActiveSet {
   /// cancel: Eq. (13).
   void settle_chain(const Laws& laws, const Row& row, int a, int b, const Moves& due, Tensions& T,
                     Tensions& e) const {
-    Real ratio = 1, offset = 0, weights = 0, sum = 0, tau = 0;
+    Real weights = 0, sum = 0, tau = 0;
     bool found = false;
-    const auto walk = [&](auto visit) {
-      ratio = 1;
-      offset = 0;
+    for (const bool settles : {false, true}) {
+      if (settles && !found) {
+        if (a == b) return;
+        tau = sum / weights;
+      }
+      Real ratio = 1, offset = 0;
       for (int i = a; i <= b; ++i) {
-        visit(row.segment(i));
+        const int segment = row.segment(i), fixed = links_.fixed[segment];
+        const Real flexibility = flexibility_[segment];
+        if (settles) {
+          const Real settled = ratio * tau + offset;
+          e[segment] = (settled - T[segment]) * flexibility;
+          T[segment] = settled;
+        } else {
+          if (fixed >= 0) {
+            tau = (due[fixed] - offset) / ratio;
+            found = true;
+          }
+          weights += ratio * flexibility;
+          sum += (T[segment] - offset) * flexibility;
+        }
         if (i == b) break;
         const int k = ratio_after(row, i);
         const Real rho = laws.rho(active_[k].move.index);
         const bool forward = active_[k].sense > 0;
-        ratio = forward ? ratio / rho : ratio * rho;
-        offset = forward ? (offset - due[k]) / rho : offset * rho + due[k];
+        const Real next = forward ? Real(1) / rho : rho;
+        ratio *= next;
+        offset = forward ? (offset - due[k]) * next : offset * next + due[k];
       }
-    };
-    walk([&](int segment) {
-      const int fixed = links_.fixed[segment];
-      if (fixed >= 0) {
-        tau = (due[fixed] - offset) / ratio;
-        found = true;
-      }
-      weights += ratio * flexibility_[segment];
-      sum += (T[segment] - offset) * flexibility_[segment];
-    });
-    if (a == b && !found) return;
-    if (!found) tau = sum / weights;
-    walk([&](int segment) {
-      const Real settled = ratio * tau + offset;
-      e[segment] = (settled - T[segment]) * flexibility_[segment];
-      T[segment] = settled;
-    });
+    }
   }
   /// The moves that give segments a to b, linked by active slips, their elongations.
   void follow(const Row& row, int a, int b, const Tensions& e, Moves& moves) const {

@@ -22,7 +22,7 @@ class ModeDecision {
   using Laws = typename Cables::Laws;
   using Map = typename Cables::Map;
   using State = typename Cables::State;
-  using Moving = typename Cables::Moving;
+  using Modes = typename State::Modes;
   using Tensions = typename Cables::Tensions;
   using Inputs = typename Cables::Inputs;
   using JackedEnd = typename Cables::JackedEnd;
@@ -273,10 +273,7 @@ class ModeDecision {
   /// Where spans at zero become taut, most often every joint slides toward the jack. Tried first: Lemke's
   /// path goes on from there, and the answer is taken if it gives every segment of these spans tension.
   [[gnu::noinline]] bool pull_straight(const Spans& zero, const SlipModes& modes) {
-    const auto slack = state_.slack;
-    const auto slides = state_.slides;
-    const auto order = state_.order;
-    const Moving moved = state_.moved;
+    const Modes before = state_;
     for (int r = 0; r < runs_.size(); ++r) {
       if (!zero[r]) continue;
       state_.slack[r] = false;
@@ -294,10 +291,7 @@ class ModeDecision {
       constraints_.rebuild();
       return true;
     }
-    state_.slack = slack;
-    state_.slides = slides;
-    state_.order = order;
-    state_.moved = moved;
+    static_cast<Modes&>(state_) = before;
     free_joint_ = doubtful_joint_ = -1;
     cables_.drop_set();
     return false;
@@ -430,10 +424,7 @@ class ModeDecision {
     const Real step = least < Real(0.5) ? least : Real(0.5);
     const Loads before = state_.now;
     const Tensions forces = cables_.force;
-    const Moving moved = state_.moved;
-    const auto slides = state_.slides;
-    const auto order = state_.order;
-    const auto slack = state_.slack;
+    const Modes modes_before = state_;
     state_.now = Loads::between(state_.now, state_.goal, step);
     Spans all;
     for (int r = 0; r < runs_.size(); ++r) {
@@ -459,10 +450,7 @@ class ModeDecision {
       if (!is_near && free_joint_ < 0) why = cables_.at_joint(Code::gives_way, doubtful_joint_);
     }
     state_.now = before;
-    state_.moved = moved;
-    state_.slides = slides;
-    state_.order = order;
-    state_.slack = slack;
+    static_cast<Modes&>(state_) = modes_before;
     cables_.force = forces;
     cables_.drop_set();
     return why;

@@ -102,8 +102,7 @@ class ModeSolver {
     place_.fill(inactive);
     equalities_ = 0;
     while (equalities_ < set_->size() && (*set_)[equalities_].sense == 0) ++equalities_;
-    for (int p = 0; p < pairs_.size(); ++p)
-      scale_[segment_of(p)] = std::sqrt(stiffness(active_of(p)) / stiffest_);
+    for (int p = 0; p < pairs_.size(); ++p) scale_[segment_of(p)] = root(stiffness(active_of(p)) / stiffest_);
     if (go_on) {
       bool any = false;
       if (!keep_what_goes_on(stuck, known, any)) return Outcome::singular;
@@ -159,6 +158,8 @@ class ModeSolver {
     const auto scattered = (static_cast<std::uint32_t>(p) + 1U) * 2654435769U;
     return scale(p) * (Real(1) + static_cast<Real>(scattered >> 8) / Real(1 << 24));
   }
+  /// Scales need no more digits than a float has, whose roots cost one instruction.
+  static Real root(Real x) { return static_cast<Real>(std::sqrt(static_cast<float>(x))); }
   static Real sign(const Active& active) { return active.sense < 0 ? Real(-1) : Real(1); }
 
   // The start.
@@ -296,7 +297,8 @@ class ModeSolver {
     }
     if (leaving < 0) return Outcome::solved;
     largest_ = needed;
-    raise_cover(direction, needed, needed_tie);
+    direction.z = 1;
+    step_along(direction, {Leaves::cover, -1, needed, needed_tie, needed});
     direction.pair = leaving;
     direction.enters = !leaves_set;
     if (leaves_set && !leave(leaving)) return Outcome::singular;
@@ -467,21 +469,9 @@ class ModeSolver {
     int pair = -1;
     Real step = 0, step_tie = 0, exact = 0;
   };
-  void raise_cover(const Response& response, Real step, Real tie) {
-    for (int i = 0; i < model_->segments; ++i) {
-      T_[i] += step * response.T[i];
-      T_tie_[i] += tie * response.T[i];
-    }
-    keep_values(response.moves, value_, step);
-    keep_values(response.moves, tie_, tie);
-    z_ += step;
-    z_tie_ += tie;
-  }
   void step_along(const Direction& direction, const Blocking& blocking) {
-    for (int i = 0; i < model_->segments; ++i) {
-      T_[i] += blocking.step * direction.T[i];
-      T_tie_[i] += blocking.step_tie * direction.T[i];
-    }
+    axpy(model_->segments, blocking.step, &direction.T[0], &T_[0]);
+    axpy(model_->segments, blocking.step_tie, &direction.T[0], &T_tie_[0]);
     keep_values(direction.moves, value_, blocking.step);
     keep_values(direction.moves, tie_, blocking.step_tie);
     z_ += blocking.step * direction.z;
