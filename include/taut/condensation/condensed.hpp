@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "taut/numerics/axpy.hpp"
+#include "taut/numerics/bits.hpp"
 #include "taut/numerics/wide.hpp"
 #include "taut/scene/fixed_list.hpp"
 #include "taut/scene/path.hpp"
@@ -31,7 +32,7 @@ struct ElasticCoupling {
     FixedArray<int, 4> some;
     int count = 0;
     for (int k = 0; k < n; ++k) {
-      if (e[k] == 0) continue;
+      if (bits_of(e[k]) == 0) continue;
       if constexpr (!takes_several) {
         add(n, k, e[k], T);
       } else {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "taut/numerics/bits.hpp"
 #include "taut/numerics/bordered_lu.hpp"
 #include "taut/numerics/larger.hpp"
 #include "taut/tracking/moves.hpp"
@@ -117,7 +118,7 @@ class ActiveSet {
   /// free while they are slack, and a decision at zero tension is well posed nevertheless. To be set while
   /// the set is empty.
   void hold(Real part) { held_ = is_chains() ? Real(0) : part; }
-  bool is_held() const { return held_ != 0; }
+  bool is_held() const { return is_positive(held_); }
   /// Adds the tensions that elongations make.
   void carry(const Tensions& e, Tensions& T) const {
     model_->coupling.add(model_->segments, e, T);
@@ -132,20 +133,20 @@ class ActiveSet {
   /// Adds the tensions that an elongation of one segment makes.
   void carry(int segment, Real by, Tensions& T) const {
     model_->coupling.add(model_->segments, segment, by, T);
-    if (held_ != 0) T[segment] += held_ * model_->coupling(segment, segment) * by;
+    if (is_held()) T[segment] += held_ * model_->coupling(segment, segment) * by;
   }
   /// What an elongation by an active move is in its own segment [N/m].
   Real stiffness(int i) const { return stiffness(active_[i].move); }
   Real stiffness(const Move& move) const {
     const Real before = model_->coupling(move.lengthened, move.lengthened);
-    if (before > 0) return before;
+    if (is_positive(before)) return before;
     const Real after = move.shortened < 0 ? Real(0) : model_->coupling(move.shortened, move.shortened);
     return after > 0 ? after : stiffest_;
   }
   /// One over that [m/N], without a division.
   Real flexibility(const Move& move) const {
     const Real before = flexibility_[move.lengthened];
-    if (before > 0) return before;
+    if (is_positive(before)) return before;
     const Real after = move.shortened < 0 ? Real(0) : flexibility_[move.shortened];
     return after > 0 ? after : Real(1) / stiffest_;
   }
@@ -179,7 +180,7 @@ class ActiveSet {
     const Law<Real> row = laws.of(active_[law]);
     const Move& move = active.move;
     const Real by = resistance(*model_, row, move);
-    return (held_ == 0 ? by : by + held_ * alone(row, move)) * flexibility(move);
+    return (is_held() ? by + held_ * alone(row, move) : by) * flexibility(move);
   }
   /// What a move changes a law by through the segments' own stiffness.
   Real alone(const Law<Real>& law, const Move& move) const {
