@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "taut/numerics/axpy.hpp"
+#include "taut/numerics/bits.hpp"
 #include "taut/numerics/wide.hpp"
 #include "taut/scene/fixed_list.hpp"
 #include "taut/scene/path.hpp"
@@ -27,9 +29,37 @@ struct ElasticCoupling {
   /// T += coupling x e, for n segments.
   template <class Vector>
   void add(int n, const Vector& e, Vector& T) const {
-    for (int k = 0; k < n; ++k)
-      if (e[k] != 0)
-        for (int i = 0; i < n; ++i) T[i] += entries[k * Segments + i] * e[k];
+    FixedArray<int, 4> some;
+    int count = 0;
+    for (int k = 0; k < n; ++k) {
+      if (bits_of(e[k]) == 0) continue;
+      if constexpr (!takes_several) {
+        add(n, k, e[k], T);
+      } else {
+        some[count++] = k;
+        if (count < 4) continue;
+        add_four(n, some, e, T);
+        count = 0;
+      }
+    }
+    for (int i = 0; i < count; ++i) add(n, some[i], e[some[i]], T);
+  }
+  /// The same where segment k alone is lengthened.
+  template <class Vector>
+  void add(int n, int k, Scalar by, Vector& T) const {
+    axpy(n, by, &entries[k * Segments], &T[0]);
+  }
+
+ private:
+  /// T is read and written once for four columns: the same sums in the same order.
+  template <class Vector>
+  void add_four(int n, const FixedArray<int, 4>& of, const Vector& e, Vector& T) const {
+    using Column = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+    const auto term = [&](int i) {
+      return e[of[i]] * Eigen::Map<const Column>(&entries[of[i] * Segments], n);
+    };
+    Eigen::Map<Column> sum(&T[0], n);
+    sum = sum + term(0) + term(1) + term(2) + term(3);
   }
 };
 
@@ -46,6 +76,10 @@ struct NoCoupling {
   template <class Vector>
   void add(int n, const Vector& e, Vector& T) const {
     for (int i = 0; i < n; ++i) T[i] += axial[i] * e[i];
+  }
+  template <class Vector>
+  void add(int, int k, Scalar by, Vector& T) const {
+    T[k] += axial[k] * by;
   }
 };
 

@@ -22,6 +22,12 @@ BitsOf<Scalar> bits_of(Scalar x) {
   return bits;
 }
 
+/// x > 0, by integers: where software works in double, a comparison costs as much as a product.
+template <class Scalar>
+bool is_positive(Scalar x) {
+  return bits_of(x) > 0;
+}
+
 /// The whole part n of -126 <= x <= 0, and 2^n.
 template <class Scalar>
 struct WholePower {

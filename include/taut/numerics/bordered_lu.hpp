@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "taut/numerics/axpy.hpp"
 #include "taut/numerics/larger.hpp"
 #include "taut/scene/fixed_list.hpp"
 
@@ -15,7 +16,8 @@ namespace taut {
 ///
 /// An active set grows by one constraint at a time, so that an event costs n^2 operations in place of n^3;
 /// and factors built anew in the order of entry have the same bits. Whoever appends chooses an order whose
-/// pivots are not small, and corrects solutions with residuals.
+/// pivots are not small, and corrects solutions with residuals. Columns are contiguous, and one division a
+/// pivot is all there is.
 template <class Scalar, int Max>
 class BorderedLu {
  public:
@@ -30,20 +32,22 @@ class BorderedLu {
   template <class Column, class Row>
   Scalar append(Column column, Row row) {
     const int n = size_;
-    Scalar largest = std::fabs(column(n));
-    for (int i = 0; i < n; ++i) {
-      Scalar u = column(i), l = row(i);
-      largest = larger(largest, larger(std::fabs(u), std::fabs(l)));
-      for (int k = 0; k < i; ++k) {
-        u -= at(i, k) * at(k, n);
-        l -= at(n, k) * at(k, i);
-      }
-      at(i, n) = u;
-      at(n, i) = l / at(i, i);
+    Scalar* const u = &at(0, n);
+    Scalar largest = 0;
+    for (int i = 0; i <= n; ++i) {
+      u[i] = column(i);
+      largest = larger(largest, std::fabs(u[i]));
     }
-    Scalar pivot = column(n);
-    for (int k = 0; k < n; ++k) pivot -= at(n, k) * at(k, n);
-    at(n, n) = pivot;
+    for (int k = 0; k < n; ++k) axpy(n - 1 - k, -u[k], &at(k, k) + 1, u + k + 1);
+    FixedArray<Scalar, Max> l;
+    for (int i = 0; i < n; ++i) {
+      const Scalar entry = row(i);
+      largest = larger(largest, std::fabs(entry));
+      l[i] = (entry - dot(i, &l[0], &at(0, i))) * at(i, i);
+      at(n, i) = l[i];
+    }
+    const Scalar pivot = u[n] - dot(n, &l[0], u);
+    u[n] = Scalar(1) / pivot;
     ++size_;
     return largest > 0 ? std::fabs(pivot) / largest : Scalar(0);
   }
@@ -51,21 +55,27 @@ class BorderedLu {
   /// Solves A x = b in place: 2 n^2 operations.
   template <class Vector>
   void solve(Vector& x) const {
-    for (int i = 1; i < size_; ++i) {
-      Scalar sum = x[i];
-      for (int k = 0; k < i; ++k) sum -= at(i, k) * x[k];
-      x[i] = sum;
-    }
-    for (int i = size_ - 1; i >= 0; --i) {
-      Scalar sum = x[i];
-      for (int k = i + 1; k < size_; ++k) sum -= at(i, k) * x[k];
-      x[i] = sum / at(i, i);
+    for (int k = 0; k + 1 < size_; ++k) axpy(size_ - 1 - k, -x[k], &at(k, k) + 1, &x[k] + 1);
+    for (int k = size_ - 1; k >= 0; --k) {
+      x[k] *= at(k, k);
+      axpy(k, -x[k], &at(0, k), &x[0]);
     }
   }
 
  private:
-  Scalar& at(int i, int j) { return entries_[i * Max + j]; }
-  const Scalar& at(int i, int j) const { return entries_[i * Max + j]; }
+  /// Four sums, whose order no compiler may choose: none waits for the one before.
+  static Scalar dot(int n, const Scalar* a, const Scalar* b) {
+    Scalar sums[4] = {};
+    int i = 0;
+    for (; i + 4 <= n; i += 4)
+      for (int k = 0; k < 4; ++k) sums[k] += a[i + k] * b[i + k];
+    for (; i < n; ++i) sums[0] += a[i] * b[i];
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+  }
+
+  /// Below the diagonal L, above it U, on it one over the pivot.
+  Scalar& at(int i, int j) { return entries_[j * Max + i]; }
+  const Scalar& at(int i, int j) const { return entries_[j * Max + i]; }
 
   FixedArray<Scalar, Max * Max> entries_;
   int size_ = 0;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "taut/numerics/bits.hpp"
 #include "taut/numerics/bordered_lu.hpp"
 #include "taut/numerics/larger.hpp"
 #include "taut/tracking/moves.hpp"
@@ -30,17 +31,20 @@ class ActiveSet {
   using Moves = FixedArray<Real, capacity>;
   using Actives = FixedList<Active, capacity>;
 
-  /// Empties the set. The model must outlive it.
+  /// Begins with an empty set, and looks the model through once. The model must outlive it.
   void begin(const CondensedType& model) {
     model_ = &model;
-    held_ = 0;
     stiffest_ = 0;
     for (int i = 0; i < model.segments; ++i) stiffest_ = larger(stiffest_, model.coupling(i, i));
     if (!(stiffest_ > 0)) stiffest_ = 1;
+    for (int i = 0; i < model.segments; ++i)
+      flexibility_[i] = model.coupling(i, i) > 0 ? Real(1) / model.coupling(i, i) : Real(0);
     if constexpr (may_be_either) is_diagonal_ = has_diagonal_coupling();
     clear();
   }
+  /// Empties the set.
   void clear() {
+    held_ = 0;
     active_.clear();
     renumber();
   }
@@ -114,20 +118,37 @@ class ActiveSet {
   /// free while they are slack, and a decision at zero tension is well posed nevertheless. To be set while
   /// the set is empty.
   void hold(Real part) { held_ = is_chains() ? Real(0) : part; }
-  bool is_held() const { return held_ != 0; }
+  bool is_held() const { return is_positive(held_); }
   /// Adds the tensions that elongations make.
   void carry(const Tensions& e, Tensions& T) const {
     model_->coupling.add(model_->segments, e, T);
     if (held_ == 0) return;
     for (int i = 0; i < model_->segments; ++i) T[i] += held_ * model_->coupling(i, i) * e[i];
   }
+  /// Adds the tensions that a move makes.
+  void carry(const Move& move, Real by, Tensions& T) const {
+    carry(move.lengthened, by, T);
+    if (move.shortened >= 0) carry(move.shortened, -by, T);
+  }
+  /// Adds the tensions that an elongation of one segment makes.
+  void carry(int segment, Real by, Tensions& T) const {
+    model_->coupling.add(model_->segments, segment, by, T);
+    if (is_held()) T[segment] += held_ * model_->coupling(segment, segment) * by;
+  }
   /// What an elongation by an active move is in its own segment [N/m].
   Real stiffness(int i) const { return stiffness(active_[i].move); }
   Real stiffness(const Move& move) const {
     const Real before = model_->coupling(move.lengthened, move.lengthened);
-    if (before > 0) return before;
+    if (is_positive(before)) return before;
     const Real after = move.shortened < 0 ? Real(0) : model_->coupling(move.shortened, move.shortened);
     return after > 0 ? after : stiffest_;
+  }
+  /// One over that [m/N], without a division.
+  Real flexibility(const Move& move) const {
+    const Real before = flexibility_[move.lengthened];
+    if (is_positive(before)) return before;
+    const Real after = move.shortened < 0 ? Real(0) : flexibility_[move.shortened];
+    return after > 0 ? after : Real(1) / stiffest_;
   }
   /// The largest of a segment in its own direction [N/m]; 1 where statics give all forces, and lengths none.
   Real stiffest() const { return stiffest_; }
@@ -158,7 +179,8 @@ class ActiveSet {
   Real entry(const Laws& laws, int law, const Active& active) const {
     const Law<Real> row = laws.of(active_[law]);
     const Move& move = active.move;
-    return (resistance(*model_, row, move) + held_ * alone(row, move)) / stiffness(move);
+    const Real by = resistance(*model_, row, move);
+    return (is_held() ? by + held_ * alone(row, move) : by) * flexibility(move);
   }
   /// What a move changes a law by through the segments' own stiffness.
   Real alone(const Law<Real>& law, const Move& move) const {
@@ -203,7 +225,7 @@ class ActiveSet {
       Tensions e;
       e.fill(Real(0));
       for (int i = 0; i < size(); ++i) {
-        const Real by = change[i] / stiffness(i);
+        const Real by = change[i] * flexibility(active_[i].move);
         moves[i] += by;
         active_[i].move.impose(by, e);
       }
@@ -332,38 +354,38 @@ class ActiveSet {
   /// cancel: Eq. (13).
   void settle_chain(const Laws& laws, const Row& row, int a, int b, const Moves& due, Tensions& T,
                     Tensions& e) const {
-    Real ratio = 1, offset = 0, weights = 0, sum = 0, tau = 0;
+    Real weights = 0, sum = 0, tau = 0;
     bool found = false;
-    const auto walk = [&](auto visit) {
-      ratio = 1;
-      offset = 0;
+    for (const bool settles : {false, true}) {
+      if (settles && !found) {
+        if (a == b) return;
+        tau = sum / weights;
+      }
+      Real ratio = 1, offset = 0;
       for (int i = a; i <= b; ++i) {
-        visit(row.segment(i));
+        const int segment = row.segment(i), fixed = links_.fixed[segment];
+        const Real flexibility = flexibility_[segment];
+        if (settles) {
+          const Real settled = ratio * tau + offset;
+          e[segment] = (settled - T[segment]) * flexibility;
+          T[segment] = settled;
+        } else {
+          if (fixed >= 0) {
+            tau = (due[fixed] - offset) / ratio;
+            found = true;
+          }
+          weights += ratio * flexibility;
+          sum += (T[segment] - offset) * flexibility;
+        }
         if (i == b) break;
         const int k = ratio_after(row, i);
         const Real rho = laws.rho(active_[k].move.index);
         const bool forward = active_[k].sense > 0;
-        ratio = forward ? ratio / rho : ratio * rho;
-        offset = forward ? (offset - due[k]) / rho : offset * rho + due[k];
+        const Real next = forward ? Real(1) / rho : rho;
+        ratio *= next;
+        offset = forward ? (offset - due[k]) * next : offset * next + due[k];
       }
-    };
-    walk([&](int segment) {
-      const int fixed = links_.fixed[segment];
-      if (fixed >= 0) {
-        tau = (due[fixed] - offset) / ratio;
-        found = true;
-      }
-      const Real flexibility = Real(1) / model_->coupling(segment, segment);
-      weights += ratio * flexibility;
-      sum += (T[segment] - offset) * flexibility;
-    });
-    if (a == b && !found) return;
-    if (!found) tau = sum / weights;
-    walk([&](int segment) {
-      const Real settled = ratio * tau + offset;
-      e[segment] = (settled - T[segment]) / model_->coupling(segment, segment);
-      T[segment] = settled;
-    });
+    }
   }
   /// The moves that give segments a to b, linked by active slips, their elongations.
   void follow(const Row& row, int a, int b, const Tensions& e, Moves& moves) const {
@@ -386,6 +408,7 @@ class ActiveSet {
   const CondensedType* model_ = nullptr;
   Actives active_;
   Real held_ = 0, stiffest_ = 1;
+  Tensions flexibility_;  // of every segment in its own direction [m/N], 0 if statics give its force
   Links links_;
   BorderedLu<Real, has_rows ? capacity : 0> factors_;
   bool is_diagonal_ = false;

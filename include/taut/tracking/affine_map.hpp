@@ -33,6 +33,11 @@ class AffineMap {
   void begin(const CondensedType& model) {
     model_ = &model;
     set_.begin(model);
+    clear();
+  }
+  /// No move is at work, and nothing comes in.
+  void clear() {
+    set_.clear();
     inputs_.clear();
     has_slack_ = false;
   }

@@ -8,28 +8,38 @@
 
 namespace taut {
 
+/// What a decision may try and take back: modes of joints and of runs, the parts of cables between anchors,
+/// jacks and self-locking joints, and all that has moved.
+template <class Real, class Cap>
+struct CableModes {
+  FixedArray<JointState, Cap::joints> slides;  ///< stick, or the way: its friction is at this limit
+  FixedList<std::int16_t, Cap::joints> order;  ///< joints that slide, as they began
+  FixedArray<bool, Cap::segments> slack;       ///< of runs: without tension, with length to spare
+  Moving<Real, Cap> moved;  ///< slips, extensions and slack lengths where the piece was begun
+
+  friend bool operator==(const CableModes& a, const CableModes& b) {
+    return a.slides == b.slides && a.order == b.order && a.slack == b.slack && a.moved == b.moved;
+  }
+};
+
 /// Where a tensioning has come to. All else that a tracker holds is made from it and from the condensed
 /// scene: saved whole, restored whole, it gives the same bits. A plain value: it may be stored and read back
 /// byte by byte, on the same machine and with the same build. SI units.
 template <class CondensedType, int MaxInputs>
-struct CableState {
+struct CableState : CableModes<typename CondensedType::Real, typename CondensedType::Capacity> {
   using Scalar = typename CondensedType::Scalar;
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
   using Loads = Drive<Real, Cap>;
+  using Modes = CableModes<Real, Cap>;
 
   Loads now;   ///< load factors, jack forces and locked extensions reached
   Loads goal;  ///< the end of the path that was asked for
 
-  // Modes of joints and of runs, the parts of cables between anchors, jacks and self-locking joints.
-  FixedArray<JointState, Cap::joints> slides;  ///< stick, or the way: its friction is at this limit
-  FixedList<std::int16_t, Cap::joints> order;  ///< joints that slide, as they began
-  FixedArray<bool, Cap::segments> slack;       ///< of runs: without tension, with length to spare
-  FixedArray<bool, Cap::segments> rests;       ///< of runs: without tension since its jacks are at zero
+  FixedArray<bool, Cap::segments> rests;  ///< of runs: without tension since its jacks are at zero
   FixedArray<std::int16_t, Cap::segments> representative;  ///< of runs: the segment with the largest tension
 
   // The present affine piece.
-  Moving<Real, Cap> moved;                ///< slips, extensions and slack lengths where the piece was begun
   Loads built;                            ///< the loads there
   FixedArray<bool, Cap::loads> has_load;  ///< load patterns that change along it
   bool has_map = false;                   ///< there is one
@@ -46,9 +56,9 @@ struct CableState {
 
   /// Compares the whole.
   friend bool operator==(const CableState& a, const CableState& b) {
-    return a.now == b.now && a.goal == b.goal && a.slides == b.slides && a.order == b.order &&
-           a.slack == b.slack && a.rests == b.rests && a.representative == b.representative &&
-           a.moved == b.moved && a.built == b.built && a.has_load == b.has_load && a.has_map == b.has_map &&
+    return static_cast<const Modes&>(a) == static_cast<const Modes&>(b) && a.now == b.now &&
+           a.goal == b.goal && a.rests == b.rests && a.representative == b.representative &&
+           a.built == b.built && a.has_load == b.has_load && a.has_map == b.has_map &&
            a.arrived == b.arrived && a.last == b.last && a.tension == b.tension && a.live == b.live &&
            a.reach == b.reach && a.has_range == b.has_range && a.peak == b.peak;
   }

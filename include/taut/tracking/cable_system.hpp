@@ -53,6 +53,7 @@ struct CableSystem {
   Map map;
   struct Nothing {};
   std::conditional_t<is_adjustable, Derivatives, Nothing> derivatives;
+  Tensions total;          ///< tensions from all moves, made by the last test of forces [N]
   Tensions force;          ///< where the last event, or the last call with events, ended [N]
   Real push = 0;           ///< largest change of force that the path would make with every joint stuck [N]
   bool is_set_up = false;  ///< the moves of the map are those of the present modes

@@ -41,7 +41,7 @@ class Constraints {
   }
   /// Only what follows whatever happens, to decide all else from nothing. False if its laws contradict.
   bool set_up_equalities() {
-    map_.begin(model_);
+    map_.clear();
     map_.set().hold(held_at_zero);
     cables_.is_set_up = false;
     return add_equalities();
@@ -56,12 +56,13 @@ class Constraints {
     map_.tension_rates(dx, rate);
     return !(map_.law_violation(laws_, rate, dx) > Real(1e-9) * larger(cables_.push, state_.peak));
   }
-  /// Makes the map of the moves at work from totals; they must be frozen at the present state.
-  bool rebuild() {
+  /// Makes the map of the moves at work from totals; they must be frozen at the present state. `has_total`:
+  /// the totals were made there by the last test of forces.
+  void rebuild(bool has_total = false) {
     for (int i = 0; i < model_.loads; ++i) state_.has_load[i] = state_.now.factor[i] != state_.goal.factor[i];
-    return make_map();
+    make_map(has_total);
   }
-  bool make_map() {
+  void make_map(bool has_total = false) {
     map_.clear_inputs();
     for (const JackedEnd& jack : cables_.jacks) add_jack_input(jack.cable, jack.end);
     for (int i = 0; i < model_.loads; ++i)
@@ -71,10 +72,10 @@ class Constraints {
     for (int i = 0; i < map_.active(); ++i) moves[i] = state_.moved.of(map_.move(i));
     Inputs x;
     cables_.values(state_.now, x);
-    map_.make(laws_, cables_.totals(), moves, x, [&](const auto& settle) { differentiate(settle); });
+    if (!has_total) cables_.total = cables_.totals();
+    map_.make(laws_, cables_.total, moves, x, [&](const auto& settle) { differentiate(settle); });
     state_.has_map = true;
     state_.built = state_.now;
-    return true;
   }
 
  private:
@@ -85,7 +86,7 @@ class Constraints {
   static constexpr Real least_pivot = Real(1e-12), sound_pivot = Real(1e-4);
 
   bool add_all(Real held, Real least = least_pivot) {
-    map_.begin(model_);
+    map_.clear();
     map_.set().hold(held);
     return add_equalities() && add_slides(least);
   }

@@ -12,6 +12,7 @@ struct Ending {
   std::int16_t run = -1, slack = -1;  ///< the run; the active move of its slack length
   Real falling = 0;                   ///< rate of what reached zero
   Real step = 1;                      ///< where, as a part of what was left of the path
+  bool has_total = false;             ///< the forces there were tested: their totals are known
 };
 
 /// Looks along the present piece, Eq. (15); changes nothing but derivatives.
@@ -149,12 +150,12 @@ class EventSearch {
   /// Of the largest force: what may be lost where a cable moves much further than it stretches.
   static constexpr Real rounded_totals = Real(1e-10);
 
-  /// Whether the tensions are those of all moves: where slack cables alone hold a node, it goes so far away
-  /// that rounding of the moves shows.
+  /// Whether the tensions are those of all moves, which stay known: where slack cables alone hold a node, it
+  /// goes so far away that rounding of the moves shows.
   bool is_in_equilibrium(Real tolerated) const {
-    const Tensions T = cables_.totals(cables_.moves());
+    cables_.total = cables_.totals(cables_.moves());
     for (int i = 0; i < model_.segments; ++i)
-      if (!(std::fabs(T[i] - cables_.force[i]) <= tolerated)) return false;
+      if (!(std::fabs(cables_.total[i] - cables_.force[i]) <= tolerated)) return false;
     return true;
   }
 

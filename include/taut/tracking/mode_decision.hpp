@@ -22,7 +22,7 @@ class ModeDecision {
   using Laws = typename Cables::Laws;
   using Map = typename Cables::Map;
   using State = typename Cables::State;
-  using Moving = typename Cables::Moving;
+  using Modes = typename State::Modes;
   using Tensions = typename Cables::Tensions;
   using Inputs = typename Cables::Inputs;
   using JackedEnd = typename Cables::JackedEnd;
@@ -53,10 +53,11 @@ class ModeDecision {
     if (!any_zero) {
       // Most often all goes on as it was.
       if (state_.has_map && ending.next.joint < 0 && is_consistent(modes)) return Status::success();
+      const bool is_mapped = state_.has_map && !map_.is_held();
       cables_.freeze();
       cables_.drop_map();
-      if ((cables_.is_set_up || constraints_.set_up()) && go_on(modes)) {
-        constraints_.rebuild();
+      if ((cables_.is_set_up || constraints_.set_up()) && go_on(modes, nullptr, is_mapped)) {
+        constraints_.rebuild(ending.has_total);
         return Status::success();
       }
     } else {
@@ -210,16 +211,25 @@ class ModeDecision {
     }
   }
   /// What slides, begun from what slid: an ordinary event is one pivot.
-  /// Segments of the spans in `tightening` must then gain tension.
-  [[gnu::noinline]] bool go_on(const SlipModes& modes, const Spans* tightening = nullptr) {
+  /// Segments of the spans in `tightening` must then gain tension. `is_mapped`: the map is that of the set.
+  [[gnu::noinline]] bool go_on(const SlipModes& modes, const Spans* tightening = nullptr,
+                               bool is_mapped = false) {
     Tensions stuck;
     typename Map::Moves due;
+    typename Solver::Response mapped;
     cables_.stuck_rates(stuck);
     dues(false, due);
+    if (is_mapped) {
+      Inputs dx;
+      cables_.directions(dx);
+      map_.tension_rates(dx, mapped.T);
+      for (int i = 0; i < map_.active(); ++i) mapped.moves[i] = map_.move_rate(i, dx);
+    }
     Solver solver;
     solver.begin(model_, laws_, map_.set());
     for (const SlipMode& each : modes) solver.add_slip(each);
-    if (solver.solve(stuck, due, cables_.rate_tolerance(), true) != Solver::Outcome::solved) {
+    if (solver.solve(stuck, due, cables_.rate_tolerance(), true, is_mapped ? &mapped : nullptr) !=
+        Solver::Outcome::solved) {
       remember_ray(solver);
       cables_.drop_set();
       return false;
@@ -263,26 +273,25 @@ class ModeDecision {
   /// Where spans at zero become taut, most often every joint slides toward the jack. Tried first: Lemke's
   /// path goes on from there, and the answer is taken if it gives every segment of these spans tension.
   [[gnu::noinline]] bool pull_straight(const Spans& zero, const SlipModes& modes) {
-    const auto slack = state_.slack;
-    const auto slides = state_.slides;
-    const auto order = state_.order;
-    const Moving moved = state_.moved;
+    const Modes before = state_;
     for (int r = 0; r < runs_.size(); ++r) {
       if (!zero[r]) continue;
       state_.slack[r] = false;
       state_.moved.slack_length[r] = 0;
-      for (int i = 0; i < runs_[r].count; ++i)
-        if (const Pull pull = pull_on(runs_[r], i, false); pull.jack != nullptr) slide_toward(pull, r, i);
+      // From the jacks outward: the joints that leave first are the last of the set, and little is made anew.
+      for (const std::size_t end : {std::size_t(0), std::size_t(1)})
+        for (int k = 0; k < runs_[r].count; ++k) {
+          const int i = end == 0 ? k : runs_[r].count - 1 - k;
+          const Pull pull = pull_on(runs_[r], i, false);
+          if (pull.jack != nullptr && pull.jack->end == end) slide_toward(pull, r, i);
+        }
     }
     cables_.drop_set();
     if (constraints_.set_up_soundly() && go_on(modes, &zero)) {
       constraints_.rebuild();
       return true;
     }
-    state_.slack = slack;
-    state_.slides = slides;
-    state_.order = order;
-    state_.moved = moved;
+    static_cast<Modes&>(state_) = before;
     free_joint_ = doubtful_joint_ = -1;
     cables_.drop_set();
     return false;
@@ -415,10 +424,7 @@ class ModeDecision {
     const Real step = least < Real(0.5) ? least : Real(0.5);
     const Loads before = state_.now;
     const Tensions forces = cables_.force;
-    const Moving moved = state_.moved;
-    const auto slides = state_.slides;
-    const auto order = state_.order;
-    const auto slack = state_.slack;
+    const Modes modes_before = state_;
     state_.now = Loads::between(state_.now, state_.goal, step);
     Spans all;
     for (int r = 0; r < runs_.size(); ++r) {
@@ -444,10 +450,7 @@ class ModeDecision {
       if (!is_near && free_joint_ < 0) why = cables_.at_joint(Code::gives_way, doubtful_joint_);
     }
     state_.now = before;
-    state_.moved = moved;
-    state_.slides = slides;
-    state_.order = order;
-    state_.slack = slack;
+    static_cast<Modes&>(state_) = modes_before;
     cables_.force = forces;
     cables_.drop_set();
     return why;

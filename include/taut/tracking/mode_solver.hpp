@@ -48,6 +48,12 @@ class ModeSolver {
     SlipMode slip() const { return {index, way}; }
   };
 
+  /// Tensions and moves of the set, or their rates.
+  struct Response {
+    Tensions T;
+    Moves moves;
+  };
+
   /// Begins with no pair. `set` has the moves that follow whatever happens, and the slips that go on for
   /// sure.
   void begin(const CondensedType& model, const Laws& laws, Set& set) {
@@ -80,9 +86,11 @@ class ModeSolver {
   /// Otherwise the set has no slips and the problem is solved from zero.
   ///
   /// At most 16 pivots a pair, each with two or three solutions of the set. On success the set has the slips
-  /// that slide and the segments that go slack.
-  Outcome solve(const Tensions& stuck, Moves due, Real none, bool go_on) {
-    due_ = due;
+  /// that slide and the segments that go slack. `known`: where all goes on with the set as it is, if that has
+  /// been worked out.
+  Outcome solve(const Tensions& stuck, const Moves& due, Real none, bool go_on,
+                const Response* known = nullptr) {
+    due_ = &due;
     none_ = none;
     pivots_ = 0;
     z_ = z_tie_ = 0;
@@ -94,10 +102,10 @@ class ModeSolver {
     place_.fill(inactive);
     equalities_ = 0;
     while (equalities_ < set_->size() && (*set_)[equalities_].sense == 0) ++equalities_;
-    for (int p = 0; p < pairs_.size(); ++p) scale_[p] = std::sqrt(stiffness(active_of(p)) / stiffest_);
+    for (int p = 0; p < pairs_.size(); ++p) scale_[segment_of(p)] = root(stiffness(active_of(p)) / stiffest_);
     if (go_on) {
       bool any = false;
-      if (!keep_what_goes_on(stuck, any)) return Outcome::singular;
+      if (!keep_what_goes_on(stuck, known, any)) return Outcome::singular;
       if (!any) return Outcome::solved;
     } else {
       if (!begin_from_zero(stuck)) return Outcome::singular;
@@ -133,17 +141,25 @@ class ModeSolver {
     return pair.is_segment() ? T[pair.index] : laws_->limit(pair.slip()).of(T);
   }
   Real stiffness(const Active& active) const { return set_->stiffness(active.move); }
+  /// The elongation of a segment that changes its own tension by one [m/N].
+  Real unit(int p) const { return set_->flexibility(active_of(p).move); }
   /// Symmetric scaling to a unit diagonal: what a unit of the covering variable adds to a row [-].
   Real cover(int p) const {
     if (!covers_[p]) return 0;
     return scale(p);
   }
-  Real scale(int p) const { return scale_[p]; }
+  Real scale(int p) const { return scale_[segment_of(p)]; }
+  /// Which its move lengthens: moves that lengthen the same one have the same stiffness.
+  int segment_of(int p) const {
+    return pairs_[p].is_segment() ? pairs_[p].index : laws_->sides(pairs_[p].index)[0];
+  }
   /// In general position, and the same everywhere.
   Real perturbation(int p) const {
     const auto scattered = (static_cast<std::uint32_t>(p) + 1U) * 2654435769U;
     return scale(p) * (Real(1) + static_cast<Real>(scattered >> 8) / Real(1 << 24));
   }
+  /// Scales need no more digits than a float has, whose roots cost one instruction.
+  static Real root(Real x) { return static_cast<Real>(std::sqrt(static_cast<float>(x))); }
   static Real sign(const Active& active) { return active.sense < 0 ? Real(-1) : Real(1); }
 
   // The start.
@@ -158,20 +174,26 @@ class ModeSolver {
     Moves moves, dues;
     moves.fill(Real(0));
     dues.fill(Real(0));
-    for (int i = 0; i < set_->size(); ++i) dues[i] = i < equalities_ ? due_[i] : least_[(*set_)[i].on];
+    for (int i = 0; i < set_->size(); ++i) dues[i] = i < equalities_ ? (*due_)[i] : least_[(*set_)[i].on];
     set_->settle(*laws_, dues, T_, moves);
     keep_values(moves, value_, Real(1));
     return true;
   }
   /// `any`: whether a limit is violated then.
-  bool keep_what_goes_on(const Tensions& stuck, bool& any) {
+  bool keep_what_goes_on(const Tensions& stuck, const Response* known, bool& any) {
     covers_.fill(false);
     for (int i = equalities_; i < set_->size(); ++i) name((*set_)[i], i);
     for (int rounds = set_->size() - equalities_; rounds >= 0; --rounds) {
       T_ = stuck;
       Moves moves;
       moves.fill(Real(0));
-      set_->settle(*laws_, due_, T_, moves);
+      if (known != nullptr) {
+        T_ = known->T;
+        moves = known->moves;
+        known = nullptr;
+      } else {
+        set_->settle(*laws_, *due_, T_, moves);
+      }
       // From the last one on, so that the factors of the first are kept.
       int gone = set_->size();
       any = false;
@@ -221,11 +243,8 @@ class ModeSolver {
   void perturb() {
     T_tie_.fill(Real(0));
     if (covers_all_) {
-      Tensions e;
-      e.fill(Real(0));
       for (int p = 0; p < pairs_.size(); ++p)
-        if (pairs_[p].is_segment()) e[pairs_[p].index] -= perturbation(p) / stiffness(active_of(p));
-      set_->carry(e, T_tie_);
+        if (pairs_[p].is_segment()) set_->carry(pairs_[p].index, -perturbation(p) * unit(p), T_tie_);
       Moves moves, dues;
       moves.fill(Real(0));
       dues.fill(Real(0));
@@ -240,19 +259,12 @@ class ModeSolver {
 
   // The path.
 
-  struct Direction {
-    Tensions T;
-    Moves moves;
+  /// At first the response to the covering variable alone: there is one storage for both.
+  struct Direction : Response {
     Real z = 0, entering = 0, pending = 0;
     bool enters = false;  // the entering move, rather than its row
     int pair = -1;
   };
-  /// What a unit of a move makes of tensions and moves of the set.
-  struct Response {
-    Tensions T;
-    Moves moves;
-  };
-
   Outcome follow_path() {
     int leaving = -1;
     const auto is_first = [&](Real value, Real tie, Real by, Real& needed, Real& needed_tie) {
@@ -264,11 +276,11 @@ class ModeSolver {
       return true;
     };
     Real needed = 0, needed_tie = -std::numeric_limits<Real>::max();
-    Response covering;
-    respond_to_cover(covering);
+    Direction direction;
+    respond_to_cover(direction);
     for (int p = 0; p < pairs_.size(); ++p) {
       if (place_[p] != inactive) continue;
-      const Real by = row(p, covering.T) + direct(p);
+      const Real by = row(p, direction.T) + direct(p);
       if (row(p, T_) < -none_ && by > 0 && is_first(row(p, T_), tie_of_row(p), by, needed, needed_tie))
         leaving = p;
     }
@@ -276,7 +288,7 @@ class ModeSolver {
     for (int i = equalities_; i < set_->size(); ++i) {
       const Active& active = (*set_)[i];
       if (active.pair < 0) continue;
-      const Real by = sign(active) * covering.moves[i] * stiffness(active);
+      const Real by = sign(active) * direction.moves[i] * stiffness(active);
       if (value_[active.pair] < -none_ && by > 0 &&
           is_first(value_[active.pair], tie_[active.pair], by, needed, needed_tie)) {
         leaving = active.pair;
@@ -285,8 +297,8 @@ class ModeSolver {
     }
     if (leaving < 0) return Outcome::solved;
     largest_ = needed;
-    raise_cover(covering, needed, needed_tie);
-    Direction direction;
+    direction.z = 1;
+    step_along(direction, {Leaves::cover, -1, needed, needed_tie, needed});
     direction.pair = leaving;
     direction.enters = !leaves_set;
     if (leaves_set && !leave(leaving)) return Outcome::singular;
@@ -308,11 +320,8 @@ class ModeSolver {
   }
 
   void respond(const Active& to, Response& response) const {
-    Tensions e;
-    e.fill(Real(0));
-    to.move.impose(sign(to) / stiffness(to), e);
     response.T.fill(Real(0));
-    set_->carry(e, response.T);
+    set_->carry(to.move, sign(to) * set_->flexibility(to.move), response.T);
     settle_rates(response, false);
   }
   void respond_to_cover(Response& response) const {
@@ -324,13 +333,9 @@ class ModeSolver {
       any = any || (active.slides() && active.pair >= 0 && covers_[active.pair]);
     }
     if (!any) return;
-    if (covers_all_) {
-      Tensions e;
-      e.fill(Real(0));
+    if (covers_all_)
       for (int p = 0; p < pairs_.size(); ++p)
-        if (pairs_[p].is_segment()) e[pairs_[p].index] -= cover(p) / stiffness(active_of(p));
-      set_->carry(e, response.T);
-    }
+        if (pairs_[p].is_segment()) set_->carry(pairs_[p].index, -cover(p) * unit(p), response.T);
     settle_rates(response, true);
   }
   void settle_rates(Response& response, bool is_cover) const {
@@ -348,16 +353,24 @@ class ModeSolver {
 
   /// Along which the laws of the set hold, that of the pending slip, and that of the entering one.
   bool find(Direction& direction) {
-    Response covering, entering, pending;
-    respond_to_cover(covering);
+    Response other;  // one storage: what is pending is worked out twice where something else enters
+    respond_to_cover(direction);
     const int e = direction.pair, k = pending_;
-    if (direction.enters) respond(active_of(e), entering);
-    if (is_pending_) respond(active_of(k), pending);
-    const Real rz = row(e, covering.T) + direct(e);
+    const Real rz = row(e, direction.T) + direct(e);
     Real by_z = 0, by_entering = 0, by_pending = 0;
+    Real rk = 0, kk = 0, re = 0, ke = 0;
+    if (is_pending_) {
+      respond(active_of(k), other);
+      rk = row(e, other.T);
+      kk = row(k, other.T);
+    }
+    if (direction.enters) {
+      respond(active_of(e), other);
+      re = row(e, other.T);
+      if (is_pending_) ke = row(k, other.T);
+    }
     if (!is_pending_) {
       if (direction.enters) {
-        const Real re = row(e, entering.T);
         by_entering = std::fabs(rz);
         by_z = rz < 0 ? re : -re;
       } else {
@@ -365,10 +378,8 @@ class ModeSolver {
         if (rz == 0) return false;
       }
     } else {
-      const Real kz = row(k, covering.T) + direct(k), kk = row(k, pending.T);
-      const Real rk = row(e, pending.T);
+      const Real kz = row(k, direction.T) + direct(k);
       if (direction.enters) {
-        const Real re = row(e, entering.T), ke = row(k, entering.T);
         // The cross product of the two rows, in the order entering, pending, z.
         by_entering = rk * kz - rz * kk;
         by_pending = rz * ke - re * kz;
@@ -395,14 +406,16 @@ class ModeSolver {
     direction.z = by_z;
     direction.entering = by_entering;
     direction.pending = by_pending;
-    for (int i = 0; i < model_->segments; ++i) direction.T[i] = by_z * covering.T[i];
-    for (int i = 0; i < set_->size(); ++i) direction.moves[i] = by_z * covering.moves[i];
-    const auto add = [&](const Response& response, Real times) {
-      for (int i = 0; i < model_->segments; ++i) direction.T[i] += times * response.T[i];
-      for (int i = 0; i < set_->size(); ++i) direction.moves[i] += times * response.moves[i];
+    for (int i = 0; i < model_->segments; ++i) direction.T[i] *= by_z;
+    for (int i = 0; i < set_->size(); ++i) direction.moves[i] *= by_z;
+    const auto add_other = [&](Real times) {
+      axpy(model_->segments, times, &other.T[0], &direction.T[0]);
+      axpy(set_->size(), times, &other.moves[0], &direction.moves[0]);
     };
-    if (direction.enters) add(entering, by_entering);
-    if (is_pending_) add(pending, by_pending);
+    if (direction.enters) add_other(by_entering);
+    if (!is_pending_) return true;
+    if (direction.enters) respond(active_of(k), other);
+    add_other(by_pending);
     return true;
   }
 
@@ -456,21 +469,9 @@ class ModeSolver {
     int pair = -1;
     Real step = 0, step_tie = 0, exact = 0;
   };
-  void raise_cover(const Response& response, Real step, Real tie) {
-    for (int i = 0; i < model_->segments; ++i) {
-      T_[i] += step * response.T[i];
-      T_tie_[i] += tie * response.T[i];
-    }
-    keep_values(response.moves, value_, step);
-    keep_values(response.moves, tie_, tie);
-    z_ += step;
-    z_tie_ += tie;
-  }
   void step_along(const Direction& direction, const Blocking& blocking) {
-    for (int i = 0; i < model_->segments; ++i) {
-      T_[i] += blocking.step * direction.T[i];
-      T_tie_[i] += blocking.step_tie * direction.T[i];
-    }
+    axpy(model_->segments, blocking.step, &direction.T[0], &T_[0]);
+    axpy(model_->segments, blocking.step_tie, &direction.T[0], &T_tie_[0]);
     keep_values(direction.moves, value_, blocking.step);
     keep_values(direction.moves, tie_, blocking.step_tie);
     z_ += blocking.step * direction.z;
@@ -539,11 +540,11 @@ class ModeSolver {
   FixedList<Pair, max_pairs> pairs_;
   FixedArray<bool, max_pairs> covers_;
   FixedArray<std::int8_t, max_pairs> place_;  // inactive, in the set (0), pending (1)
-  FixedArray<Real, max_pairs> scale_;
+  Tensions scale_;
   FixedArray<Real, max_pairs> value_, tie_;  // of h and v [N]; the second part decides among ties
   Tensions least_;                           // L
   Tensions T_, T_tie_;
-  Moves due_;
+  const Moves* due_ = nullptr;
   int equalities_ = 0;  // the first moves of the set: they follow whatever happens
   int pending_ = 0;     // a slip that is at work but would make the set singular
   int pivots_ = 0;

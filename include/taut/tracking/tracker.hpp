@@ -109,7 +109,8 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     cables_.state.now = saved.built;
     if (saved.has_map) {
       Constraints<Cables> constraints(cables_);
-      if (!constraints.set_up() || !constraints.make_map()) return broken;
+      if (!constraints.set_up()) return broken;
+      constraints.make_map();
     }
     cables_.state.now = saved.now;
     if (saved.has_map)
@@ -162,7 +163,8 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     cables_.drop_set();
     Constraints<Cables> constraints(cables_);
     for (int count = 0; count <= cables_.joints(); ++count) {
-      if (!constraints.set_up() || !constraints.make_map()) return cables_.at_joint(Code::mechanism, -1);
+      if (!constraints.set_up()) return cables_.at_joint(Code::mechanism, -1);
+      constraints.make_map();
       cables_.find_forces();
       if (!put_on_edge()) break;
     }
@@ -305,6 +307,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
       done = false;
       return status;
     }
+    ending.has_total = true;
     rest = done ? Real(0) : rest * (Real(1) - step);
     for (int i = 0; i < cables_.model->segments; ++i)
       cables_.state.peak = larger(cables_.state.peak, std::fabs(cables_.force[i]));
