@@ -10,9 +10,10 @@ namespace taut {
 /// Decides the modes of all joints and runs for the next piece of the path, and makes its map.
 ///
 /// An ordinary event goes on from the modes of the piece before: one pivot of ModeSolver. Runs at zero
-/// tension are tried pulled straight toward their jacks, then decided from nothing, Eqs. (10) and (11). Where
-/// rates contradict, all forces are found a little further on, and taken if they are near. Where nothing is,
-/// the reason is returned.
+/// tension are tried pulled straight toward their jacks, then decided from nothing, Eqs. (10) and (11), with
+/// one covering vector after the other. Where rates contradict, all forces are found a little further on,
+/// from the modes of the piece before or from nothing, and taken if they are near. Where nothing is, the
+/// reason is returned.
 template <class Cables>
 class ModeDecision {
  public:
@@ -56,7 +57,7 @@ class ModeDecision {
       const bool is_mapped = state_.has_map && !map_.is_held();
       cables_.freeze();
       cables_.drop_map();
-      if ((cables_.is_set_up || constraints_.set_up()) && go_on(modes, nullptr, is_mapped)) {
+      if ((cables_.is_set_up || constraints_.set_up()) && go_on(modes, false, nullptr, is_mapped)) {
         constraints_.rebuild(ending.has_total);
         return Status::success();
       }
@@ -68,15 +69,15 @@ class ModeDecision {
   }
   /// Rates do not tell how it goes on. All forces, at loads a little further on, are a problem that always
   /// has an answer: it is taken if it is near. If not, friction gives way here, and the structure would jump.
-  /// Steps that follow each other grow, eightfold each, as long as they find an answer.
+  /// Steps that follow each other grow eightfold, and shrink as much where they find no answer.
   Status find_further_on(Status why) {
     cables_.freeze();
     cables_.drop_map();
     for (;;) {
-      const bool first = stride_ <= Real(1);
+      const bool least = stride_ <= Real(1);
       const Status status = try_further_on(why);
-      stride_ = status ? stride_ * Real(8) : Real(1);
-      if (status || first) return status;
+      stride_ = status ? stride_ * Real(8) : larger(Real(1), stride_ / Real(8));
+      if (status || least) return status;
     }
   }
   /// After decide() or find_further_on(): how far all forces were found anew, as a part of what was left of
@@ -89,6 +90,8 @@ class ModeDecision {
   using Spans = FixedArray<bool, Cap::segments>;
   /// Of the largest force: how much further on an answer is looked for, and how near it must be.
   static constexpr Real small_step = Real(1e-6), nearby = Real(1e-3);
+  /// Of rates, before all forces are looked for further on.
+  static constexpr int covering_vectors = 4;
 
   struct Pull {
     const JackedEnd* jack = nullptr;
@@ -195,8 +198,19 @@ class ModeDecision {
     return modes;
   }
 
-  // Rates, going on from the piece before.
+  // Going on from the piece before.
 
+  /// Rates of tension with every joint stuck, or all tensions with what has moved.
+  void find_stuck(bool totally, Tensions& stuck) const {
+    if (totally)
+      stuck = cables_.totals();
+    else
+      cables_.stuck_rates(stuck);
+  }
+  /// Rates, or forces, below that are zero.
+  Real nothing(bool totally) const {
+    return totally ? Real(16) * epsilon * state_.peak : cables_.rate_tolerance();
+  }
   /// What a jacked end is to have: the rate of its force, or all of it.
   Real due_at(const JackedEnd& jack, bool totally) const {
     const Real now = state_.now.jack[jack.cable][jack.end].force;
@@ -210,15 +224,16 @@ class ModeDecision {
         due[i] = due_at(cables_.jacks[cables_.number[move.index]], totally);
     }
   }
-  /// What slides, begun from what slid: an ordinary event is one pivot.
-  /// Segments of the spans in `tightening` must then gain tension. `is_mapped`: the map is that of the set.
-  [[gnu::noinline]] bool go_on(const SlipModes& modes, const Spans* tightening = nullptr,
+  /// What slides, begun from what slid: an ordinary event is one pivot. From rates, or from all forces.
+  /// Segments of the spans in `tightening` must then gain tension. `is_mapped`: the map is that of the set,
+  /// and gives its rates.
+  [[gnu::noinline]] bool go_on(const SlipModes& modes, bool totally, const Spans* tightening = nullptr,
                                bool is_mapped = false) {
     Tensions stuck;
     typename Map::Moves due;
     typename Solver::Response mapped;
-    cables_.stuck_rates(stuck);
-    dues(false, due);
+    find_stuck(totally, stuck);
+    dues(totally, due);
     if (is_mapped) {
       Inputs dx;
       cables_.directions(dx);
@@ -228,7 +243,7 @@ class ModeDecision {
     Solver solver;
     solver.begin(model_, laws_, map_.set());
     for (const SlipMode& each : modes) solver.add_slip(each);
-    if (solver.solve(stuck, due, cables_.rate_tolerance(), true, is_mapped ? &mapped : nullptr) !=
+    if (solver.solve(stuck, due, nothing(totally), true, is_mapped ? &mapped : nullptr) !=
         Solver::Outcome::solved) {
       remember_ray(solver);
       cables_.drop_set();
@@ -264,7 +279,8 @@ class ModeDecision {
   /// What slides and what is slack, begun from nothing. The moves must be frozen.
   Status begin_anew(const Spans& zero, const SlipModes& modes) {
     if (pull_straight(zero, modes)) return Status::success();
-    if (solve_anew(zero, modes, false)) return Status::success();
+    for (int covering = 0; covering < covering_vectors; ++covering)
+      if (solve_anew(zero, modes, false, covering)) return Status::success();
     if (const Status why = events_.pulled_through(); !why) return why;
     if (free_joint_ >= 0) return find_further_on(cables_.at_joint(Code::mechanism, free_joint_));
     return find_further_on(doubtful_joint_ >= 0 ? cables_.at_joint(Code::gives_way, doubtful_joint_)
@@ -287,7 +303,7 @@ class ModeDecision {
         }
     }
     cables_.drop_set();
-    if (constraints_.set_up_soundly() && go_on(modes, &zero)) {
+    if (constraints_.set_up_soundly() && go_on(modes, false, &zero)) {
       constraints_.rebuild();
       return true;
     }
@@ -304,7 +320,8 @@ class ModeDecision {
     });
   }
   /// From rates, or from all forces where there are none.
-  [[gnu::noinline]] bool solve_anew(const Spans& zero, const SlipModes& modes, bool totally) {
+  [[gnu::noinline]] bool solve_anew(const Spans& zero, const SlipModes& modes, bool totally,
+                                    int covering = 0) {
     const auto was_slack = state_.slack;
     for (int r = 0; r < runs_.size(); ++r)
       if (zero[r]) state_.slack[r] = false;
@@ -312,18 +329,14 @@ class ModeDecision {
     if (solved) {
       Tensions stuck;
       typename Map::Moves due;
-      if (totally)
-        stuck = cables_.totals();
-      else
-        cables_.stuck_rates(stuck);
+      find_stuck(totally, stuck);
       dues(totally, due);
       Solver solver;
-      solver.begin(model_, laws_, map_.set());
+      solver.begin(model_, laws_, map_.set(), covering);
       for (int r = 0; r < runs_.size(); ++r)
         if (zero[r]) add_span(r, totally, solver);
       for (const SlipMode& each : modes) solver.add_slip(each);
-      const Real none = totally ? Real(16) * epsilon * state_.peak : cables_.rate_tolerance();
-      solved = solver.solve(stuck, due, none, false) == Solver::Outcome::solved;
+      solved = solver.solve(stuck, due, nothing(totally), false) == Solver::Outcome::solved;
       if (solved)
         adopt(solver, zero, totally);
       else
@@ -426,34 +439,75 @@ class ModeDecision {
     const Tensions forces = cables_.force;
     const Modes modes_before = state_;
     state_.now = Loads::between(state_.now, state_.goal, step);
+    for (const bool from_nothing : {false, true}) {
+      // The present modes lead to a near answer. From nothing there always is one, but a long path to it may
+      // lose digits, which a short one from there finds again.
+      const bool found =
+          from_nothing ? find_from_nothing() && (is_sound() || go_on_totally(true)) : go_on_totally(false);
+      if (found) {
+        const bool is_near = change_from(forces) <= nearby * state_.peak;
+        if (is_near && is_sound()) {
+          further_ = step;
+          return Status::success();
+        }
+        if (from_nothing && !is_near && free_joint_ < 0)
+          why = cables_.at_joint(Code::gives_way, doubtful_joint_);
+      }
+      static_cast<Modes&>(state_) = modes_before;
+      cables_.force = forces;
+      cables_.drop_set();
+    }
+    state_.now = before;
+    return why;
+  }
+  /// All forces at the present loads, by Lemke's path from nothing.
+  bool find_from_nothing() {
     Spans all;
     for (int r = 0; r < runs_.size(); ++r) {
       all[r] = !state_.rests[r];
       if (all[r]) state_.moved.slack_length[r] = 0;
     }
+    if (!solve_anew(all, all_limits(all), true)) return false;
+    cables_.find_forces();
+    return true;
+  }
+  /// All forces at the present loads, by Lemke's path from the present modes: slack spans stay slack.
+  /// `has_map`: the moves are those of the map.
+  bool go_on_totally(bool has_map) {
+    // Not frozen for good: the map may be refused.
+    if (has_map) state_.moved = cables_.moves();
+    cables_.drop_map();
+    Spans taut;
+    for (int r = 0; r < runs_.size(); ++r) taut[r] = !state_.rests[r] && !state_.slack[r];
+    if (!constraints_.set_up() || !go_on(all_limits(taut), true)) return false;
+    constraints_.rebuild();
+    cables_.find_forces();
+    return constraints_.is_held(true);
+  }
+  /// Both limits of every joint with friction in these spans.
+  SlipModes all_limits(const Spans& spans) const {
     SlipModes modes;
     for (int j = 0; j < cables_.joints(); ++j) {
-      if (model_.is_locked(j) || cables_.glides(j) || state_.rests[runs_.of(laws_.sides(j)[0])]) continue;
+      if (model_.is_locked(j) || cables_.glides(j) || !spans[runs_.of(laws_.sides(j)[0])]) continue;
       modes.add(SlipMode::of(j, JointState::forward));
       modes.add(SlipMode::of(j, JointState::backward));
     }
-    if (solve_anew(all, modes, true)) {
-      cables_.find_forces();
-      Real farthest = 0;
-      for (int i = 0; i < model_.segments; ++i)
-        farthest = larger(farthest, std::fabs(cables_.force[i] - forces[i]));
-      const bool is_near = farthest <= nearby * state_.peak;
-      if (is_near && events_.check_forces()) {
-        further_ = step;
-        return Status::success();
-      }
-      if (!is_near && free_joint_ < 0) why = cables_.at_joint(Code::gives_way, doubtful_joint_);
-    }
-    state_.now = before;
-    static_cast<Modes&>(state_) = modes_before;
-    cables_.force = forces;
-    cables_.drop_set();
-    return why;
+    return modes;
+  }
+  Real change_from(const Tensions& forces) const {
+    Real most = 0;
+    for (int i = 0; i < model_.segments; ++i) most = larger(most, std::fabs(cables_.force[i] - forces[i]));
+    return most;
+  }
+  /// Whether the forces may be shown, and slack spans have length to spare.
+  bool is_sound() const {
+    Inputs x;
+    cables_.values(state_.now, x);
+    for (int i = 0; i < map_.active(); ++i)
+      if (map_.move(i).kind == Move::Kind::slack_length &&
+          map_.stiffness(i) * map_.active_move(i, x) < -cables_.force_tolerance())
+        return false;
+    return events_.check_forces().ok();
   }
 
   Cables& cables_;

@@ -55,8 +55,10 @@ class ModeSolver {
   };
 
   /// Begins with no pair. `set` has the moves that follow whatever happens, and the slips that go on for
-  /// sure.
-  void begin(const CondensedType& model, const Laws& laws, Set& set) {
+  /// sure. `covering` is the number of the covering vector: where one path ends on a ray, one with another
+  /// vector may end in a solution.
+  void begin(const CondensedType& model, const Laws& laws, Set& set, int covering = 0) {
+    covering_ = covering;
     model_ = &model;
     laws_ = &laws;
     set_ = &set;
@@ -146,7 +148,7 @@ class ModeSolver {
   /// Symmetric scaling to a unit diagonal: what a unit of the covering variable adds to a row [-].
   Real cover(int p) const {
     if (!covers_[p]) return 0;
-    return scale(p);
+    return covering_ == 0 ? scale(p) : scale(p) * (Real(1) + Real(3) * scattered(p + covering_ * max_pairs));
   }
   Real scale(int p) const { return scale_[segment_of(p)]; }
   /// Which its move lengthens: moves that lengthen the same one have the same stiffness.
@@ -154,9 +156,11 @@ class ModeSolver {
     return pairs_[p].is_segment() ? pairs_[p].index : laws_->sides(pairs_[p].index)[0];
   }
   /// In general position, and the same everywhere.
-  Real perturbation(int p) const {
-    const auto scattered = (static_cast<std::uint32_t>(p) + 1U) * 2654435769U;
-    return scale(p) * (Real(1) + static_cast<Real>(scattered >> 8) / Real(1 << 24));
+  Real perturbation(int p) const { return scale(p) * (Real(1) + scattered(p)); }
+  /// From 0 to 1.
+  static Real scattered(int p) {
+    const auto number = (static_cast<std::uint32_t>(p) + 1U) * 2654435769U;
+    return static_cast<Real>(number >> 8) / Real(1 << 24);
   }
   /// Scales need no more digits than a float has, whose roots cost one instruction.
   static Real root(Real x) { return static_cast<Real>(std::sqrt(static_cast<float>(x))); }
@@ -548,6 +552,7 @@ class ModeSolver {
   int equalities_ = 0;  // the first moves of the set: they follow whatever happens
   int pending_ = 0;     // a slip that is at work but would make the set singular
   int pivots_ = 0;
+  int covering_ = 0;
   int last_ = -1;
   bool is_free_ = false;
   bool is_pending_ = false;
