@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "taut/numerics/complementarity.hpp"
 #include "taut/tracking/active_set.hpp"
 
 namespace taut {
@@ -16,9 +17,9 @@ namespace taut {
 /// and slack spans have followed.
 ///
 /// Lemke's path (Cottle, Pang and Stone, The Linear Complementarity Problem, 4.4): a covering variable z
-/// makes the point feasible, and one pair after the other changes sides until z is zero. Values carry a
-/// second, infinitely smaller part, which decides among ties: a lexicographic rule with a perturbation in
-/// general position, so that no basis comes back and the number of bases bounds the path. In the form with
+/// makes the point feasible, and one pair after the other changes sides until z is zero. Among ties
+/// perturbation() decides. No M is made: a column is what a move does through the factors of the set, those
+/// of the piece before serve on, and a slip that would make them singular waits for another. In the form with
 /// the tensions of all spans at zero as unknowns, M = [F, -U; R, 0] gives z'Mz = T'FT + sum (1 - rho) v T_big
 /// >= 0: copositive, and q'z >= 0 where that vanishes; the path then ends in a solution (theorem 4.4.13).
 /// That covers every start from zero tension for rho in (0, 1] and jacks that satisfy the cones. It does not
@@ -79,8 +80,8 @@ class ModeSolver {
   /// have not leave, and only the limits that are violated then are covered: an ordinary event is one pivot.
   /// Otherwise the set has no slips and the problem is solved from zero.
   ///
-  /// At most 16 pivots a pair, each with two or three solutions of the set. On success the set has the slips
-  /// that slide and the segments that go slack.
+  /// At most most_pivots() of all pairs, each with two or three solutions of the set. On success the set has
+  /// the slips that slide and the segments that go slack.
   Outcome solve(const Tensions& stuck, Moves due, Real none, bool go_on) {
     due_ = due;
     none_ = none;
@@ -139,11 +140,7 @@ class ModeSolver {
     return scale(p);
   }
   Real scale(int p) const { return scale_[p]; }
-  /// In general position, and the same everywhere.
-  Real perturbation(int p) const {
-    const auto scattered = (static_cast<std::uint32_t>(p) + 1U) * 2654435769U;
-    return scale(p) * (Real(1) + static_cast<Real>(scattered >> 8) / Real(1 << 24));
-  }
+  Real perturbation(int p) const { return scale(p) * taut::perturbation<Real>(p); }
   static Real sign(const Active& active) { return active.sense < 0 ? Real(-1) : Real(1); }
 
   // The start.
@@ -291,7 +288,7 @@ class ModeSolver {
     direction.enters = !leaves_set;
     if (leaves_set && !leave(leaving)) return Outcome::singular;
 
-    for (pivots_ = 1; pivots_ <= 16 + 16 * pairs_.size(); ++pivots_) {
+    for (pivots_ = 1; pivots_ <= most_pivots(pairs_.size()); ++pivots_) {
       if (!find(direction)) return Outcome::singular;
       const Outcome outcome = go(direction);
       if (outcome != Outcome::pivots) return outcome;
