@@ -25,12 +25,17 @@ inline void add(RoutesTaken::Counts& to, const RoutesTaken::Counts& from) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
 }
 
+inline long total(const RoutesTaken::Counts& counts) {
+  long all = 0;
+  for (const long count : counts) all += count;
+  return all;
+}
+
 inline void print(const RoutesTaken::Counts& counts, const char* indent = "") {
   constexpr std::array<const char*, static_cast<std::size_t>(taut::routes)> names{
       "all modes stay",     "from the modes before",          "pulled straight toward the jack",
       "rates from nothing", "all forces a little further on", "refused"};
-  long all = 0;
-  for (const long count : counts) all += count;
+  const long all = total(counts);
   std::printf("%s%ld decisions in double, by route:\n", indent, all);
   for (std::size_t i = 0; i < counts.size(); ++i)
     std::printf("%s  %12ld  %9.5f %%  %s\n", indent, counts[i],
