@@ -1,10 +1,13 @@
 #include "benchmark/figure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
 namespace bench {
 namespace {
@@ -35,15 +38,31 @@ std::string error_in_words(const Point* point) {
   return text;
 }
 
+/// A line through points by least squares: its slope.
+double slope(const std::vector<std::array<double, 2>>& points) {
+  std::array<double, 2> mean{};
+  for (const auto& [x, y] : points) {
+    mean[0] += x / static_cast<double>(points.size());
+    mean[1] += y / static_cast<double>(points.size());
+  }
+  double xx = 0, xy = 0;
+  for (const auto& [x, y] : points) {
+    xx += (x - mean[0]) * (x - mean[0]);
+    xy += (x - mean[0]) * (y - mean[1]);
+  }
+  return xy / xx;
+}
+
 }  // namespace
 
-Point Point::of(const std::string& name, double ns, double error) {
+Point Point::of(const std::string& name, double ns, double error, double events) {
   Point point;
   std::istringstream parts(name);
   for (std::string* part : {&point.scene, &point.log, &point.scalar, &point.method})
     std::getline(parts, *part, '/');
   point.ns = ns;
   point.error = error;
+  point.events = events;
   return point;
 }
 
@@ -63,6 +82,33 @@ void print_table(const std::vector<Point>& points) {
                 point.method.c_str(), time_in_words(point.ns).c_str(),
                 single != nullptr ? time_in_words(single->ns).c_str() : "", error_in_words(&point).c_str(),
                 error_in_words(single).c_str(), ratio);
+  }
+}
+
+void print_growth(const std::vector<Point>& points) {
+  const auto key = [](const Point& point) {
+    return std::make_tuple(point.scene.substr(0, point.scene.find(',')), point.log, point.scalar);
+  };
+  std::printf("\n| scenes | log | scalar | joints: ns an event (events a sample) | exponent |\n");
+  std::printf("| --- | --- | --- | --- | ---: |\n");
+  std::vector<decltype(key(points[0]))> done;
+  for (const Point& point : points) {
+    if (!(point.events > 0) || std::find(done.begin(), done.end(), key(point)) != done.end()) continue;
+    done.push_back(key(point));
+    std::vector<std::array<double, 2>> logarithms;
+    const auto& [scenes, log, scalar] = done.back();
+    std::printf("| %s | %s | %s |", scenes.c_str(), log.c_str(), scalar.c_str());
+    for (const Point& other : points) {
+      if (!(other.events > 0) || key(other) != key(point)) continue;
+      const double joints = std::atof(other.scene.c_str() + scenes.size() + 1);
+      const double cost = other.ns / other.events;
+      std::printf("%s %.0f: %.0f (%.2f)", logarithms.empty() ? "" : ",", joints, cost, other.events);
+      logarithms.push_back({std::log(joints), std::log(cost)});
+    }
+    if (logarithms.size() > 1)
+      std::printf(" | %.2f |\n", slope(logarithms));
+    else
+      std::printf(" | |\n");
   }
 }
 

@@ -5,7 +5,8 @@
 // Two logs of 1000 samples: a ramp to the full jack force and a hold; and ramp, hold, release to a third,
 // hold, ramp. A third one, the upper half of a ramp, is for samples without an event alone. The error is the
 // largest deviation of a tension from the independent long double reference, relative to the jack force.
-// Prints a table at the end, and draws the figure of README.md here.
+// Prints a table at the end, and how the cost of an event grows with the number of joints; draws the figure
+// of README.md here.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -32,10 +33,12 @@ template <int Joints>
 struct Elastic : taut::Capacity {
   static constexpr int jacks = 1, panels = Joints + 1, nodes = 3 * panels + 1, struts = 6 * panels - 1;
   static constexpr int segments = panels, joints = Joints, loads = 2, forces = 2 * panels + 2;
+  using Watch = support::RoutesTaken;
 };
 template <int Joints>
 struct Rigid : taut::Capacity {
   static constexpr int jacks = 1, nodes = Joints + 2, segments = Joints + 1, joints = Joints;
+  using Watch = support::RoutesTaken;
 };
 
 template <class Cap>
@@ -172,6 +175,7 @@ class TrackingReadings : public Tracking<Scalar, Cap> {
   using Tracking<Scalar, Cap>::Tracking;
   void restart() {
     row_ = 0;
+    support::RoutesTaken::counts() = {};
     Tracking<Scalar, Cap>::restart();
   }
   void advance(const taut::Sample<Scalar, Cap>& sample) {
@@ -179,6 +183,8 @@ class TrackingReadings : public Tracking<Scalar, Cap> {
     Tracking<Scalar, Cap>::advance(
         jacked<Scalar, Cap>(static_cast<double>(reading > 0 ? reading : Scalar(0))));
   }
+  /// Decisions since restart(), those at the reversals too.
+  static long events() { return support::total(support::RoutesTaken::counts()); }
 
  private:
   std::array<Scalar, 2 * samples> scatter_ = scatter<Scalar>();
@@ -330,6 +336,9 @@ void run(benchmark::State& state, const Scene<typename Method::Cap>& scene, cons
       benchmark::Counter(static_cast<double>(rows.size()) * 1e-9,
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   if (has_error) state.counters["error"] = error;
+  if constexpr (std::is_same<Method, TrackingReadings<typename Method::Scalar, Cap>>::value)
+    state.counters["events_a_sample"] =
+        static_cast<double>(Method::events()) / static_cast<double>(rows.size());
 }
 
 /// Names in the order of the table.
@@ -386,7 +395,8 @@ class Collector : public benchmark::ConsoleReporter {
     for (const std::string& name : registered()) {
       const auto found = fastest_.find(name);
       if (found == fastest_.end()) continue;
-      all.push_back(bench::Point::of(name, found->second.ns_a_sample, found->second.error));
+      all.push_back(
+          bench::Point::of(name, found->second.ns_a_sample, found->second.error, found->second.events));
     }
     return all;
   }
@@ -397,7 +407,9 @@ class Collector : public benchmark::ConsoleReporter {
       const bool counts = run.run_type == Run::RT_Iteration && !run.error_occurred;
       if (!counts || run.counters.count("ns_a_sample") == 0) continue;
       const bool has_error = run.counters.count("error") > 0;
-      const Found found{run.counters.at("ns_a_sample"), has_error ? double(run.counters.at("error")) : -1};
+      const bool has_events = run.counters.count("events_a_sample") > 0;
+      const Found found{run.counters.at("ns_a_sample"), has_error ? double(run.counters.at("error")) : -1,
+                        has_events ? double(run.counters.at("events_a_sample")) : 0};
       const auto place = fastest_.emplace(run.run_name.function_name, found).first;
       if (found.ns_a_sample < place->second.ns_a_sample) place->second = found;
     }
@@ -405,7 +417,7 @@ class Collector : public benchmark::ConsoleReporter {
 
  private:
   struct Found {
-    double ns_a_sample, error;
+    double ns_a_sample, error, events;
   };
   std::map<std::string, Found> fastest_;
 };
@@ -428,5 +440,6 @@ int main(int argc, char** argv) {
   benchmark::RunSpecifiedBenchmarks(&collector);
   benchmark::Shutdown();
   bench::print_table(collector.points());
+  bench::print_growth(collector.points());
   if (!figure.empty()) bench::draw(collector.points(), "truss string, 4 joints", "up, down, up", figure);
 }

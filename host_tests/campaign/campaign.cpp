@@ -36,6 +36,7 @@ struct Tally {
   double least_clearance = 1;            ///< of refusals, see Reference::clearance()
   std::array<double, 3> stepwise_off{};  ///< sums of the deviations with 1, 8 and 64 load steps a path
   std::map<std::string, std::vector<std::uint64_t>> refusals, failures;
+  support::RoutesTaken::Counts routes{};
 
   void add(const Tally& other) {
     scenes += other.scenes;
@@ -52,6 +53,7 @@ struct Tally {
     worst_reference = std::max(worst_reference, other.worst_reference);
     least_clearance = std::min(least_clearance, other.least_clearance);
     for (std::size_t i = 0; i < 3; ++i) stepwise_off[i] += other.stepwise_off[i];
+    support::add(routes, other.routes);
     for (const auto& entry : other.refusals) append(refusals[entry.first], entry.second);
     for (const auto& entry : other.failures) append(failures[entry.first], entry.second);
   }
@@ -80,7 +82,9 @@ class Trial {
   void run() {
     ++tally_.scenes;
     std::vector<std::vector<double>> found;
-    if (!begin(run_) || !follow(found)) return;
+    const bool good = begin(run_) && follow(found);
+    support::add(tally_.routes, support::RoutesTaken::counts());
+    if (!good) return;
     if (in_float) follow_in_float();
     if (seed_ % cut_every == 0) follow_in_pieces(found);
     if (seed_ % restore_every == 0) follow_restored<double>();
@@ -303,6 +307,7 @@ class Trial {
 void try_seed(std::uint64_t seed, Tally& tally) {
   visit_world(seed, [&](const auto& world, support::Random& random) {
     using SceneType = std::decay_t<decltype(world.scene)>;
+    support::RoutesTaken::counts() = {};
     if (talkative) std::printf("%s, %d joints\n", world.kind.c_str(), world.scene.mu.size());
     Trial<SceneType>(world, seed, random, tally).run();
   });
@@ -350,6 +355,7 @@ bool report(Tally& tally) {
               tally.stepped, off[0] / double(std::max(1L, tally.stepped)),
               off[1] / double(std::max(1L, tally.stepped)), off[2] / double(std::max(1L, tally.stepped)));
   std::printf("least contradiction in what is refused: %.1e of the rates\n", tally.least_clearance);
+  support::print(tally.routes);
   print_list("refused:", tally.refusals);
   print_list("FAILED:", tally.failures);
   // In the mean only: a single scene may be lucky with few steps.

@@ -35,6 +35,7 @@ struct Tally {
   double worst_double = 0, worst_float = 0, seconds = 0;
   std::uint64_t worst_seed = 0;
   Seeds refusals, float_refusals, confirmed, coarse, failures;
+  support::RoutesTaken::Counts routes{};
 
   void add(const Tally& other) {
     scenes += other.scenes;
@@ -47,6 +48,7 @@ struct Tally {
     worst_double = std::max(worst_double, other.worst_double);
     worst_float = std::max(worst_float, other.worst_float);
     seconds += other.seconds;
+    support::add(routes, other.routes);
     append(refusals, other.refusals);
     append(float_refusals, other.float_refusals);
     append(confirmed, other.confirmed);
@@ -118,7 +120,9 @@ class Trial {
   }
 
   void follow_in_double() {
+    support::RoutesTaken::counts() = {};
     follow_rows();
+    support::add(tally_.routes, support::RoutesTaken::counts());
     if (worst_ > wanted_double) tally_.coarse["above 1e-11"].push_back(seed_);
   }
   void follow_rows() {
@@ -363,6 +367,7 @@ bool report(ManyKind kind, Tally& tally) {
               tally.compared);
   std::printf("  worst verify(): double %.1e (seed %llu), float %.1e\n", tally.worst_double,
               static_cast<unsigned long long>(tally.worst_seed), tally.worst_float);
+  support::print(tally.routes, "  ");
   print_list("verify() in double:", tally.coarse);
   print_list("refused in double:", tally.refusals);
   print_list("refused in float where double has an answer:", tally.float_refusals);

@@ -17,6 +17,7 @@ struct WebCapacity : taut::Capacity {
   static constexpr int nodes = 128, struts = 128, cables = 20, segments = 112, joints = 96, loads = 4;
   static constexpr int forces = 256, temperatures = 20;
   static constexpr int substructures = 112, substructure_nodes = 128, substructure_entries = 1600;
+  using Watch = support::RoutesTaken;
 };
 using PlaneWeb = taut::Scene<double, 2, WebCapacity>;
 using SpaceWeb = taut::Scene<double, 3, WebCapacity>;

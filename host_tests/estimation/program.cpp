@@ -1,5 +1,4 @@
 // `taut estimate` from files to columns.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <algorithm>

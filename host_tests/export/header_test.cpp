@@ -1,5 +1,4 @@
 // The names in an exported header, its size, and where it is written.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <cstdlib>

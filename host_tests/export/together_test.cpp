@@ -1,5 +1,4 @@
 // Scenes that are exported together share their types, and give the answers that each gives alone.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <type_traits>

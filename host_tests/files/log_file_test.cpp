@@ -1,5 +1,4 @@
 // Logs: what the reader makes of them.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <clocale>

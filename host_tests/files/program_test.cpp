@@ -1,5 +1,4 @@
 // The program on usable input: where its result goes and what its exit status says.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <algorithm>

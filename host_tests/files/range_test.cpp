@@ -1,5 +1,4 @@
 // Numbers out of all range, one at a time in a scene and its log: a result has finite numbers or is refused.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 // Results: their columns, their numbers, and that a file is whole or not there.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <charconv>

@@ -1,5 +1,4 @@
 // Scene files: what the reader makes of them, and what reaches the core.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <memory>

@@ -1,5 +1,4 @@
 // A run that a signal ends leaves no part of its result behind.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <fcntl.h>

@@ -1,5 +1,4 @@
 // The program does with little stack what it does with much.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <fstream>

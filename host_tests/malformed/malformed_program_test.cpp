@@ -1,6 +1,5 @@
 // What cannot be used makes the program say so on standard error, leave nothing behind and exit with
 // status 2.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <filesystem>

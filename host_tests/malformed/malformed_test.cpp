@@ -1,5 +1,4 @@
 // What cannot be used is refused with exactly the message in the table, by the readers themselves.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <filesystem>

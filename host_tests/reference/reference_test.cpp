@@ -1,7 +1,6 @@
 // The reference against what can be worked out by hand.
 #include "reference/reference.hpp"
 
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include "support/scenes.hpp"

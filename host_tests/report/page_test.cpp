@@ -1,5 +1,4 @@
 // The page that `taut report` writes.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -11,6 +11,7 @@ namespace support {
 /// Capacity of a scene without anything elastic but its cable.
 struct SaddleCapacity : taut::Capacity {
   static constexpr int nodes = 10, cables = 1, segments = 9, joints = 9, loads = 1, temperatures = 1;
+  using Watch = RoutesTaken;
 };
 using Saddles = taut::Scene<double, 2, SaddleCapacity>;
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/random.hpp"
+#include "support/routes_taken.hpp"
 #include "taut/scene/scene.hpp"
 
 namespace support {
@@ -17,6 +18,7 @@ struct PlaneCapacity : taut::Capacity {
   static constexpr int temperatures = 3, substructures = 12, substructure_nodes = 24;
   static constexpr int substructure_entries = 192;
   static constexpr int displacements = 2 * nodes;
+  using Watch = RoutesTaken;
 };
 struct SpaceCapacity : PlaneCapacity {
   static constexpr int nodes = 28, struts = 72, segments = 8, joints = 8;

@@ -126,6 +126,18 @@ TEST_CASE("many pairs at zero at once are no obstacle") {
   }
 }
 
+TEST_CASE("a path that goes round in circles by the first of the tied rows comes to its end") {
+  // Kostreva, Cycling in linear complementarity problems, 1979, for every odd size.
+  const auto lemke = std::make_unique<Lemke>();
+  for (int n = 3; n <= most; n += 2) {
+    CAPTURE(n);
+    Matrix M = Matrix::Identity(n, n);
+    for (int i = 0; i < n; ++i) M(i, (i + 1) % n) = 2;
+    REQUIRE(solve(*lemke, M, Vector::Constant(n, -1)) == Outcome::solved);
+    CHECK(largest(z_of(*lemke, n) - Vector::Constant(n, 1.0 / 3)) <= 1e-14);
+  }
+}
+
 TEST_CASE("the units of the unknowns do not matter") {
   const auto lemke = std::make_unique<Lemke>();
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {

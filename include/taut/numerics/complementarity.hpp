@@ -3,15 +3,34 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "taut/scene/fixed_list.hpp"
 
 namespace taut {
 
-/// Lemke's complementary pivoting with lexicographic ties, for at most Max pairs (Cottle, Pang and Stone, The
-/// Linear Complementarity Problem, algorithm 4.4.5 and section 4.9). The lexicographic order makes it finite
-/// when many pairs are at zero at once, as at every start from zero tension.
+/// Numbers from 0 to 1 in general position, the same everywhere.
+template <class Scalar>
+Scalar scattered(int i) {
+  const auto number = (static_cast<std::uint32_t>(i) + 1U) * 2654435769U;
+  return static_cast<Scalar>(number >> 8) / Scalar(1 << 24);
+}
+/// The rule against cycling of every path of Lemke's here: each value carries a second, infinitely smaller
+/// part, which is this number for the pair i at the start and decides among ties. The numbers are in general
+/// position, between 1 and 2 and the same everywhere, so no two bases tie and none comes back: the number of
+/// bases bounds the path (Cottle, Pang and Stone, The Linear Complementarity Problem, 4.9). That counts most
+/// at a start from zero tension, where all pairs tie.
+template <class Scalar>
+Scalar perturbation(int i) {
+  return Scalar(1) + scattered<Scalar>(i);
+}
+/// The bound where rounding takes part: pivots of a path through so many pairs.
+constexpr int most_pivots(int pairs) { return 16 + 16 * pairs; }
+
+/// Lemke's complementary pivoting for at most Max pairs with M written out (Cottle, Pang and Stone, algorithm
+/// 4.4.5): one tableau of 2 n^2 numbers, every pivot costs as much. For problems from outside of a condensed
+/// scene; ModeSolver follows the same path through a factorization that it keeps.
 template <class Scalar, int Max>
 class Lemke {
  public:
@@ -30,7 +49,7 @@ class Lemke {
   void set_M(int row, int column, Scalar value) { at(row, n_ + column) = -value; }
   void set_q(int row, Scalar value) { at(row, 2 * n_ + 1) = value; }
 
-  /// Solves in place, in at most 16 n + 16 pivots. Another `attempt` (0, 1, ...) takes another covering
+  /// Solves in place, in at most most_pivots(n) pivots. Another `attempt` (0, 1, ...) takes another covering
   /// vector: where M is in none of the classes for which Lemke's method is sure, one may lead to a ray and
   /// another to a solution.
   Outcome solve(int attempt = 0) {
@@ -38,6 +57,7 @@ class Lemke {
     for (int i = 0; i < n_; ++i) {
       at(i, i) = 1;
       at(i, cover()) = -covering(attempt, i);
+      at(i, tie()) = perturbation<Scalar>(i);
       basic_[i] = i;
     }
     int row = 0;
@@ -45,7 +65,7 @@ class Lemke {
       if (less(i, -at(i, cover()), row, -at(row, cover()))) row = i;
     if (n_ == 0 || at(row, last()) >= -64 * epsilon) return Outcome::solved;
     int entering = cover();
-    for (int count = 0; count < 16 * n_ + 16; ++count) {
+    for (int count = 0; count < most_pivots(n_); ++count) {
       const int leaving = basic_[row];
       pivot(row, entering);
       if (leaving == cover()) return Outcome::solved;
@@ -73,18 +93,19 @@ class Lemke {
   static constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
   static constexpr Scalar solved_tie = sizeof(Scalar) == sizeof(float) ? Scalar(1e-5) : Scalar(1e-11);
 
-  // Columns: w_0.. w_{n-1}, z_0.. z_{n-1}, the covering variable, the right-hand side. Rows: w - M z - 1
-  // cover = q.
-  int columns() const { return 2 * n_ + 2; }
+  // Columns: w_0.. w_{n-1}, z_0.. z_{n-1}, the covering variable, the right-hand side and its second part.
+  // Rows: w - M z - 1 cover = q.
+  int columns() const { return 2 * n_ + 3; }
   int cover() const { return 2 * n_; }
   int last() const { return 2 * n_ + 1; }
-  Scalar& at(int row, int column) { return table_[row * (2 * Max + 2) + column]; }
-  const Scalar& at(int row, int column) const { return table_[row * (2 * Max + 2) + column]; }
+  int tie() const { return 2 * n_ + 2; }
+  Scalar& at(int row, int column) { return table_[row * (2 * Max + 3) + column]; }
+  const Scalar& at(int row, int column) const { return table_[row * (2 * Max + 3) + column]; }
 
   /// Ones at first, then numbers between 1 and 3 without a pattern.
   static Scalar covering(int attempt, int i) {
-    const int scattered = (i + 1) * (7 + 6 * attempt) % 17;
-    return Scalar(1) + (attempt == 0 ? Scalar(0) : static_cast<Scalar>(scattered) / Scalar(8));
+    const int number = (i + 1) * (7 + 6 * attempt) % 17;
+    return Scalar(1) + (attempt == 0 ? Scalar(0) : static_cast<Scalar>(number) / Scalar(8));
   }
 
   /// Measures every z so that the diagonal of M is one, and q by its largest entry.
@@ -113,17 +134,12 @@ class Lemke {
     basic_[row] = entering;
   }
 
-  /// Whether row a / pa comes before row b / pb: right-hand side first, then the columns of the first basis.
+  /// Whether row a / pa comes before row b / pb.
   bool less(int a, Scalar pa, int b, Scalar pb) const {
-    const Scalar tie = 256 * epsilon;
-    const Scalar first = at(a, last()) / pa - at(b, last()) / pb;
-    if (std::fabs(first) > tie * (Scalar(1) + std::fabs(at(a, last()) / pa))) return first < 0;
-    for (int c = 0; c < n_; ++c) {
-      const Scalar difference = at(a, c) / pa - at(b, c) / pb;
-      if (std::fabs(difference) > tie * (std::fabs(at(a, c) / pa) + std::fabs(at(b, c) / pb)))
-        return difference < 0;
-    }
-    return false;
+    const Scalar first = at(a, last()) / pa, second = at(b, last()) / pb;
+    if (std::fabs(first - second) > Scalar(256) * epsilon * (Scalar(1) + std::fabs(first)))
+      return first < second;
+    return at(a, tie()) / pa < at(b, tie()) / pb;
   }
 
   int ratio_test(int entering) const {
@@ -146,7 +162,7 @@ class Lemke {
     return best;
   }
 
-  FixedArray<Scalar, Max*(2 * Max + 2)> table_;
+  FixedArray<Scalar, Max*(2 * Max + 3)> table_;
   FixedArray<Scalar, Max> scale_;
   FixedArray<int, Max> basic_;
   int n_ = 0;

@@ -3,6 +3,12 @@
 
 namespace taut {
 
+/// Whom a tracker tells by which Route every event was decided: nobody, which costs nothing.
+struct Unwatched {
+  template <class Route>
+  static constexpr void took(Route) {}
+};
+
 /// The capacities of a scene. Derive from it and override what differs:
 ///
 ///     struct Roof : taut::Capacity {
@@ -28,6 +34,7 @@ struct Capacity {
   /// Although there are struts or substructures, some condensed scenes of this capacity lie on rigid saddles.
   static constexpr bool saddles = false;
   static constexpr int profile = 0;  ///< entries of the structure's factor; 0: enough for any structure
+  using Watch = Unwatched;           ///< another type with a static took(Route) is called at every event
 };
 
 /// Jacked ends that there can be.

@@ -4,6 +4,7 @@
 #include "taut/tracking/constraints.hpp"
 #include "taut/tracking/event.hpp"
 #include "taut/tracking/mode_solver.hpp"
+#include "taut/tracking/route.hpp"
 
 namespace taut {
 
@@ -53,13 +54,13 @@ class ModeDecision {
     const SlipModes modes = at_limit(ending.next, zero);
     if (!any_zero) {
       // Most often all goes on as it was.
-      if (state_.has_map && ending.next.joint < 0 && is_consistent(modes)) return Status::success();
+      if (state_.has_map && ending.next.joint < 0 && is_consistent(modes)) return decided(Route::as_before);
       const bool is_mapped = state_.has_map && !map_.is_held();
       cables_.freeze();
       cables_.drop_map();
       if ((cables_.is_set_up || constraints_.set_up()) && go_on(modes, false, nullptr, is_mapped)) {
         constraints_.rebuild(ending.has_total);
-        return Status::success();
+        return decided(Route::from_before);
       }
     } else {
       cables_.freeze();
@@ -76,6 +77,7 @@ class ModeDecision {
     for (;;) {
       const bool least = stride_ <= Real(1);
       const Status status = try_further_on(why);
+      if (status || least) Cap::Watch::took(status ? Route::further_on : Route::refused);
       stride_ = status ? stride_ * Real(8) : larger(Real(1), stride_ / Real(8));
       if (status || least) return status;
     }
@@ -85,6 +87,11 @@ class ModeDecision {
   Real further() const { return further_; }
 
  private:
+  static Status decided(Route route) {
+    Cap::Watch::took(route);
+    return Status::success();
+  }
+
   using Solver = ModeSolver<typename Cables::Model, Laws>;
   using SlipModes = FixedList<SlipMode, 2 * Cap::joints>;
   using Spans = FixedArray<bool, Cap::segments>;
@@ -278,10 +285,13 @@ class ModeDecision {
 
   /// What slides and what is slack, begun from nothing. The moves must be frozen.
   Status begin_anew(const Spans& zero, const SlipModes& modes) {
-    if (pull_straight(zero, modes)) return Status::success();
+    if (pull_straight(zero, modes)) return decided(Route::pulled_straight);
     for (int covering = 0; covering < covering_vectors; ++covering)
-      if (solve_anew(zero, modes, false, covering)) return Status::success();
-    if (const Status why = events_.pulled_through(); !why) return why;
+      if (solve_anew(zero, modes, false, covering)) return decided(Route::from_nothing);
+    if (const Status why = events_.pulled_through(); !why) {
+      Cap::Watch::took(Route::refused);
+      return why;
+    }
     if (free_joint_ >= 0) return find_further_on(cables_.at_joint(Code::mechanism, free_joint_));
     return find_further_on(doubtful_joint_ >= 0 ? cables_.at_joint(Code::gives_way, doubtful_joint_)
                                                 : events_.free_node());

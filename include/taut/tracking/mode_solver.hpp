@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "taut/numerics/complementarity.hpp"
 #include "taut/tracking/active_set.hpp"
 
 namespace taut {
@@ -16,9 +17,9 @@ namespace taut {
 /// and slack spans have followed.
 ///
 /// Lemke's path (Cottle, Pang and Stone, The Linear Complementarity Problem, 4.4): a covering variable z
-/// makes the point feasible, and one pair after the other changes sides until z is zero. Values carry a
-/// second, infinitely smaller part, which decides among ties: a lexicographic rule with a perturbation in
-/// general position, so that no basis comes back and the number of bases bounds the path. In the form with
+/// makes the point feasible, and one pair after the other changes sides until z is zero. Among ties
+/// perturbation() decides. No M is made: a column is what a move does through the factors of the set, those
+/// of the piece before serve on, and a slip that would make them singular waits for another. In the form with
 /// the tensions of all spans at zero as unknowns, M = [F, -U; R, 0] gives z'Mz = T'FT + sum (1 - rho) v T_big
 /// >= 0: copositive, and q'z >= 0 where that vanishes; the path then ends in a solution (theorem 4.4.13).
 /// That covers every start from zero tension for rho in (0, 1] and jacks that satisfy the cones. It does not
@@ -87,9 +88,9 @@ class ModeSolver {
   /// have not leave, and only the limits that are violated then are covered: an ordinary event is one pivot.
   /// Otherwise the set has no slips and the problem is solved from zero.
   ///
-  /// At most 16 pivots a pair, each with two or three solutions of the set. On success the set has the slips
-  /// that slide and the segments that go slack. `known`: where all goes on with the set as it is, if that has
-  /// been worked out.
+  /// At most most_pivots() of all pairs, each with two or three solutions of the set. On success the set has
+  /// the slips that slide and the segments that go slack. `known`: where all goes on with the set as it is,
+  /// if that has been worked out.
   Outcome solve(const Tensions& stuck, const Moves& due, Real none, bool go_on,
                 const Response* known = nullptr) {
     due_ = &due;
@@ -148,20 +149,15 @@ class ModeSolver {
   /// Symmetric scaling to a unit diagonal: what a unit of the covering variable adds to a row [-].
   Real cover(int p) const {
     if (!covers_[p]) return 0;
-    return covering_ == 0 ? scale(p) : scale(p) * (Real(1) + Real(3) * scattered(p + covering_ * max_pairs));
+    if (covering_ == 0) return scale(p);
+    return scale(p) * (Real(1) + Real(3) * scattered<Real>(p + covering_ * max_pairs));
   }
   Real scale(int p) const { return scale_[segment_of(p)]; }
   /// Which its move lengthens: moves that lengthen the same one have the same stiffness.
   int segment_of(int p) const {
     return pairs_[p].is_segment() ? pairs_[p].index : laws_->sides(pairs_[p].index)[0];
   }
-  /// In general position, and the same everywhere.
-  Real perturbation(int p) const { return scale(p) * (Real(1) + scattered(p)); }
-  /// From 0 to 1.
-  static Real scattered(int p) {
-    const auto number = (static_cast<std::uint32_t>(p) + 1U) * 2654435769U;
-    return static_cast<Real>(number >> 8) / Real(1 << 24);
-  }
+  Real perturbation(int p) const { return scale(p) * taut::perturbation<Real>(p); }
   /// Scales need no more digits than a float has, whose roots cost one instruction.
   static Real root(Real x) { return static_cast<Real>(std::sqrt(static_cast<float>(x))); }
   static Real sign(const Active& active) { return active.sense < 0 ? Real(-1) : Real(1); }
@@ -307,7 +303,7 @@ class ModeSolver {
     direction.enters = !leaves_set;
     if (leaves_set && !leave(leaving)) return Outcome::singular;
 
-    for (pivots_ = 1; pivots_ <= 16 + 16 * pairs_.size(); ++pivots_) {
+    for (pivots_ = 1; pivots_ <= most_pivots(pairs_.size()); ++pivots_) {
       if (!find(direction)) return Outcome::singular;
       const Outcome outcome = go(direction);
       if (outcome != Outcome::pivots) return outcome;
