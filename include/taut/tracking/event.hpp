@@ -44,8 +44,12 @@ class EventSearch {
     Real step = 1;
     ending = {};
     const auto shorten = [&](Real room, Real falling, const SlipMode& next, int run, int slack) {
-      // At the limit, and held there by decide(): what is left is rounding.
-      if (room <= cables_.force_tolerance() && falling >= -Real(16) * cables_.rate_tolerance()) return;
+      // At the limit, and held there by decide(), or beyond it at the end of the path by no more than equal
+      // forces differ: what is left is rounding.
+      const bool is_held =
+          falling >= -Real(16) * cables_.rate_tolerance() ||
+          (next.joint >= 0 && room + falling >= -cables_.held(next) * cables_.force_tolerance());
+      if (room <= cables_.force_tolerance() && is_held) return;
       if (falling >= 0 || room > -falling * step) return;
       step = room > 0 ? room / -falling : Real(0);
       ending = {next, static_cast<std::int16_t>(run), static_cast<std::int16_t>(slack), falling, step};
