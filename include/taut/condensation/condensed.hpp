@@ -54,12 +54,13 @@ struct ElasticCoupling {
   /// T is read and written once for four columns: the same sums in the same order.
   template <class Vector>
   void add_four(int n, const FixedArray<int, 4>& of, const Vector& e, Vector& T) const {
-    using Column = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-    const auto term = [&](int i) {
-      return e[of[i]] * Eigen::Map<const Column>(&entries[of[i] * Segments], n);
-    };
-    Eigen::Map<Column> sum(&T[0], n);
-    sum = sum + term(0) + term(1) + term(2) + term(3);
+    const Scalar* const a = &entries[of[0] * Segments];
+    const Scalar* const b = &entries[of[1] * Segments];
+    const Scalar* const c = &entries[of[2] * Segments];
+    const Scalar* const d = &entries[of[3] * Segments];
+    const Scalar ea = e[of[0]], eb = e[of[1]], ec = e[of[2]], ed = e[of[3]];
+    Scalar* const __restrict sum = &T[0];
+    for (int i = 0; i < n; ++i) sum[i] = sum[i] + ea * a[i] + eb * b[i] + ec * c[i] + ed * d[i];
   }
 };
 
