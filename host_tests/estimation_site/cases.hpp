@@ -12,8 +12,9 @@ namespace estimation_site {
 
 /// What is asked of the estimator in `--check`.
 enum class Demand {
-  model,    ///< the case is within the declared model
-  accuracy  ///< the instruments lie as far as is declared
+  model,     ///< the case is within the declared model
+  accuracy,  ///< the instruments lie as far as is declared
+  alarm      ///< something is off by a certain amount
 };
 
 struct Case {
@@ -37,7 +38,7 @@ inline void make_typical_mix(Case& mix) {
   mix.instruments.noise = 1.3;
 }
 
-inline std::vector<Case> all_cases() {
+inline std::vector<Case> all_cases(int year_rows) {
   std::vector<Case> cases;
   const auto add = [&](const char* name, Demand demand = Demand::accuracy) -> Case& {
     cases.emplace_back();
@@ -98,7 +99,7 @@ inline std::vector<Case> all_cases() {
     c.instruments.most_sd = 0.002;
   }
   {
-    Case& c = add("frozen-cell");
+    Case& c = add("frozen-cell", Demand::alarm);
     c.instruments.far_freezes = true;
     c.without_far = false;
   }
@@ -113,6 +114,24 @@ inline std::vector<Case> all_cases() {
     c.jacking.loop = c.jacking.stages = c.logs_stroke = true;
     c.ground.E_sd = 0.03;
     c.with_far = false;
+  }
+  {
+    Case& c = add("year");
+    c.jacking.year_rows = year_rows;
+    c.logs_sun = true;
+    c.without_far = false;
+  }
+  {
+    Case& c = add("off-by-gain-2", Demand::alarm);
+    c.instruments.jack_gain_sd = 0.02;
+    c.instruments.sized = true;
+    c.without_far = false;
+  }
+  {
+    Case& c = add("off-by-10-kelvin", Demand::alarm);
+    c.jacking.warming_locked = 10;
+    c.jacking.lock = c.jacking.sized = true;
+    c.without_far = false;
   }
   make_typical_mix(add("typical-mix"));
   make_typical_mix(add("typical-mix-silent"));

@@ -23,6 +23,7 @@ struct Deed {
   std::array<double, 2> force{};  ///< of the jacks [N]: the gauge less the friction of the ram
   std::array<bool, 2> locked{};
   std::array<double, patterns> factor{};
+  double logged_sun = 0;  ///< what the log says of the factor of `sun`
   Phase phase = Phase::ramp;
   bool fresh = false;  ///< of the first 12 rows of a ramp or a hold
 

@@ -107,9 +107,10 @@ std::string scene_text(const Jacked& jacked, const Case& tried, bool far, bool d
   particulars.friction = ", \"mu\": " + number(ground.mu) + ", \"mu_sd\": " + number(ground.mu_sd) +
                          ", \"shared\": " + (ground.shared ? "true" : "false");
   if (declared) {
-    particulars.cable += ", \"E_sd\": " + number(tried.ground.E_sd) +
-                         ", \"seating_sd\": " + number(tried.ground.seating_sd * ground.seating) +
-                         ", \"temperature_sd\": " + number(tried.jacking.warming_locked);
+    particulars.cable +=
+        ", \"E_sd\": " + number(tried.ground.E_sd) +
+        ", \"seating_sd\": " + number(tried.ground.seating_sd * ground.seating) + ", \"temperature_sd\": " +
+        number(tried.jacking.year_rows > 0 ? tried.jacking.year_sd : tried.jacking.warming_locked);
     if (ground.shared) particulars.friction += ", \"scatter\": " + number(tried.ground.scatter);
   }
   particulars.loads = load_patterns(ground, tried.logs_dead, tried.logs_sun);
@@ -132,7 +133,7 @@ std::string log_text(const Jacked& jacked, const Case& tried, bool far) {
     if (has_start) text += ',' + rounded(jacked.readings.start[i], 1);
     if (jacked.ground.two_jacks) text += deed.locked[0] ? ",1" : ",0";
     if (tried.logs_dead) text += ',' + number(deed.factor[dead]);
-    if (tried.logs_sun) text += ',' + number(deed.factor[sun]);
+    if (tried.logs_sun) text += ',' + number(deed.logged_sun);
     if (tried.logs_stroke) text += ',' + (deed.locked[1] ? "" : rounded(jacked.readings.stroke[i], 4));
     text += '\n';
   }

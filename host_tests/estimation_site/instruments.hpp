@@ -13,6 +13,7 @@ namespace estimation_site {
 struct InstrumentRules {
   double jack_gain_sd = 0, far_gain_sd = 0;  ///< relative
   double zero_sd = 0;                        ///< of both cells, part
+  bool sized = false;                        ///< gains are as far off as their sd, up or down
   double noise = 1;                          ///< times what is stated
   double least_sd = 0.001, most_sd = 0.005;  ///< what is stated, part
   double memory = 0;                         ///< of the noise [s]

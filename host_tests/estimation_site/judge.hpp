@@ -20,11 +20,12 @@ class Score {
     if (truth < 0.01 * full) return;
     const double error = found - truth;
     ++count_;
-    // The truth is known to this part of itself.
-    if (std::fabs(error) <= 1.96 * sd + 1e-4 * truth) ++held_;
+    // The truth is known to that.
+    const double rounding = 2e-5 * full;
+    if (std::fabs(error) <= 1.96 * sd + rounding) ++held_;
     error_ += error * error / (full * full);
     variance_ += sd * sd / (full * full);
-    const double normalized = std::fmin(100, std::fabs(error) / std::fmax(sd, 1e-4 * truth));
+    const double normalized = std::fmin(100, std::fabs(error) / std::fmax(sd, rounding));
     normalized_ += normalized * normalized;
     if (truth < 0.1 * full) return;
     ++relative_count_;
@@ -52,9 +53,10 @@ struct Tally {
   std::array<Score, phases> phase;
   double mu_error = 0, mu_variance = 0;  ///< relative to the true mu, at the end
   long mu_count = 0;
-  std::map<std::string, long> alarms;  ///< jackings with that word, without its place
-  long odd = 0;                        ///< jackings with an alarm that says that something does not fit
-  std::string refusal;                 ///< why the program calls the input unusable
+  std::map<std::string, long>
+      alarms;           ///< jackings with that word, without its place; not `mu` where it is right
+  long odd = 0;         ///< jackings with an alarm that says that something does not fit
+  std::string refusal;  ///< why the program calls the input unusable
 
   double mu_rms() const { return 100 * std::sqrt(mu_error / double(mu_count)); }
   double mu_sd() const { return 100 * std::sqrt(mu_variance / double(mu_count)); }
@@ -65,6 +67,13 @@ inline bool is_odd(const std::string& word) {
   static const std::set<std::string> others = {"no-information", "lift-off", "force-low", "force-high",
                                                "unknown-past",   "mu",       "stuck",     "outlier"};
   return others.count(word) == 0;
+}
+
+/// Whether mu is nearly as far from its nominal value as the alarm about it says, or farther.
+inline bool is_mu_far_off(const Jacked& jacked) {
+  for (const double mu : jacked.reality.mu)
+    if (std::fabs(mu - jacked.ground.mu) > 1.9 * jacked.ground.mu_sd) return true;
+  return false;
 }
 
 /// Counts what the program has found; returns whether that is an answer to all rows.
@@ -101,6 +110,7 @@ inline bool judge(const Jacked& jacked, int status, const Result& result, Tally&
     std::istringstream stream(result.word(row, alarms));
     for (std::string word; stream >> word;) words.insert(word.substr(0, word.find(':')));
   }
+  if (is_mu_far_off(jacked)) words.erase("mu");
   bool odd = false;
   for (const std::string& word : words) {
     ++tally.alarms[word];

@@ -12,6 +12,14 @@
 
 namespace estimation_site {
 
+inline reference::Row row_of(const Deed& deed) {
+  reference::Row row;
+  for (const double factor : deed.factor) row.factor.add(factor);
+  row.jack.add(
+      {taut::Jack<double>{deed.force[0], deed.locked[0]}, taut::Jack<double>{deed.force[1], deed.locked[1]}});
+  return row;
+}
+
 /// Follows the rows of a jacking and writes the forces into them.
 ///
 /// Rows on one straight line of the loads are gone through in steps of at most a `fineness`-th of the full
@@ -65,11 +73,7 @@ class Truth {
     const bool wedge_moves = last_.locked != rows[end].locked;
     const int steps = std::max(wedge_moves ? fineness_ / 4 + 1 : 1,
                                static_cast<int>(std::ceil(change(last_, rows[end]) - 1e-9)));
-    reference::Row row;
-    for (const double factor : rows[end].factor) row.factor.add(factor);
-    row.jack.add({taut::Jack<double>{rows[end].force[0], rows[end].locked[0]},
-                  taut::Jack<double>{rows[end].force[1], rows[end].locked[1]}});
-    good_ = steps_.advance(row, steps);
+    good_ = steps_.advance(row_of(rows[end]), steps);
     if (!good_) return;
     read(rows[end]);
     for (std::size_t i = done_; i < end; ++i)
