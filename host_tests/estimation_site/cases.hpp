@@ -47,6 +47,30 @@ inline std::vector<Case> all_cases(int year_rows) {
     return cases.back();
   };
   add("clean", Demand::model);
+  // What differs in instruments alone comes together, for the jackings are the same.
+  add("jack-gain-1").instruments.jack_gain_sd = 0.01;
+  add("jack-gain-2").instruments.jack_gain_sd = 0.02;
+  add("offset").instruments.zero_sd = 0.005;
+  add("noise-twice").instruments.noise = 2;
+  add("loose-plug").instruments.loose_plug = true;
+  {
+    Case& c = add("display");
+    c.instruments.step = 0.01;
+    c.instruments.least_sd = 0.0005;
+    c.instruments.most_sd = 0.002;
+  }
+  {
+    Case& c = add("frozen-cell", Demand::alarm);
+    c.instruments.far_freezes = true;
+    c.without_far = false;
+  }
+  {
+    Case& c = add("off-by-gain-2", Demand::alarm);
+    c.instruments.jack_gain_sd = 0.02;
+    c.instruments.sized = true;
+    c.without_far = false;
+  }
+  add("no-sensors").silent = true;
   add("own-mu", Demand::model).ground.shared = false;
   {
     Case& c = add("load-factor", Demand::model);
@@ -64,9 +88,6 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.with_far = false;
   }
   add("load-stages", Demand::model).jacking.stages = true;
-  add("jack-gain-1").instruments.jack_gain_sd = 0.01;
-  add("jack-gain-2").instruments.jack_gain_sd = 0.02;
-  add("offset").instruments.zero_sd = 0.005;
   {
     Case& c = add("pressure-gauge");
     c.jacking.ram = 0.02;
@@ -83,7 +104,6 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.jacking.warming_locked = 10;
     c.jacking.lock = true;
   }
-  add("noise-twice").instruments.noise = 2;
   {
     Case& c = add("noise-correlated");
     c.instruments.memory = 1;
@@ -91,18 +111,6 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.jacking.every_row = true;
   }
   add("pump-ripple").jacking.ripple = 0.005;
-  add("loose-plug").instruments.loose_plug = true;
-  {
-    Case& c = add("display");
-    c.instruments.step = 0.01;
-    c.instruments.least_sd = 0.0005;
-    c.instruments.most_sd = 0.002;
-  }
-  {
-    Case& c = add("frozen-cell", Demand::alarm);
-    c.instruments.far_freezes = true;
-    c.without_far = false;
-  }
   {
     Case& c = add("elongation-loop");
     c.jacking.loop = c.logs_stroke = true;
@@ -122,12 +130,6 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.without_far = false;
   }
   {
-    Case& c = add("off-by-gain-2", Demand::alarm);
-    c.instruments.jack_gain_sd = 0.02;
-    c.instruments.sized = true;
-    c.without_far = false;
-  }
-  {
     Case& c = add("off-by-10-kelvin", Demand::alarm);
     c.jacking.warming_locked = 10;
     c.jacking.lock = c.jacking.sized = true;
@@ -136,7 +138,6 @@ inline std::vector<Case> all_cases(int year_rows) {
   make_typical_mix(add("typical-mix"));
   make_typical_mix(add("typical-mix-silent"));
   cases.back().silent = true;
-  add("no-sensors").silent = true;
   return cases;
 }
 

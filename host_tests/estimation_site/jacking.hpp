@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "estimation_site/deed.hpp"
@@ -29,6 +30,11 @@ struct JackingRules {
   double relaxation = 0.025;   ///< of force in that year, part
   double ram = 0, ram_sd = 0;  ///< friction of the rams, part of the force, and how much it differs
   double ripple = 0;           ///< of the pump, part of the force
+
+  auto all() const {
+    return std::tie(stages, least_rate, every_row, lock, visit, loop, dead_load, warming, warming_locked,
+                    sized, year_rows, year_sd, relaxation, ram, ram_sd, ripple);
+  }
 };
 
 /// Random times and rows, driven through the true structure as they are made.

@@ -63,8 +63,13 @@ void read_instruments(Random& random, const InstrumentRules& rules, Jacked& jack
   if (rules.far_freezes) freeze(readings.start, static_cast<int>(last_of_ramp * random.between(0.3, 0.8)));
 }
 
-/// The jacking of a number, the same for all cases that ask for the same.
-Jacked random_jacking(const Options& options, const Case& tried, std::uint64_t i, long& without_truth) {
+/// A jacking before anything is read, and the random numbers that instruments draw from.
+struct Unread {
+  Jacked jacked;
+  Random random;
+};
+
+Unread random_jacking(const Options& options, const Case& tried, std::uint64_t i, long& without_truth) {
   for (std::uint64_t attempt = 0;; ++attempt) {
     Random random(mixed(options.seed, 1000 * i + attempt));
     Jacked jacked;
@@ -76,10 +81,35 @@ Jacked random_jacking(const Options& options, const Case& tried, std::uint64_t i
       continue;
     }
     jacked.rows = jacking.rows();
-    read_instruments(random, tried.instruments, jacked);
-    return jacked;
+    return {jacked, random};
   }
 }
+
+/// Jackings by number; kept for the cases that differ in their instruments only.
+class Jackings {
+ public:
+  explicit Jackings(const Options& options) : options_(options) {}
+
+  Jacked read(const Case& tried, std::uint64_t i) {
+    if (kept_for_ == nullptr || kept_for_->ground.all() != tried.ground.all() ||
+        kept_for_->jacking.all() != tried.jacking.all())
+      kept_.clear();
+    kept_for_ = &tried;
+    auto found = kept_.find(i);
+    if (found == kept_.end())
+      found = kept_.emplace(i, random_jacking(options_, tried, i, without_truth_)).first;
+    Unread unread = found->second;
+    read_instruments(unread.random, tried.instruments, unread.jacked);
+    return std::move(unread.jacked);
+  }
+  long without_truth() const { return without_truth_; }
+
+ private:
+  const Options& options_;
+  const Case* kept_for_ = nullptr;
+  std::map<std::uint64_t, Unread> kept_;
+  long without_truth_ = 0;
+};
 
 /// The first line of a message, from the name of the file on.
 std::string without_folder(const std::string& errors) {
@@ -221,7 +251,7 @@ void print_alarms(const std::vector<Outcome>& outcomes) {
 }
 
 /// All jackings of a case, in all ways that are asked for.
-std::vector<Outcome> try_case(const Options& options, const Case& tried, long& without_truth) {
+std::vector<Outcome> try_case(const Options& options, const Case& tried, Jackings& jackings) {
   std::vector<Outcome> outcomes;
   const auto add = [&](const char* way) {
     outcomes.emplace_back();
@@ -236,7 +266,7 @@ std::vector<Outcome> try_case(const Options& options, const Case& tried, long& w
   }
   Trial trial(options);
   for (long i = options.first; i < options.first + options.count; ++i) {
-    const Jacked jacked = random_jacking(options, tried, static_cast<std::uint64_t>(i), without_truth);
+    const Jacked jacked = jackings.read(tried, static_cast<std::uint64_t>(i));
     for (Outcome& outcome : outcomes) {
       if (options.with_far && tried.with_far) trial.estimate(jacked, outcome, true, i, outcome.far);
       if (options.without_far && tried.without_far) trial.estimate(jacked, outcome, false, i, outcome.alone);
@@ -276,7 +306,7 @@ bool verify_case(const Options& options, const Case& tried) {
   Differences from_reference, from_stepwise;
   long without_truth = 0;
   for (long i = options.first; i < options.first + options.count; ++i) {
-    const Jacked jacked = random_jacking(options, tried, static_cast<std::uint64_t>(i), without_truth);
+    const Jacked jacked = random_jacking(options, tried, static_cast<std::uint64_t>(i), without_truth).jacked;
     from_reference.add(compare_with_reference(jacked));
     from_stepwise.add(trial.compare_with_stepwise(jacked));
   }
@@ -363,15 +393,16 @@ int run(const Options& options) {
   }
   print_heading(options.by_phase);
   std::vector<Outcome> outcomes;
-  long without_truth = 0;
+  Jackings jackings(options);
   for (const Case* tried : chosen)
-    for (Outcome& outcome : try_case(options, *tried, without_truth)) {
+    for (Outcome& outcome : try_case(options, *tried, jackings)) {
       options.by_phase ? print_phases(outcome) : print_row(outcome);
       std::fflush(stdout);
       outcomes.push_back(std::move(outcome));
     }
   if (options.alarms) print_alarms(outcomes);
-  if (without_truth > 0) std::printf("\n%ld jackings drawn again, without a truth.\n", without_truth);
+  if (jackings.without_truth() > 0)
+    std::printf("\n%ld jackings drawn again, without a truth.\n", jackings.without_truth());
   bool good = true;
   for (const Outcome& outcome : outcomes)
     for (const Tally* tally : {&outcome.far, &outcome.alone})

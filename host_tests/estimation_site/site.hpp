@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "estimation_site/deed.hpp"
@@ -132,6 +133,8 @@ struct GroundRules {
   double scatter = 0;     ///< relative sd of mu from joint to joint about the common one
   double E_sd = 0;        ///< relative sd of E A
   double seating_sd = 0;  ///< relative to the nominal draw-in
+
+  auto all() const { return std::tie(truss_only, shared, two_jacks, scatter, E_sd, seating_sd); }
 };
 
 inline Ground random_ground(Random& random, const GroundRules& rules) {
