@@ -51,7 +51,7 @@ struct Tally {
   long broken = 0;                 ///< killed, not finite, rows missing
   Score all, fresh, end;
   std::array<Score, phases> phase;
-  double mu_error = 0, mu_variance = 0;  ///< relative to the true mu, at the end
+  double mu_error = 0, mu_variance = 0;  ///< relative to the nominal mu, at the end
   long mu_count = 0;
   std::map<std::string, long>
       alarms;           ///< jackings with that word, without its place; not `mu` where it is right
@@ -119,9 +119,9 @@ inline bool judge(const Jacked& jacked, int status, const Result& result, Tally&
   if (odd) ++tally.odd;
   if (rows == jacked.rows.size())
     for (std::size_t j = 0; j < mu.size(); ++j) {
-      const double truth = jacked.reality.mu[j];
-      tally.mu_error += std::pow(result.number(rows - 1, mu[j]) / truth - 1, 2);
-      tally.mu_variance += std::pow(result.number(rows - 1, mu_sd[j]) / truth, 2);
+      const double nominal = jacked.ground.mu, error = result.number(rows - 1, mu[j]) - jacked.reality.mu[j];
+      tally.mu_error += std::pow(error / nominal, 2);
+      tally.mu_variance += std::pow(result.number(rows - 1, mu_sd[j]) / nominal, 2);
       ++tally.mu_count;
     }
   if (!sound) ++tally.broken;
