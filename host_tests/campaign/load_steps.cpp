@@ -257,6 +257,7 @@ class LoadSteps::Stepper {
   }
 
   Exact tension(int segment) const { return tension_[segment]; }
+  Exact payout(int end) const { return moved_.payout[std::size_t(end)]; }
   Exact violation() const { return violation_; }
   Exact largest_change() const { return largest_change_; }
   Exact pivot() const { return pivot_; }
@@ -672,6 +673,7 @@ LoadSteps::~LoadSteps() = default;
 bool LoadSteps::start(int steps) { return stepper_->start(steps); }
 bool LoadSteps::advance(const reference::Row& row, int steps) { return stepper_->advance(row, steps); }
 Exact LoadSteps::tension(int segment) const { return stepper_->tension(segment); }
+Exact LoadSteps::payout(int end) const { return stepper_->payout(end); }
 Exact LoadSteps::violation() const { return stepper_->violation(); }
 Exact LoadSteps::largest_change() const { return stepper_->largest_change(); }
 LoadSteps::Way LoadSteps::probe(const Drive& now, const Drive& goal, const Moves& moves, Exact peak) {

@@ -51,6 +51,8 @@ class LoadSteps {
   bool advance(const reference::Row& row, int steps);
 
   Exact tension(int segment) const;
+  /// Of a cable end, 2 x cable + end [m].
+  Exact payout(int end) const;
   /// The worst violation of balance, T >= 0 and friction in any step, as a part of the largest force.
   Exact violation() const;
   /// The largest change of a tension in one step of the last path, as a part of the largest force.

@@ -1,0 +1,144 @@
+// What is tried: one thing that a site does to an estimator in each case.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "estimation_site/instruments.hpp"
+#include "estimation_site/jacking.hpp"
+#include "estimation_site/site.hpp"
+
+namespace estimation_site {
+
+/// What is asked of the estimator in `--check`.
+enum class Demand {
+  model,     ///< the case is within the declared model
+  accuracy,  ///< the instruments lie as far as is declared
+  alarm      ///< something is off by a certain amount
+};
+
+struct Case {
+  std::string name;
+  Demand demand = Demand::accuracy;
+  GroundRules ground;
+  JackingRules jacking;
+  InstrumentRules instruments;
+  bool with_far = true, without_far = true;  ///< far-end cell
+  bool logs_dead = false, logs_sun = false, logs_stroke = false;
+  bool silent = false;  ///< the scene has no sensors
+};
+
+inline void make_typical_mix(Case& mix) {
+  mix.instruments.jack_gain_sd = mix.instruments.far_gain_sd = 0.01;
+  mix.instruments.zero_sd = 0.002;
+  mix.jacking.ram = 0.015;
+  mix.jacking.ram_sd = 0.0075;
+  mix.ground.scatter = 0.1;
+  mix.ground.E_sd = 0.03;
+  mix.instruments.noise = 1.3;
+}
+
+inline std::vector<Case> all_cases(int year_rows) {
+  std::vector<Case> cases;
+  const auto add = [&](const char* name, Demand demand = Demand::accuracy) -> Case& {
+    cases.emplace_back();
+    cases.back().name = name;
+    cases.back().demand = demand;
+    return cases.back();
+  };
+  add("clean", Demand::model);
+  // What differs in instruments alone comes together, for the jackings are the same.
+  add("jack-gain-1").instruments.jack_gain_sd = 0.01;
+  add("jack-gain-2").instruments.jack_gain_sd = 0.02;
+  add("offset").instruments.zero_sd = 0.005;
+  add("noise-twice").instruments.noise = 2;
+  add("loose-plug").instruments.loose_plug = true;
+  {
+    Case& c = add("display");
+    c.instruments.step = 0.01;
+    c.instruments.least_sd = 0.0005;
+    c.instruments.most_sd = 0.002;
+  }
+  {
+    Case& c = add("frozen-cell", Demand::alarm);
+    c.instruments.far_freezes = true;
+    c.without_far = false;
+  }
+  {
+    Case& c = add("off-by-gain-2", Demand::alarm);
+    c.instruments.jack_gain_sd = 0.02;
+    c.instruments.sized = true;
+    c.without_far = false;
+  }
+  add("no-sensors").silent = true;
+  add("own-mu", Demand::model).ground.shared = false;
+  {
+    Case& c = add("load-factor", Demand::model);
+    c.ground.truss_only = c.jacking.dead_load = c.logs_dead = true;
+  }
+  {
+    Case& c = add("temperature-logged", Demand::model);
+    c.jacking.warming = 8;
+    c.jacking.lock = c.logs_sun = true;
+  }
+  add("second-visit", Demand::model).jacking.visit = true;
+  {
+    Case& c = add("two-jacks", Demand::model);
+    c.ground.two_jacks = true;
+    c.with_far = false;
+  }
+  add("load-stages", Demand::model).jacking.stages = true;
+  {
+    Case& c = add("pressure-gauge");
+    c.jacking.ram = 0.02;
+    c.jacking.ram_sd = 0.01;
+  }
+  add("mu-scatter").ground.scatter = 0.2;
+  {
+    Case& c = add("seating");
+    c.ground.seating_sd = 0.5;
+    c.jacking.lock = true;
+  }
+  {
+    Case& c = add("temperature-not-logged");
+    c.jacking.warming_locked = 10;
+    c.jacking.lock = true;
+  }
+  {
+    Case& c = add("noise-correlated");
+    c.instruments.memory = 1;
+    c.jacking.least_rate = 5;
+    c.jacking.every_row = true;
+  }
+  add("pump-ripple").jacking.ripple = 0.005;
+  {
+    Case& c = add("elongation-loop");
+    c.jacking.loop = c.logs_stroke = true;
+    c.ground.E_sd = 0.03;
+    c.with_far = false;
+  }
+  {
+    Case& c = add("elongation-loop-stages");
+    c.jacking.loop = c.jacking.stages = c.logs_stroke = true;
+    c.ground.E_sd = 0.03;
+    c.with_far = false;
+  }
+  {
+    Case& c = add("year");
+    c.jacking.year_rows = year_rows;
+    c.logs_sun = true;
+    c.without_far = false;
+  }
+  {
+    Case& c = add("off-by-10-kelvin", Demand::alarm);
+    c.jacking.warming_locked = 10;
+    c.jacking.lock = c.jacking.sized = true;
+    c.without_far = false;
+  }
+  make_typical_mix(add("typical-mix"));
+  make_typical_mix(add("typical-mix-silent"));
+  cases.back().silent = true;
+  return cases;
+}
+
+}  // namespace estimation_site

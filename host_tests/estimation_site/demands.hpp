@@ -1,0 +1,87 @@
+// What must hold: `--check`.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "estimation_site/judge.hpp"
+
+namespace estimation_site {
+
+/// The results of a case, and the way its accuracy was given.
+struct Outcome {
+  const Case* tried = nullptr;
+  std::string way;  ///< plain, declared or silent
+  Tally far, alone;
+};
+
+/// Collects what misses.
+class Demands {
+ public:
+  void check(const Outcome& outcome) {
+    for (const bool far : {true, false}) {
+      const Tally& tally = far ? outcome.far : outcome.alone;
+      if (tally.jackings == 0 && tally.refusal.empty()) continue;
+      where_ = outcome.tried->name + " (" + outcome.way + (far ? ", far-end cell)" : ", jack alone)");
+      check(*outcome.tried, outcome.way, far, tally);
+    }
+  }
+  const std::vector<std::string>& missed() const { return missed_; }
+
+ private:
+  void check(const Case& tried, const std::string& way, bool far, const Tally& tally) {
+    if (!tally.refusal.empty()) {
+      missed_.push_back(where_ + ": refused: " + tally.refusal);
+      return;
+    }
+    if (tally.broken > 0) missed_.push_back(where_ + ": runs without a usable result");
+    const std::string& name = tried.name;
+    const bool in_stages = tried.jacking.stages;
+    if (tried.silent) {
+      if (name == "typical-mix-silent") between("coverage", tally.all.coverage(), 90, 100);
+      return;
+    }
+    if (tried.demand == Demand::model) {
+      between("coverage", tally.all.coverage(), 93, 97);
+      if (tally.fresh.count() > 0) between("coverage of first 12 rows", tally.fresh.coverage(), 90, 100);
+      between("runs that end with exit 1", double(tally.stopped), 0, 0);
+    } else if (name == "year") {
+      between("coverage", tally.all.coverage(), 90, 100);
+    } else if (way == "declared" && tried.demand == Demand::accuracy) {
+      between("coverage", tally.all.coverage(), 90, 99);
+      between("sd / rms", tally.all.sd_over_rms(), 0.7, 2.5);
+    }
+    if (in_stages) {
+      between("coverage", tally.all.coverage(), 92, 100);
+      if (far || tried.logs_stroke) between("error at end", tally.end.error(), 0, 2);
+    }
+    if (name == "loose-plug") between("error at end", tally.end.error(), 0, 1);
+    if (name == "elongation-loop" && way == "declared") {
+      between("sd of mu", tally.mu_sd(), 0, 6);
+      between("error", tally.all.error(), 0, 1);
+    }
+    if (name == "clean")
+      for (const auto& [word, count] : tally.alarms)
+        // At a second visit the wedge does come free.
+        if (word != "lift-off") between("jackings with the alarm " + word, part(count, tally), 0, 2);
+    // Declared, there is nothing to find.
+    if (name == "off-by-10-kelvin" && way == "plain")
+      between("jackings found odd", part(tally.odd, tally), 80, 100);
+    if (name == "off-by-gain-2" && way == "plain")
+      between("jackings found odd", part(tally.odd, tally), 50, 100);
+    if (name == "frozen-cell") between("jackings found odd", part(tally.odd, tally), 90, 100);
+  }
+  static double part(long count, const Tally& tally) { return 100 * double(count) / double(tally.jackings); }
+  void between(const std::string& what, double found, double least, double most) {
+    if (found >= least && found <= most) return;
+    char text[100];
+    std::snprintf(text, sizeof text, ": %.4g, not in %.4g to %.4g", found, least, most);
+    missed_.push_back(where_ + ": " + what + text);
+  }
+
+  std::string where_;
+  std::vector<std::string> missed_;
+};
+
+}  // namespace estimation_site

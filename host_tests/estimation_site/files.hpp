@@ -1,0 +1,37 @@
+// The files of a jacking: what the estimator gets, and what is true.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "estimation_site/cases.hpp"
+
+namespace estimation_site {
+
+/// What instruments show, row by row; a cell that is not there has no rows.
+struct Readings {
+  std::vector<double> start, end, stroke;
+  double sd = 0;    ///< of the noise, as stated [N]
+  double step = 0;  ///< of the display [N]
+};
+
+/// A site that is jacked, and what was read.
+struct Jacked {
+  Ground ground;
+  Reality reality;
+  std::vector<Deed> rows;
+  Readings readings;
+};
+
+/// The scene as the estimator gets it: with what today's format has, or with all that is declared.
+std::string scene_text(const Jacked& jacked, const Case& tried, bool far, bool declared);
+/// The log as the estimator gets it.
+std::string log_text(const Jacked& jacked, const Case& tried, bool far);
+
+/// The true scene and the true forces, for `taut simulate`.
+std::string true_scene_text(const Jacked& jacked);
+std::string true_log_text(const Jacked& jacked);
+/// Phases and the true segment forces.
+std::string truth_text(const Jacked& jacked);
+
+}  // namespace estimation_site

@@ -1,0 +1,58 @@
+// How instruments lie.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "support/random.hpp"
+
+namespace estimation_site {
+
+/// What a case does to the load cells. Parts are of the full jack force.
+struct InstrumentRules {
+  double jack_gain_sd = 0, far_gain_sd = 0;  ///< relative
+  double zero_sd = 0;                        ///< of both cells, part
+  bool sized = false;                        ///< gains are as far off as their sd, up or down
+  double noise = 1;                          ///< times what is stated
+  double least_sd = 0.001, most_sd = 0.005;  ///< what is stated, part
+  double memory = 0;                         ///< of the noise [s]
+  double step = 0;                           ///< of the display, part
+  bool loose_plug = false;                   ///< the jack's, for 5 to 15 rows
+  bool far_freezes = false;                  ///< the far cell keeps its value from the first ramp on
+};
+
+/// A load cell or gauge, read row by row.
+class Cell {
+ public:
+  Cell(double gain, double zero, double sd, double memory, double step)
+      : gain_(gain), zero_(zero), sd_(sd), memory_(memory), step_(step) {}
+
+  double read(support::Random& random, double force, double time) {
+    const double kept = memory_ > 0 ? std::exp(-(time - time_) / memory_) : 0;
+    noise_ = kept * noise_ + std::sqrt(1 - kept * kept) * sd_ * support::gaussian(random);
+    time_ = time;
+    const double reading = (1 + gain_) * force + zero_ + noise_;
+    return step_ > 0 ? step_ * std::round(reading / step_) : reading;
+  }
+
+ private:
+  double gain_, zero_, sd_, memory_, step_;
+  double noise_ = 0, time_ = -1e9;
+};
+
+/// Puts a wrong value in 5 to 15 rows somewhere between the first tenth and the last.
+inline void loosen_plug(support::Random& random, double full, std::vector<double>& readings, int last_row) {
+  const int rows = 5 + random.below(11), first = last_row / 10 + random.below(std::max(1, last_row * 8 / 10));
+  const double wrong = full * random.between(0, 1.4);
+  for (int i = first; i < std::min(first + rows, last_row); ++i)
+    readings[static_cast<std::size_t>(i)] = wrong;
+}
+
+/// From a row on the value of that row is shown.
+inline void freeze(std::vector<double>& readings, int from) {
+  for (std::size_t i = static_cast<std::size_t>(from) + 1; i < readings.size(); ++i)
+    readings[i] = readings[static_cast<std::size_t>(from)];
+}
+
+}  // namespace estimation_site

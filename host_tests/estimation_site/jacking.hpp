@@ -1,0 +1,253 @@
+// A jacking as it happens: ramps, holds, overstress, release, lock-off and a second visit.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+#include <vector>
+
+#include "estimation_site/deed.hpp"
+#include "estimation_site/site.hpp"
+#include "estimation_site/truth.hpp"
+
+namespace estimation_site {
+
+/// What a case asks of the jacking.
+struct JackingRules {
+  bool stages = false;     ///< a row a load stage
+  double least_rate = 1;   ///< rows a second
+  bool every_row = false;  ///< rows come at their rate, none is left out
+  bool lock = false;       ///< always, not now and then
+  bool visit = false;      ///< a second one, always
+  bool loop = false;       ///< a ramp and a release, and no more
+  bool dead_load = false;  ///< comes on while jacking, and changes in holds
+  double warming = 0;      ///< sd of the temperature's way in the last hold, and of that after lock-off [K]
+  double warming_locked = 0;   ///< sd of the temperature's way after lock-off [K]
+  bool sized = false;          ///< warming is as large as its sd, up or down
+  int year_rows = 0;           ///< a ramp, and a year after lock-off in so many rows
+  double year_sd = 2;          ///< of the logged temperature in that year [K]
+  double relaxation = 0.025;   ///< of force in that year, part
+  double ram = 0, ram_sd = 0;  ///< friction of the rams, part of the force, and how much it differs
+  double ripple = 0;           ///< of the pump, part of the force
+
+  auto all() const {
+    return std::tie(stages, least_rate, every_row, lock, visit, loop, dead_load, warming, warming_locked,
+                    sized, year_rows, year_sd, relaxation, ram, ram_sd, ripple);
+  }
+};
+
+/// Random times and rows, driven through the true structure as they are made.
+class Jacking {
+ public:
+  Jacking(const Ground& ground, const Reality& reality, const JackingRules& rules, Random& random,
+          int fineness)
+      : ground_(ground),
+        rules_(rules),
+        random_(random),
+        truth_(true_structure(ground, reality), ground.full, fineness) {
+    if (ground.two_jacks) room_ = room_between_jacks(reality);
+    for (double& part : ram_)
+      part = rules.ram > 0 ? std::fmax(0, rules.ram + rules.ram_sd * gaussian(random)) : 0;
+    rate_ = log_between(random, rules.least_rate, 50);
+    stages_ = 5 + random.below(6);
+    ripple_period_ = random.between(6, 20);
+    run();
+    good_ = good_ && truth_.follow(rows_);
+  }
+  /// False if the truth has no answer.
+  bool good() const { return good_ && truth_.good(); }
+  const std::vector<Deed>& rows() const { return rows_; }
+
+ private:
+  /// A part by which two jacks may surely differ before the cable is pulled through.
+  double room_between_jacks(const Reality& reality) const {
+    double held = 0;
+    for (int j = 0; j < ground_.joints(); ++j)
+      held += reality.mu[static_cast<std::size_t>(j)] * ground_.turning(j);
+    return 0.9 * std::fmin(0.15, 1 - std::exp(-held));
+  }
+
+  void run() {
+    const int increments = rules_.loop || rules_.stages || rules_.year_rows > 0 ? 1 : 1 + random_.below(3);
+    for (int i = 1; i <= increments; ++i) {
+      move(Phase::ramp, double(i) / increments);
+      wait(Phase::hold, i == increments ? warming(rules_.warming) : 0);
+    }
+    if (rules_.loop) {
+      move(Phase::excursion, random_.between(0.3, 0.6));
+      wait(Phase::hold, 0);
+      return;
+    }
+    if (rules_.year_rows > 0) {
+      lock_for_a_year();
+      return;
+    }
+    if (random_.coin()) {
+      move(Phase::excursion, random_.between(1.03, 1.07));
+      wait(Phase::excursion, 0);
+      move(Phase::excursion, 1);
+    }
+    if (random_.coin()) {
+      move(Phase::excursion, random_.between(0.5, 0.95));
+      wait(Phase::hold, 0);
+      if (random_.coin()) move(Phase::excursion, 1);
+    }
+    const bool locks = rules_.lock || rules_.visit || random_.below(5) < 3;
+    if (!locks) return;
+    lock(Phase::locked, warming(std::hypot(rules_.warming, rules_.warming_locked)));
+    if (!rules_.visit && !random_.coin()) return;
+    if (!unlock()) return;
+    move(Phase::visit, std::fmax(random_.between(0.9, 1.1), last().level / ground_.full + 0.03));
+    wait(Phase::visit, 0);
+    lock(Phase::visit, 0);
+  }
+
+  const Deed& last() const { return rows_.back(); }
+  double warming(double size) {
+    const double drawn = gaussian(random_);
+    return size * (rules_.sized ? std::copysign(1.0, drawn) : drawn);
+  }
+  /// Where a quantity is that changes on a straight line in a window of its own.
+  struct Way {
+    double from = 0, to = 0, begin = 0, end = 1;
+    double at(double part) const {
+      return from + (to - from) * std::fmin(std::fmax((part - begin) / (end - begin), 0), 1);
+    }
+  };
+  Way some_window(double from, double to) {
+    const double begin = random_.between(0, 0.7);
+    return {from, to, begin, begin + random_.between(0.1, 0.3)};
+  }
+  /// How the second jack compares with the first.
+  Way next_lag() { return {lag_, 1 + room_ * random_.between(-1, 1), 0, 1}; }
+
+  /// How many rows something takes, and the seconds between them.
+  struct Pace {
+    int rows;
+    double step;
+  };
+  /// Of a move by a part of the full force, or of a wait that is as long.
+  Pace pace(double part) {
+    if (rules_.stages) return {std::max(1, static_cast<int>(std::lround(part * stages_))), 0};
+    const double length = log_between(random_, 10, 300) * std::fmax(part, 0.2);
+    const double rows = std::fmin(std::fmax(length * rate_, 20), 110);
+    const bool thinned = !rules_.every_row && length * rate_ > rows;
+    return {static_cast<int>(rows), thinned ? length / rows : 1 / rate_};
+  }
+
+  void move(Phase phase, double to) {
+    const Deed from = rows_.empty() ? Deed() : last();
+    const double start = from.level / ground_.full;
+    const bool loads = rules_.dead_load && phase == Phase::ramp;
+    const Way dead_way = some_window(from.factor[dead], loads ? to : from.factor[dead]), lag_way = next_lag();
+    const Pace pace = this->pace(std::fabs(to - start));
+    for (int i = 1; i <= pace.rows; ++i) {
+      Deed deed = next(phase, i, pace);
+      const double part = double(i) / pace.rows;
+      deed.level = ground_.full * (start + part * (to - start));
+      deed.factor[dead] = dead_way.at(part);
+      lag_ = lag_way.at(part);
+      add(deed, true);
+    }
+  }
+  void wait(Phase phase, double warming) {
+    const Pace pace = rules_.stages ? Pace{1 + random_.below(3), 0} : this->pace(random_.between(0.2, 0.8));
+    const Deed from = last();
+    const bool loads = rules_.dead_load && phase == Phase::hold && random_.coin();
+    const double change = loads ? random_.between(-0.2, 0.3) : 0;
+    const Way dead_way = some_window(from.factor[dead], from.factor[dead] + change);
+    for (int i = 1; i <= pace.rows; ++i) {
+      Deed deed = next(phase, i, pace);
+      const double part = double(i) / pace.rows;
+      deed.factor[sun] = from.factor[sun] + warming * part;
+      deed.factor[dead] = dead_way.at(part);
+      add(deed, true);
+    }
+  }
+  /// Seasons, days and relaxation, which is to forces as warming is; the logged temperature drifts by itself.
+  void lock_for_a_year() {
+    const double year = 365.25 * 86400, day = 86400, step = year / rules_.year_rows;
+    const double relaxed = rules_.relaxation * ground_.full / (ground_.E * ground_.A * ground_.alpha);
+    const double kept = std::exp(-step / day), begin = last().time;
+    const auto level = last().level;
+    double error = rules_.year_sd * gaussian(random_);
+    const double first_error = error;
+    for (int i = 1; i <= rules_.year_rows; ++i) {
+      Deed deed = next(Phase::locked, i, {rules_.year_rows, step});
+      deed.fresh = false;
+      deed.locked = {false, true};
+      deed.level = i == 1 ? level : 0;
+      const double t = deed.time - begin;
+      error = kept * error + std::sqrt(1 - kept * kept) * rules_.year_sd * gaussian(random_);
+      const double air = 12 * std::sin(2 * support::pi * t / year) + 5 * std::sin(2 * support::pi * t / day);
+      deed.factor[sun] = air + relaxed * std::log1p(t / 3600) / std::log1p(year / 3600);
+      deed.logged_sun = air + error - first_error;
+      add(deed, false);
+    }
+  }
+  /// The wedges hold, and the pressure is let out.
+  void lock(Phase phase, double warming) {
+    const Pace pace = rules_.stages ? Pace{2 + random_.below(3), 0} : this->pace(0.5);
+    const Deed from = last();
+    const int bleeding = rules_.stages ? 1 : 6;
+    for (int i = 1; i <= pace.rows; ++i) {
+      Deed deed = next(phase, i, pace);
+      deed.fresh = false;
+      deed.locked = {ground_.two_jacks, true};
+      deed.level = from.level * std::fmax(0, 1 - double(i - 1) / bleeding);
+      deed.factor[sun] = from.factor[sun] + warming * i / pace.rows;
+      add(deed, false);
+    }
+  }
+  /// The jacks are put back on and pull until they hold what the wedges held; false if that has no answer.
+  bool unlock() {
+    if (!truth_.follow(rows_)) return false;
+    const Deed from = last();
+    const std::array<double, 2> wedge{from.tension.front(), from.tension.back()};
+    if (ground_.two_jacks) lag_ = wedge[0] / wedge[1];
+    const Pace pace{rules_.stages ? 3 : 30, rules_.stages ? 0 : std::fmax(1 / rate_, 0.5)};
+    for (int i = 1; i <= pace.rows; ++i) {
+      Deed deed = next(Phase::visit, i, pace);
+      const bool holds = i < pace.rows;
+      deed.fresh = false;
+      deed.locked = {ground_.two_jacks && holds, holds};
+      deed.level = (1 + ram_[1]) * wedge[1] * (holds ? 0.99 * i / pace.rows : 1.005);
+      add(deed, false);
+    }
+    return true;
+  }
+
+  Deed next(Phase phase, int i, const Pace& pace) {
+    Deed deed = rows_.empty() ? Deed() : last();
+    deed.phase = phase;
+    deed.fresh = !rules_.stages && i <= 12;
+    deed.time += rules_.stages ? log_between(random_, 10, 600) : pace.step;
+    return deed;
+  }
+  void add(Deed deed, bool pumping) {
+    const double turn = 2 * support::pi * double(rows_.size()) / ripple_period_;
+    deed.gauge[1] = deed.level * (1 + (pumping ? rules_.ripple * std::sin(turn) : 0));
+    if (ground_.two_jacks) deed.gauge[0] = lag_ * deed.gauge[1];
+    for (std::size_t end = 0; end < 2; ++end) {
+      // The ram holds its force until the pressure has turned round.
+      const double held = rows_.empty() ? 0 : last().force[end];
+      deed.force[end] =
+          std::fmin(std::fmax(held, deed.gauge[end] / (1 + ram_[end])), deed.gauge[end] / (1 - ram_[end]));
+    }
+    if (rules_.year_rows == 0) deed.logged_sun = deed.factor[sun];
+    rows_.push_back(deed);
+  }
+
+  const Ground& ground_;
+  const JackingRules& rules_;
+  Random& random_;
+  Truth truth_;
+  std::array<double, 2> ram_{};
+  double lag_ = 1, room_ = 0, rate_ = 1, ripple_period_ = 10;
+  int stages_ = 8;
+  std::vector<Deed> rows_;
+  bool good_ = true;
+};
+
+}  // namespace estimation_site
