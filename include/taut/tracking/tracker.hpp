@@ -57,7 +57,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   using typename Base::Tensions;
   using Laws = typename Cables::Laws;
   using Derivatives = typename Cables::Derivatives;
-  /// Events in one call. Of 300,000 random logs none reached it.
+  /// Events in one call. Of a million random logs three reach it.
   static constexpr int default_budget = 64 + 16 * Cap::segments;
 
   /// All that restore() needs to go on with the same bits: a plain value.
