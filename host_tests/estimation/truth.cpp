@@ -224,7 +224,7 @@ TEST_CASE("restored after every row, an estimator gives the same bits") {
 TEST_CASE("more unknowns than there is room for are refused with how many are missing") {
   static Ground ground;
   make_ground(ground, false, 0.2, 0.02, 0.2, false);
-  ground.known.cables[0].sensor_sd = {0, 0};
+  ground.known.cables[0].cell = {};
   taut::Condensed<double, PlaneCapacity> model;
   static taut::Condensation<double, Plane> condensation;
   REQUIRE(condensation.run(ground.known, model).ok());
@@ -245,7 +245,7 @@ struct Pulled {
 
   void make(const std::array<taut::End, 2>& ends, const std::array<double, 2>& sensor_sd) {
     taut::Cable<double> cable = support::steel_cable(0.2, ends);
-    cable.sensor_sd = sensor_sd;
+    for (std::size_t end = 0; end < 2; ++end) cable.cell[end].sd = sensor_sd[end];
     support::rigid_saddles(scene, cable, support::chain_points(7));
     static taut::Condensation<double, Plane> condensation;
     REQUIRE(condensation.run(scene, model).ok());

@@ -34,7 +34,7 @@ constexpr TrussString make_truss_string() {
   cable.mu = 0.12;
   cable.mu_sd = 0.03;
   cable.shared_mu = true;
-  cable.sensor_sd[0] = 500;
+  cable.cell[0].sd = 500;
   cable.ends[1] = taut::End::jacked;
   cable.seating = 0.004;
   scene.add_cable(cable, {a, p, q, r, e});
