@@ -93,6 +93,9 @@ class CommandLine {
         "estimate", "Estimate the cable forces, and friction, from the readings of a log, with error bars");
     add_run(*estimate_, "Log of readings (CSV)");
     add_limits(*estimate_);
+    estimate_->add_option(
+        "--state", options_.state,
+        "Go on where this file says, if there is one; afterwards it says where this log ends");
   }
 
   void add_report() {

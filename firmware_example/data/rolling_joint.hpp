@@ -49,8 +49,14 @@ constexpr ::taut::Knowledge<float, Capacity> make_knowledge(float) {
             0x1.c04ea4p-4F, 0x1.1ba5e4p-4F, 0x1.2c2268p-3F}}},
           /*shared*/ {{{
             false, false, false}}},
-          /*sensor_sd*/ {{{
-            {0x0p+0F, 0x0p+0F}, {0x0p+0F, 0x0p+0F}, {0x0p+0F, 0x0p+0F}}}}};
+          /*scatter*/ {{{
+            0x0p+0F, 0x0p+0F, 0x0p+0F}}},
+          /*seating_sd*/ {{{
+            0x0p+0F, 0x0p+0F, 0x0p+0F}}},
+          /*cell*/ {{{
+            {{{0x0p+0F, 0x0p+0F, 0x0p+0F, 0x0p+0F, 0x1p+0F, 0x1p+0F}, {0x0p+0F, 0x0p+0F, 0x0p+0F, 0x0p+0F, 0x1p+0F, 0x1p+0F}}},
+            {{{0x0p+0F, 0x0p+0F, 0x0p+0F, 0x0p+0F, 0x1p+0F, 0x1p+0F}, {0x0p+0F, 0x0p+0F, 0x0p+0F, 0x0p+0F, 0x1p+0F, 0x1p+0F}}},
+            {{{0x0p+0F, 0x0p+0F, 0x0p+0F, 0x0p+0F, 0x1p+0F, 0x1p+0F}, {0x0p+0F, 0x0p+0F, 0x0p+0F, 0x0p+0F, 0x1p+0F, 0x1p+0F}}}}}}};
 }
 
 constexpr ::taut::FixedList<::taut::CableLayout<double>, Capacity::cables> make_cables(double) {
@@ -89,8 +95,14 @@ constexpr ::taut::Knowledge<double, Capacity> make_knowledge(double) {
             0x1.c04ea4a8c154dp-4, 0x1.1ba5e353f7ceep-4, 0x1.2c226809d4952p-3}}},
           /*shared*/ {{{
             false, false, false}}},
-          /*sensor_sd*/ {{{
-            {0x0p+0, 0x0p+0}, {0x0p+0, 0x0p+0}, {0x0p+0, 0x0p+0}}}}};
+          /*scatter*/ {{{
+            0x0p+0, 0x0p+0, 0x0p+0}}},
+          /*seating_sd*/ {{{
+            0x0p+0, 0x0p+0, 0x0p+0}}},
+          /*cell*/ {{{
+            {{{0x0p+0, 0x0p+0, 0x0p+0, 0x0p+0, 0x1p+0, 0x1p+0}, {0x0p+0, 0x0p+0, 0x0p+0, 0x0p+0, 0x1p+0, 0x1p+0}}},
+            {{{0x0p+0, 0x0p+0, 0x0p+0, 0x0p+0, 0x1p+0, 0x1p+0}, {0x0p+0, 0x0p+0, 0x0p+0, 0x0p+0, 0x1p+0, 0x1p+0}}},
+            {{{0x0p+0, 0x0p+0, 0x0p+0, 0x0p+0, 0x1p+0, 0x1p+0}, {0x0p+0, 0x0p+0, 0x0p+0, 0x0p+0, 0x1p+0, 0x1p+0}}}}}}};
 }
 
 }  // namespace detail
@@ -100,12 +112,14 @@ template <class Scalar>
 inline constexpr ::taut::Condensed<Scalar, Capacity> condensed = detail::make_condensed(Scalar());
 
 /// What is known of friction and load cells, for Estimator. Where the scene has no mu_sd it is half of the mean mu.
-/// A load cell without sd has 0 here: at a jack its readings are exact, at an anchored end they are not used.
+/// Of a jack that the scene does not say to be exact, an ordinary cell is taken, at an anchored end none.
 template <class Scalar>
 inline constexpr ::taut::Knowledge<Scalar, Capacity> knowledge = detail::make_knowledge(Scalar());
 
 /// The Parameters of an Estimator of this scene.
 constexpr int unknowns = 3;
+/// And its Further: unknowns of load cells at anchored ends.
+constexpr int reading_unknowns = 0;
 
 /// Names, by the numbers that samples, responses and statuses use.
 namespace names {

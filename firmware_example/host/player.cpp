@@ -166,7 +166,7 @@ class Player {
     for (const CableDescription& cable : scene_.cables)
       for (std::size_t end = 0; end < 2 && !cable.closed; ++end) {
         const std::string name = cable.name + "." + end_name(end);
-        if (!cable.is_jacked(end) && log.has(name) && !(cable.sensor_sd[end] > 0))
+        if (!cable.is_jacked(end) && log.has(name) && !cable.cell[end].sd)
           std::cerr << "remark: the load cell " << quote(name)
                     << " has no \"sd\" in \"sensors\": the device does not use it\n";
       }

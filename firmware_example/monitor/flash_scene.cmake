@@ -52,7 +52,7 @@ foreach(name IN LISTS names)
   static constexpr const ::taut::CondensedStruts<float, Capacity>* struts() { return @rows@; }
   static constexpr int strut_count = @strut_count@;
   static constexpr const ::taut::Knowledge<float, Capacity>& knowledge() { return ::@name@::knowledge<float>; }
-  static constexpr int unknowns = ::@name@::unknowns;
+  static constexpr int unknowns = ::@name@::unknowns, reading_unknowns = ::@name@::reading_unknowns;
   static constexpr const auto& cable_names() { return ::@name@::names::cables; }
 };
 

@@ -15,13 +15,13 @@
 namespace monitor {
 
 /// Scenes that `taut export` has condensed, of one capacity: constants in flash. Each has model(),
-/// knowledge(), struts(), strut_count and, the same for all, unknowns.
+/// knowledge(), struts(), strut_count and, the same for all, unknowns and reading_unknowns.
 template <class First, class... Others>
 class FromFlash {
  public:
   using Capacity = typename First::Capacity;
   static constexpr int scenes = 1 + sizeof...(Others);
-  static constexpr int unknowns = First::unknowns;
+  static constexpr int unknowns = First::unknowns, reading_unknowns = First::reading_unknowns;
 
   /// Makes scene `number` the present one.
   taut::Status prepare(int number) {
@@ -42,7 +42,8 @@ class FromFlash {
   };
   template <class Exported>
   static constexpr Parts parts_of() {
-    static_assert(std::is_same_v<typename Exported::Capacity, Capacity> && Exported::unknowns == unknowns,
+    static_assert(std::is_same_v<typename Exported::Capacity, Capacity> && Exported::unknowns == unknowns &&
+                      Exported::reading_unknowns == reading_unknowns,
                   "scenes that share their memory are exported together");
     return {&Exported::model(), &Exported::knowledge(), Exported::struts(), Exported::strut_count};
   }
@@ -56,16 +57,20 @@ class FromFlash {
 /// Room for what an Estimator of the scene does not know; locked joints have some too, for only condensation
 /// tells which they are.
 template <class SceneType>
-constexpr int most_unknowns(const SceneType& scene) {
+constexpr taut::UnknownCounts most_unknowns(const SceneType& scene) {
   using Model = taut::Condensed<float, typename SceneType::Capacity>;
-  int count = 0;
-  for (const auto& cable : scene.cables) {
-    if (cable.mu_sd > 0) count += cable.shared_mu ? 1 : cable.joints();
+  taut::Knowledge<float, typename SceneType::Capacity> known{};
+  for (int c = 0; c < scene.cables.size(); ++c) {
+    known.mu_sd[c] = static_cast<float>(scene.cables[c].mu_sd);
+    known.shared[c] = scene.cables[c].shared_mu;
+    known.seating_sd[c] = static_cast<float>(scene.cables[c].seating_sd);
     for (std::size_t end = 0; end < 2; ++end)
-      if (!cable.closed && cable.ends[end] == taut::End::jacked && cable.sensor_sd[end] > 0)
-        count += taut::Estimator<Model, 1>::remembered_reversals;
+      known.cell[c][end] = taut::LoadCell<float>::of(scene.cables[c].cell[end]);
   }
-  return count > 0 ? count : 1;
+  taut::UnknownCounts count = taut::count_unknowns(
+      scene.cables, [](int) { return false; }, known, taut::Estimator<Model, 1>::remembered_reversals);
+  if (count.carried == 0) count.carried = 1;
+  return count;
 }
 
 /// A scene as it was drawn, in flash too, that the device condenses itself when it is chosen.
@@ -75,7 +80,8 @@ class CondensedAtStartUp {
   using SceneType = std::decay_t<decltype(scene)>;
   using Capacity = typename SceneType::Capacity;
   static constexpr int scenes = 1;
-  static constexpr int unknowns = most_unknowns(scene);
+  static constexpr int unknowns = most_unknowns(scene).carried,
+                       reading_unknowns = most_unknowns(scene).further;
 
   taut::Status prepare(int) {
     const taut::Status status = condensation_.run(scene, condensed_, &struts_);
@@ -126,7 +132,9 @@ std::uint32_t fingerprint(const taut::Condensed<float, Capacity>& model,
     add(knowledge.capstan[c]);
     add(knowledge.mu_sd[c]);
     add(knowledge.shared[c]);
-    add(knowledge.sensor_sd[c]);
+    add(knowledge.scatter[c]);
+    add(knowledge.seating_sd[c]);
+    add(knowledge.cell[c]);
   }
   return crc.value();
 }

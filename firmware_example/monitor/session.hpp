@@ -34,7 +34,7 @@ class Session {
  public:
   using Cap = typename Source::Capacity;
   using Model = taut::Condensed<float, Cap>;
-  using Estimator = taut::Estimator<Model, Source::unknowns>;
+  using Estimator = taut::Estimator<Model, Source::unknowns, Source::reading_unknowns>;
   using Findings = typename Estimator::Alarms;
   static_assert(Cap::cables <= most_coded_cables, "a code of an alarm has no room for the cable's number");
 

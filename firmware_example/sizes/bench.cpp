@@ -139,7 +139,7 @@ void track() {
 #if BENCH_ESTIMATE
 using Cap = monitor::FlashScene::Capacity;
 using Model = taut::Condensed<float, Cap>;
-taut::Estimator<Model, monitor::FlashScene::unknowns> estimator;
+taut::Estimator<Model, monitor::FlashScene::unknowns, monitor::FlashScene::reading_unknowns> estimator;
 taut::Readings<float, Cap> readings;
 volatile float answered = 0;
 
@@ -169,14 +169,14 @@ float far_end(const Model& model, float force) {
 void estimate() {
   const Model& model = monitor::FlashScene::model();
   const auto& knowledge = monitor::FlashScene::knowledge();
-  const auto& sd = knowledge.sensor_sd[0];
+  const auto& cell = knowledge.cell[0];
   estimator.start(model, knowledge).status.ok();
   float force = 0;
   for (int step = 0; step < steps; ++step) {
     force = next(force, step);
-    readings.ends[0][1] = {true, false, force + sd[1] * noise(), 0};
+    readings.ends[0][1] = {true, false, force + cell[1].sd * noise(), 0};
     const bool measured = step % far_end_every == 0;
-    readings.ends[0][0] = {measured, false, far_end(model, force) + sd[0] * noise(), 0};
+    readings.ends[0][0] = {measured, false, far_end(model, force) + cell[0].sd * noise(), 0};
     int events = 0;
     bool good = false;
     const std::uint32_t used = count([&] {

@@ -25,12 +25,13 @@ constexpr taut::Scene<double, 2, NoisyCapacity> make_noisy() {
   cable.shared_mu = true;
   cable.ends[1] = taut::End::jacked;
   cable.seating = 0.002;
-  cable.sensor_sd = {300, 400};
+  cable.cell[0].sd = 300;
+  cable.cell[1].sd = 400;
   scene.add_cable(cable, {a, b, c, d});
   return scene;
 }
 constexpr auto noisy = make_noisy();
-static_assert(monitor::most_unknowns(noisy) == 3);
+static_assert(monitor::most_unknowns(noisy).carried == 3);
 
 using Board = monitor::host::MemoryBoard;
 using Source = monitor::CondensedAtStartUp<noisy>;

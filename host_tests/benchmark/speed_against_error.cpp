@@ -202,7 +202,7 @@ class Estimating {
     auto& cable = known->cables[0];
     cable.mu_sd = 0.1;
     cable.shared_mu = true;
-    cable.sensor_sd = {noise, noise};
+    cable.cell[0].sd = cable.cell[1].sd = noise;
     const auto condensation = std::make_unique<taut::Condensation<Scalar, Scene<Cap>>>();
     good_ = condensation->run(*known, condensed_).ok();
     taut::find_knowledge(*known, knowledge_);

@@ -22,7 +22,7 @@ struct Bounded {
   void make(bool elastic, double mu, double mu_sd) {
     taut::Cable<double> cable = support::steel_cable(mu);
     cable.mu_sd = mu_sd;
-    cable.sensor_sd = {100, 100};
+    cable.cell[0].sd = cable.cell[1].sd = 100;
     if (elastic)
       support::truss_string(scene, cable, 6);
     else
@@ -67,7 +67,7 @@ TEST_CASE("no history leads outside of the bounds that its last readings give") 
 TEST_CASE("pulling and releasing reach both bounds") {
   static Bounded given;
   given.make(false, 0.2, 0);
-  given.known.sensor_sd[0] = {0, 0};
+  given.known.cell[0] = {};
   const auto tracker = std::make_unique<taut::Tracker<Model>>();
   REQUIRE(tracker->start(given.model).status.ok());
   const auto pull = [&](double force) {

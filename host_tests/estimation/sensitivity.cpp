@@ -125,6 +125,54 @@ TEST_CASE(
   CHECK(compared > 50000);
 }
 
+/// The same by an unknown that the jack's force depends on: F + p (constant + proportional F).
+double worst_difference_by_load(std::uint64_t seed, double constant, double proportional, int& compared) {
+  static Case given;
+  make_case(seed, given);
+  const double h = 1e-7;
+  const Varied plain(given.scene, true, 0, 0);
+  const auto trackers = std::make_unique<std::array<Follower, 3>>();
+  taut::FixedList<taut::JackError<double>, 1> errors;
+  const int p = most_parameters - 1;
+  errors.add({static_cast<std::int16_t>(p), 1, constant, proportional});
+  auto &at = (*trackers)[0], &up = (*trackers)[1], &down = (*trackers)[2];
+  REQUIRE(at.start(plain.model, plain.friction(true), errors).status.ok());
+  plain.begin(up, true);
+  plain.begin(down, true);
+  double worst = 0;
+  bool pulls = false;
+  for (const Row& row : given.log) {
+    const auto shifted = [&](double by) {
+      Row moved = row;
+      double& F = moved.jack[0][1].force;
+      if (F > 0) F += by * (constant + proportional * F);
+      return moved;
+    };
+    if (!at.advance(row).status.ok() || !up.advance(shifted(h)).status.ok() ||
+        !down.advance(shifted(-h)).status.ok())
+      break;
+    // Where nothing pulls, nothing is read.
+    pulls = pulls || (row.jack[0][1].force > 1 && !row.jack[0][1].locked);
+    for (int i = 0; pulls && i < plain.model.segments; ++i) {
+      const double found = at.sensitivity(p, i), expected = (up.tension(i) - down.tension(i)) / (2 * h);
+      worst = std::fmax(worst, std::fabs(found - expected) / at.peak());
+      ++compared;
+    }
+  }
+  return worst;
+}
+
+TEST_CASE(
+    "derivatives by gain and zero of a jack's cell are those of trackers with other loads, through corners") {
+  int compared = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    CAPTURE(seed);
+    CHECK(worst_difference_by_load(seed, 0, -1, compared) < 1e-5);
+    CHECK(worst_difference_by_load(seed, -2e5, 0, compared) < 1e-5);
+  }
+  CHECK(compared > 50000);
+}
+
 /// Largest difference, relative to the largest force, between a tracker that is adjusted to other friction in
 /// the middle of its log and one that had it from the start, at the end of the log.
 double worst_after_adjusting(std::uint64_t seed, double by) {

@@ -59,9 +59,9 @@ class Site {
       : full_(full), instruments_(instruments), random_(seed) {
     known_ = ground.known;
     jacked_ = known_.cables[0].ends[0] == taut::End::jacked;
-    auto& sd = known_.cables[0].sensor_sd;
-    sd[0] = with_digits(jacked_ ? instruments.jack : instruments.cell);
-    sd[1] = with_digits(instruments.jack);
+    auto& cell = known_.cables[0].cell;
+    cell[0].sd = with_digits(jacked_ ? instruments.jack : instruments.cell);
+    cell[1].sd = with_digits(instruments.jack);
     taut::find_knowledge(known_, knowledge_);
     const auto condensing = std::make_unique<taut::Condensation<Scalar, Plane>>();
     const auto condensing_truth = std::make_unique<taut::Condensation<double, Plane>>();

@@ -23,13 +23,13 @@ TEST_CASE("a joint that is locked by friction is exported as locked") {
 }
 
 TEST_CASE(
-    "unknowns: one mu for all joints of a cable, none of a locked joint, two memories of a noisy jack") {
-  static_assert(arch::unknowns == 1 + 2);
+    "unknowns: one mu for all joints of a cable, none of a locked joint, two memories of a noisy jack, a draw-in of every wedge") {
+  static_assert(arch::unknowns == 1 + 2 + 2);
 }
 
 TEST_CASE("deviations of mu and of load cells are those of the scene; without one a jack is exact") {
   CHECK(arch::knowledge<double>.mu_sd[0] == 0.03);
   CHECK(arch::knowledge<double>.shared[0]);
-  CHECK(arch::knowledge<double>.sensor_sd[0][0] == 20);
-  CHECK(arch::knowledge<double>.sensor_sd[0][1] == 0);
+  CHECK(arch::knowledge<double>.cell[0][0].sd == 20);
+  CHECK(arch::knowledge<double>.cell[0][1].sd == 0);
 }

@@ -24,7 +24,7 @@ TEST_CASE("between rigid saddles no coupling matrix is stored") {
 }
 
 TEST_CASE("where the scene is silent, half of the mean mu is its standard deviation") {
-  static_assert(saddles::unknowns == 3 + 1);
+  static_assert(saddles::unknowns == 3 + 1 + 1);
   CHECK(saddles::knowledge<double>.mu_sd[0] == doctest::Approx(0.075));
   CHECK(saddles::knowledge<double>.mu_sd[1] == doctest::Approx(0.05));
 }

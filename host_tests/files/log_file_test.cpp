@@ -212,3 +212,27 @@ TEST_CASE("a million rows are read one by one") {
   CHECK(row.row == 1000000);
   CHECK(row.time == 999999);
 }
+
+TEST_CASE("measured forces of segments and struts are read, by their calibration where there is one") {
+  const SceneDescription described = read_scene(R"({ "taut": 1, "name": "n", "dimension": 2,
+    "nodes": { "a": [0, 0], "b": [1, 0], "c": [2, 1] },
+    "struts": [ { "nodes": ["a", "b"], "E": 1, "A": 1 }, { "nodes": ["b", "c"], "E": 1, "A": 1 } ],
+    "cables": [ { "name": "C", "path": ["a", "b", "c"], "E": 1, "A": 1, "start": "jacked", "end": "anchored" } ],
+    "sensors": { "C.start": { "calibration": [[0, 0], [10, 2000]] }, "C.T2": { "calibration": [[1, 0], [2, 500]] } } })",
+                                                "f");
+  std::istringstream stream("time,C.start,strut2,C.T2\n0,5,-70,3\n1,5,,\n");
+  LogReader reader(stream, "log", described, {});
+  LogRow row = reader.first_row();
+  REQUIRE(reader.next(row));
+  CHECK(row.cables[0][0].force == 1000);
+  REQUIRE(row.forces.size() == 2);
+  CHECK(row.forces[0].of_strut);
+  CHECK(row.forces[0].index == 1);
+  CHECK(row.forces[0].reading == -70);
+  CHECK_FALSE(row.forces[1].of_strut);
+  CHECK(row.forces[1].cable == 0);
+  CHECK(row.forces[1].index == 1);
+  CHECK(row.forces[1].reading == 1000);
+  REQUIRE(reader.next(row));
+  CHECK(row.forces.empty());
+}

@@ -84,7 +84,8 @@ TEST_CASE("every value of a cable arrives") {
   CHECK(cable.mu_sd == 0.02);
   CHECK(cable.alpha == 1.2e-5);
   CHECK(cable.seating == 0.006);
-  CHECK(cable.sensor_sd == std::array<double, 2>{100.5, 200});
+  CHECK(cable.cell[0].sd.value_or(0) == 100.5);
+  CHECK(cable.cell[1].sd.value_or(0) == 200);
 }
 
 TEST_CASE("one number for mu and prestrain goes to every joint and segment of a closed cable") {
@@ -167,4 +168,52 @@ TEST_CASE("a failure of a run names the joint, its cable and its node") {
   CHECK(failure_text(Status::at(Code::mechanism, Place::node, 1), scene) ==
         "node \"mid/1\": mechanism: nothing holds this node; add a strut, a support or a substructure that "
         "holds it");
+}
+
+TEST_CASE("every key of an instrument arrives") {
+  const SceneDescription scene = read_scene(R"({ "taut": 1, "name": "", "dimension": 2,
+    "nodes": { "a": [0, 0], "b": [1, 0], "c": [2, 1] },
+    "struts": [ { "nodes": ["a", "b"], "E": 1, "A": 1 }, { "nodes": ["b", "c"], "E": 1, "A": 1 } ],
+    "cables": [ { "name": "C", "path": ["a", "b", "c"], "E": 1, "A": 1, "start": "jacked", "end": "jacked",
+                  "E_sd": 0.02, "seating_sd": 0.001, "temperature_sd": 3,
+                  "friction": { "law": "point", "mu": 0.1, "scatter": 0.2, "drift": 0.01 } } ],
+    "sensors": {
+      "C.start": { "exact": true },
+      "C.end": { "sd": 200, "gain_sd": 0.01, "zero_sd": 500, "resolution": 1000,
+                 "hysteresis": { "part": 0.03, "sd": 0.01, "calibrated": "up" },
+                 "calibration": [[0, 100], [10, 300e3], [40, 1200e3]] },
+      "C.end.stroke": { "sd": 0.002, "zero": "start", "resolution": 0.001 },
+      "C.start.stroke": {},
+      "C.T2": { "sd": 5000, "gain_sd": 0.02 },
+      "strut2": { "sd": 3000, "zero_sd": 0 } } })",
+                                            "f");
+  const CableDescription& cable = scene.cables[0];
+  CHECK(cable.E_sd == 0.02);
+  CHECK(cable.seating_sd.value_or(0) == 0.001);
+  CHECK(cable.temperature_sd == 3);
+  CHECK(cable.scatter == 0.2);
+  CHECK(cable.drift == 0.01);
+  CHECK(cable.cell[0].exact);
+  const InstrumentDescription& cell = cable.cell[1];
+  CHECK_FALSE(cell.exact);
+  CHECK(cell.sd.value_or(0) == 200);
+  CHECK(cell.gain_sd.value_or(0) == 0.01);
+  CHECK(cell.zero_sd.value_or(0) == 500);
+  CHECK(cell.resolution == 1000);
+  CHECK(cell.part == 0.03);
+  CHECK(cell.part_sd == 0.01);
+  CHECK(cell.right_while_it_pulls);
+  CHECK(cell.force_of(25) == 750e3);
+  CHECK(cell.force_of(50) == 1500e3);
+  CHECK(cable.stroke[1].sd.value_or(0) == 0.002);
+  CHECK_FALSE(cable.stroke[1].has_free_zero);
+  CHECK(cable.stroke[1].resolution == 0.001);
+  CHECK(cable.stroke[0].has_free_zero);
+  CHECK_FALSE(cable.force[0].is_given);
+  CHECK(cable.force[1].sd.value_or(0) == 5000);
+  CHECK(cable.force[1].gain_sd.value_or(0) == 0.02);
+  CHECK_FALSE(cable.force[1].zero_sd.has_value());
+  CHECK_FALSE(scene.struts[0].gauge.is_given);
+  CHECK(scene.struts[1].gauge.sd.value_or(0) == 3000);
+  CHECK(scene.struts[1].gauge.zero_sd.value_or(1) == 0);
 }

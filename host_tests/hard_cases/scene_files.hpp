@@ -43,7 +43,8 @@ class SceneText {
            listed(scene_.struts.size(), [&](int i) { return strut(i); }) + " ],\n  \"cables\": [ " +
            listed(scene_.cables.size(), [&](int c) { return cable(c); }) + " ],\n  \"substructures\": [ " +
            listed(scene_.substructures.size(), [&](int i) { return substructure(i); }) +
-           " ],\n  \"loads\": { " + listed(scene_.loads, [&](int i) { return load(i); }) + " }\n}\n";
+           " ],\n  \"loads\": { " + listed(scene_.loads, [&](int i) { return load(i); }) +
+           " },\n  \"sensors\": { " + sensors() + " }\n}\n";
   }
 
   /// A row a second. Jacks have a column for their force and one for their wedge.
@@ -144,6 +145,16 @@ class SceneText {
                         "\": " + digits(given.kelvin);
     return "\"L" + std::to_string(i) + "\": { \"forces\": { " + forces + " }, \"temperature\": { " +
            temperatures + " } }";
+  }
+
+  // Estimated with exact jacks, a case is followed as it is simulated.
+  std::string sensors() const {
+    std::string text;
+    for_each_jack([&](int c, std::size_t end) {
+      text += (text.empty() ? "\"C" : ", \"C") + std::to_string(c) +
+              (end == 0 ? ".start\"" : ".end\"") + ": { \"exact\": true }";
+    });
+    return text;
   }
 
   template <class Call>

@@ -20,14 +20,14 @@ const std::string chain = R"({ "taut": 1, "name": "chain <b>&\"", "dimension": 2
   "supports": { "a": "xy", "b<i>": "xy", "c": "xy", "d": "xy" },
   "cables": [ { "name": "C<&>", "path": ["a", "b<i>", "c", "d"], "E": 1.95e11, "A": 8e-4, "start": "anchored",
                 "end": "jacked", "friction": { "law": "point", "mu": 0.2, "mu_sd": 0.1, "shared": true } } ],
-  "sensors": { "C<&>.start": { "sd": 500 }, "C<&>.end": { "sd": 500 } } })";
+  "sensors": { "C<&>.start": { "sd": 500, "gain_sd": 0, "zero_sd": 0 }, "C<&>.end": { "sd": 500, "gain_sd": 0, "zero_sd": 0 } } })";
 
 const std::string two_jacks = R"({ "taut": 1, "name": "", "dimension": 3,
   "nodes": { "a": [0, 0, 0], "b": [1, 1, 1], "c": [2, 0, 0] },
   "supports": { "a": "xyz", "b": "xyz", "c": "xyz" },
   "cables": [ { "name": "D", "path": ["a", "b", "c"], "E": 1.95e11, "A": 8e-4, "start": "jacked", "end": "jacked",
                 "friction": { "law": "point", "mu": 0.1, "mu_sd": 0.02 } } ],
-  "sensors": { "D.start": { "sd": 100 }, "D.end": { "sd": 100 } } })";
+  "sensors": { "D.start": { "sd": 100, "gain_sd": 0, "zero_sd": 0 }, "D.end": { "sd": 100, "gain_sd": 0, "zero_sd": 0 } } })";
 
 std::string chain_log(int rows) {
   std::ostringstream log;

@@ -129,7 +129,7 @@ TEST_CASE("wobble, seating and standard deviations below zero are refused") {
   CHECK_STATUS(after([](Plane& s) { s.cables[0].wobble = -1e-3; }), Code::negative, Place::cable, 0);
   CHECK_STATUS(after([](Plane& s) { s.cables[0].seating = -1e-3; }), Code::negative, Place::cable, 0);
   CHECK_STATUS(after([](Plane& s) { s.cables[0].mu_sd = -1; }), Code::negative, Place::cable, 0);
-  CHECK_STATUS(after([](Plane& s) { s.cables[0].sensor_sd[1] = -1; }), Code::negative, Place::cable, 0);
+  CHECK_STATUS(after([](Plane& s) { s.cables[0].cell[1].sd = -1; }), Code::negative, Place::cable, 0);
   CHECK_STATUS(after([](Plane& s) { s.cables[0].seating = not_a_number; }), Code::not_finite, Place::cable,
                0);
 }

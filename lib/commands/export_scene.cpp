@@ -22,8 +22,8 @@ ExportedArrays arrays_of(const SceneDescription& scene, ScalarType scalar) {
 ExportedScene exported_scene(const std::string& file) {
   ExportedScene scene;
   scene.description = read_scene_file(file);
-  // As `taut estimate` does, but for load cells: their largest reading is not known here.
   fill_in_mu_deviations(scene.description);
+  for (const std::string& text : fill_in_jacks(scene.description)) std::cerr << "remark: " << text << '\n';
   scene.in_double = arrays_of(scene.description, ScalarType::float64);
   if (scene.in_double.condensed.condensing.status)
     scene.in_float = arrays_of(scene.description, ScalarType::float32);

@@ -2,10 +2,13 @@
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 
 #include "lib/commands/progress_line.hpp"
 #include "lib/commands/usual_deviations.hpp"
+#include "lib/files/file_text.hpp"
+#include "lib/files/input_error.hpp"
 #include "lib/files/number_range.hpp"
 #include "lib/files/output_file.hpp"
 #include "lib/files/scene_file.hpp"
@@ -15,6 +18,8 @@
 
 namespace taut::host {
 namespace {
+
+constexpr std::size_t most_bytes = std::size_t{1} << 28;
 
 LogRules rules_for(const RunOptions& options, const SceneDescription& scene) {
   LogRules rules;
@@ -26,6 +31,8 @@ LogRules rules_for(const RunOptions& options, const SceneDescription& scene) {
   rules.most_force = condensed.most_force;
   return rules;
 }
+
+std::string name_of(ScalarType scalar) { return scalar == ScalarType::float32 ? "float" : "double"; }
 
 // Where on the path the answer ends, if that is known.
 std::string part(double fraction) {
@@ -54,23 +61,33 @@ LogFollower::LogFollower(const RunOptions& options)
       rules_(rules_for(options, scene_)) {
   std::vector<std::string> left_out;
   rows_ = check_log(options.log, scene_, rules_, &left_out);
-  keep_inputs(options.output, {options.scene, options.log});
+  keep_inputs(options.output, {options.scene, options.log, options.state});
+  keep_inputs(options.state, {options.scene, options.log});
+  if (!options.state.empty() && options.state == options.output)
+    throw InputError(options.state, "", "is the output and the state of one run", "name another file");
+  read_state();
   std::ifstream stream = open_log(options.log);
   for (const std::string& text : left_out) remark(text);
   remark_on_columns(LogReader(stream, options.log, scene_, rules_));
-  if (options.method == Method::estimate) {
+  if (options.method == Method::estimate && !begun_) {
     for (const std::string& text : fill_in_deviations(options.log, rules_, scene_)) remark(text);
   }
   remark_on_substeps();
 }
 
 std::string LogFollower::follow(const RowVisitor& visit) {
-  if (const Followed start = model_->start(options_.substeps); !start.whole())
+  const Followed start =
+      begun_ ? model_->restore(begun_->bytes, begun_->time) : model_->start(options_.substeps);
+  if (!start.whole())
     return options_.scene + ": before the first row" + part(start.fraction) + ": " +
            reason_to_stop(start, scene_);
   std::ifstream stream = open_log(options_.log);
   LogReader log(stream, options_.log, scene_, rules_);
   LogRow row = log.first_row();
+  if (begun_) {
+    row.factor = begun_->factor;
+    row.cables = begun_->cables;
+  }
   Answer answer;
   ProgressLine progress(rows_, wants_progress(options_));
   while (log.next(row)) {
@@ -82,7 +99,50 @@ std::string LogFollower::follow(const RowVisitor& visit) {
     visit(row, answer);
     progress.reach(row.row);
   }
+  last_ = row;
   return "";
+}
+
+void LogFollower::keep_state() const {
+  if (options_.state.empty()) return;
+  SavedState state;
+  state.scalar = name_of(options_.numbers.scalar);
+  state.assumed = assumptions(scene_);
+  state.time = last_.time;
+  state.factor = last_.factor;
+  state.cables = last_.cables;
+  state.bytes = model_->save();
+  OutputFile file(options_.state);
+  file.write(state_text(state, read_text(options_.scene, most_bytes)));
+  file.finish();
+}
+
+void LogFollower::read_state() {
+  if (options_.state.empty() || !std::filesystem::exists(options_.state)) return;
+  begun_ = taut::host::read_state(options_.state, read_text(options_.state, most_bytes),
+                                  read_text(options_.scene, most_bytes), name_of(options_.numbers.scalar));
+  assume(begun_->assumed, scene_);
+}
+
+// What the state began without has no place in it.
+void LogFollower::remark_on_new_columns(const LogReader& log) {
+  const auto is_new = [&](const std::string& column, bool is_known) {
+    if (log.has(column) && !is_known)
+      remark("column " + quote(column) + " is not used: the state began without it");
+  };
+  for (const CableDescription& cable : scene_.cables) {
+    for (std::size_t end = 0; end < 2 && !cable.closed; ++end) {
+      const std::string column = cable.name + "." + end_name(end);
+      if (cable.is_jacked(end))
+        is_new(column + ".stroke", cable.stroke[end].is_given);
+      else
+        is_new(column, cable.cell[end].sd.has_value());
+    }
+    for (std::size_t i = 0; i < cable.segments(); ++i)
+      is_new(cable.name + ".T" + std::to_string(i + 1), cable.force[i].is_given);
+  }
+  for (std::size_t i = 0; i < scene_.struts.size(); ++i)
+    is_new("strut" + std::to_string(i + 1), scene_.struts[i].gauge.is_given);
 }
 
 void LogFollower::remark(const std::string& text) {
@@ -93,10 +153,15 @@ void LogFollower::remark(const std::string& text) {
 // Columns that are not there, and columns without effect.
 void LogFollower::remark_on_columns(const LogReader& log) {
   const bool measures = options_.method == Method::estimate;
+  if (begun_) return remark_on_new_columns(log);
   for (const LoadDescription& load : scene_.loads) {
     if (!log.has(load.name))
       remark("the log has no column " + quote(load.name) + ": the factor of this load stays 0");
   }
+  const auto remark_on_measurement = [&](const std::string& column) {
+    if (!measures && log.has(column))
+      remark("column " + quote(column) + " is a measurement: simulate does not use it");
+  };
   for (const CableDescription& cable : scene_.cables) {
     for (std::size_t end = 0; end < 2; ++end) {
       const std::string column = cable.name + "." + end_name(end);
@@ -106,11 +171,13 @@ void LogFollower::remark_on_columns(const LogReader& log) {
       if (!measures && !cable.is_jacked(end) && log.has(column)) {
         remark("column " + quote(column) + " is a measurement at an anchored end: simulate does not use it");
       }
-      if (!measures && log.has(column + ".stroke")) {
-        remark("column " + quote(column + ".stroke") + " is a measurement: simulate does not use it");
-      }
+      remark_on_measurement(column + ".stroke");
     }
+    for (std::size_t i = 0; i < cable.segments(); ++i)
+      remark_on_measurement(cable.name + ".T" + std::to_string(i + 1));
   }
+  for (std::size_t i = 0; i < scene_.struts.size(); ++i)
+    remark_on_measurement("strut" + std::to_string(i + 1));
 }
 
 void LogFollower::remark_on_substeps() {

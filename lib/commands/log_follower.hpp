@@ -3,9 +3,11 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "lib/files/state_file.hpp"
 #include "lib/kinds/make_model.hpp"
 
 namespace taut::host {
@@ -18,6 +20,7 @@ struct RunOptions {
   NumberFormat numbers;
   int substeps = 1;  ///< load steps a row, for the method stepwise
   AlarmLimits<double> limits;
+  std::string state;  ///< for `estimate`: where the log goes on from, and what it leaves; empty: nothing
 };
 
 /// Gets every row that has an answer, in order.
@@ -39,11 +42,15 @@ class LogFollower {
   /// Follows the log to its last row or to the first that has no answer. Returns where and why the answer
   /// ends; empty if the log is whole.
   std::string follow(const RowVisitor& visit);
+  /// After a log that is whole: writes what the next one goes on from, if the options name a file for it.
+  void keep_state() const;
 
  private:
   void remark(const std::string& text);
   void remark_on_columns(const LogReader& log);
   void remark_on_substeps();
+  void read_state();
+  void remark_on_new_columns(const LogReader& log);
   std::string place(const LogRow& row) const;
 
   const RunOptions& options_;
@@ -51,6 +58,8 @@ class LogFollower {
   std::unique_ptr<Model> model_;
   LogRules rules_;
   std::size_t rows_ = 0;
+  std::optional<SavedState> begun_;  // with the log before
+  LogRow last_;
   std::vector<std::string> remarks_;
 };
 

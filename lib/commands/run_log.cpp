@@ -17,7 +17,10 @@ int run_log(const RunOptions& options) {
     output.write(result_row(scene, row.time, answer, options.numbers, columns));
   });
   output.finish();
-  if (end.empty()) return 0;
+  if (end.empty()) {
+    follower.keep_state();
+    return 0;
+  }
   std::cerr << end << "; the result ends before it\n";
   return 1;
 }

@@ -221,7 +221,8 @@ class Constants {
     return "constexpr ::taut::Knowledge<" + name() + ", Capacity> make_knowledge(" + name() + ") {\n" +
            "  return {/*mu*/ " + numbers(k.mu, 10) + ",\n" + field("grip", numbers(k.grip, 10)) +
            field("capstan", truths(k.capstan)) + field("mu_sd", scalars(k.mu_sd, 10)) +
-           field("shared", truths(k.shared)) + "          /*sensor_sd*/ " + pairs(k.sensor_sd) + "};\n}\n";
+           field("shared", truths(k.shared)) + field("scatter", scalars(k.scatter, 10)) +
+           field("seating_sd", scalars(k.seating_sd, 10)) + "          /*cell*/ " + cells(k.cell) + "};\n}\n";
   }
 
  private:
@@ -252,9 +253,13 @@ class Constants {
     for (const bool value : row) items.emplace_back(value ? "true" : "false");
     return fixed_array(items, 10);
   }
-  std::string pairs(const std::vector<std::array<double, 2>>& table) const {
+  std::string cells(const std::vector<std::array<LoadCell<double>, 2>>& table) const {
+    const auto text = [this](const LoadCell<double>& cell) {
+      return "{" + scalar(cell.sd) + ", " + scalar(cell.gain_sd) + ", " + scalar(cell.zero_sd) + ", " +
+             scalar(cell.hysteresis_sd) + ", " + scalar(cell.up) + ", " + scalar(cell.down) + "}";
+    };
     std::vector<std::string> items;
-    for (const auto& pair : table) items.push_back("{" + scalar(pair[0]) + ", " + scalar(pair[1]) + "}");
+    for (const auto& pair : table) items.push_back("{{" + text(pair[0]) + ", " + text(pair[1]) + "}}");
     return fixed_array(items, 10);
   }
   static std::string numbers(const Row& row, std::size_t indent) {
@@ -296,26 +301,12 @@ class Constants {
   bool single_;
 };
 
-int unknown_mus(const CableLayout<double>& cable, const Row& rho, bool shared) {
-  int free = 0;
-  for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
-    free += rho[static_cast<std::size_t>(j)] > 0 ? 1 : 0;
-  return shared ? std::min(free, 1) : free;
-}
-
 // As Estimator counts them.
-int unknowns(const ExportedArrays& arrays) {
+UnknownCounts unknowns(const ExportedArrays& arrays) {
   using AnyEstimator = Estimator<Condensed<double, Capacity>, 1>;
-  int count = 0;
-  for (std::size_t c = 0; c < arrays.condensed.cables.size(); ++c) {
-    const CableLayout<double>& cable = arrays.condensed.cables[c];
-    const KnowledgeArrays& known = arrays.knowledge;
-    if (known.mu_sd[c] > 0) count += unknown_mus(cable, arrays.condensed.rho, known.shared[c]);
-    for (std::size_t end = 0; end < 2; ++end)
-      if (!cable.closed && cable.ends[end] == End::jacked && known.sensor_sd[c][end] > 0)
-        count += AnyEstimator::remembered_reversals;
-  }
-  return count;
+  const auto is_locked = [&](int j) { return !(arrays.condensed.rho[static_cast<std::size_t>(j)] > 0); };
+  return count_unknowns(arrays.condensed.cables, is_locked, arrays.knowledge,
+                        AnyEstimator::remembered_reversals);
 }
 
 std::string space_of(const ExportedScene& scene) { return identifier(scene.description.name); }
@@ -398,14 +389,17 @@ struct Shared {
     capacity = condensed_counts(scenes[0].description);
     for (const ExportedScene& scene : scenes) {
       capacity = larger(capacity, condensed_counts(scene.description));
-      most_unknowns = std::max({most_unknowns, unknowns(scene.in_float), unknowns(scene.in_double)});
+      for (const UnknownCounts& count : {unknowns(scene.in_float), unknowns(scene.in_double)}) {
+        most_unknowns.carried = std::max(most_unknowns.carried, count.carried);
+        most_unknowns.further = std::max(most_unknowns.further, count.further);
+      }
     }
   }
 
   bool is_one;
   std::string space;  // of the first scene, where the capacity is
   CondensedCounts capacity;
-  int most_unknowns = 1;
+  UnknownCounts most_unknowns = {1, 0};
 };
 
 std::string capacity(const ExportedScene& scene, const Shared& shared) {
@@ -432,13 +426,9 @@ std::string objects(const Shared& shared) {
          "inline constexpr ::taut::Condensed<Scalar, Capacity> condensed = "
          "detail::make_condensed(Scalar());\n\n"
          "/// What is known of friction and load cells, for Estimator. Where the scene has no mu_sd it is "
-         "half "
-         "of "
-         "the mean mu.\n"
-         "/// A load cell without sd has 0 here: at a jack its readings are exact, at an anchored end they "
-         "are "
-         "not "
-         "used.\n"
+         "half of the mean mu.\n"
+         "/// Of a jack that the scene does not say to be exact, an ordinary cell is taken, at an anchored "
+         "end none.\n"
          "template <class Scalar>\n"
          "inline constexpr ::taut::Knowledge<Scalar, Capacity> knowledge = "
          "detail::make_knowledge(Scalar());\n\n"
@@ -446,7 +436,10 @@ std::string objects(const Shared& shared) {
          std::string(shared.is_one ? "this scene" : "every scene of this header") +
          ".\n"
          "constexpr int unknowns = " +
-         std::to_string(shared.most_unknowns) + ";\n\n";
+         std::to_string(shared.most_unknowns.carried) + ";\n" +
+         "/// And its Further: unknowns of load cells at anchored ends.\n"
+         "constexpr int reading_unknowns = " +
+         std::to_string(shared.most_unknowns.further) + ";\n\n";
 }
 
 std::string strut_objects(std::size_t struts, const Shared& shared) {

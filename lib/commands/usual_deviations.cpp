@@ -3,34 +3,179 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "lib/files/text.hpp"
+#include "taut/estimation/noise_level.hpp"
 
 namespace taut::host {
 namespace {
 
-constexpr double usual_mu_sd = 0.5, usual_cell_sd = 0.005;
+constexpr double usual_mu_sd = 0.5, usual_gain_sd = 0.01, usual_zero_sd = 0.002, usual_hysteresis_sd = 0.01,
+                 least_noise = 1e-4, usual_stroke_sd = 1e-3;
+// Of a tendon when it is tensioned.
+constexpr double usual_strain = 0.005;
 
-// The largest force in the column of every load cell; zeros if the scene knows the deviation of all that are
-// read, so that a long log is not read once more.
-std::vector<std::array<double, 2>> largest_readings(const std::string& path, const SceneDescription& scene,
-                                                    const LogRules& rules) {
-  std::vector<std::array<double, 2>> largest(scene.cables.size());
+/// The readings of a gauge in a log: the largest, and how much they scatter.
+class Column {
+ public:
+  void add(double reading) {
+    largest_ = std::max(largest_, std::fabs(reading));
+    if (readings_ >= 2) bends_.push_back(std::fabs(reading - 2 * last_ + before_));
+    before_ = last_;
+    last_ = reading;
+    ++readings_;
+  }
+  double largest() const { return largest_; }
+  // The median of the size of a second difference of white noise is 0.6745 sqrt(6) standard deviations.
+  double noise() {
+    if (bends_.empty()) return least_noise * largest_;
+    const auto middle = bends_.begin() + static_cast<std::ptrdiff_t>(bends_.size() / 2);
+    std::nth_element(bends_.begin(), middle, bends_.end());
+    return std::max(least_noise * largest_, *middle / (0.6745 * std::sqrt(6.0)));
+  }
+
+ private:
+  std::vector<double> bends_;
+  double largest_ = 0, last_ = 0, before_ = 0;
+  std::size_t readings_ = 0;
+};
+
+/// What a gauge is called in a log, and what is known of it.
+struct GaugeColumn {
+  std::string name;
+  InstrumentDescription* instrument;
+  bool of_strut;
+  std::size_t cable, index;
+};
+
+std::vector<GaugeColumn> gauges_of(const LogReader& log, SceneDescription& scene) {
+  std::vector<GaugeColumn> gauges;
+  const auto add = [&](const std::string& name, InstrumentDescription& instrument, bool of_strut,
+                       std::size_t cable, std::size_t index) {
+    const bool is_known = instrument.sd && instrument.gain_sd && instrument.zero_sd;
+    if (log.has(name) && !is_known) gauges.push_back({name, &instrument, of_strut, cable, index});
+  };
+  for (std::size_t c = 0; c < scene.cables.size(); ++c)
+    for (std::size_t i = 0; i < scene.cables[c].segments(); ++i)
+      add(scene.cables[c].name + ".T" + std::to_string(i + 1), scene.cables[c].force[i], false, c, i);
+  for (std::size_t i = 0; i < scene.struts.size(); ++i)
+    add("strut" + std::to_string(i + 1), scene.struts[i].gauge, true, 0, i);
+  return gauges;
+}
+
+// A gauge that the scene says nothing of, or not all, is an ordinary one.
+void fill_in_gauges(const std::string& path, const LogRules& rules, SceneDescription& scene,
+                    std::vector<std::string>& remarks) {
   std::ifstream stream = open_log(path);
   LogReader log(stream, path, scene, rules);
-  bool all_known = true;
-  for (const CableDescription& cable : scene.cables)
-    for (std::size_t end = 0; end < 2; ++end)
-      all_known = all_known && (cable.sensor_sd[end] > 0 || !log.has(cable.name + "." + end_name(end)));
-  if (all_known) return largest;
+  const std::vector<GaugeColumn> gauges = gauges_of(log, scene);
+  if (gauges.empty()) return;
+  std::vector<Column> columns(gauges.size());
   LogRow row = log.first_row();
   while (log.next(row))
-    for (std::size_t c = 0; c < largest.size(); ++c)
+    for (const MeasuredForce& force : row.forces)
+      for (std::size_t g = 0; g < gauges.size(); ++g)
+        if (gauges[g].of_strut == force.of_strut && gauges[g].cable == force.cable &&
+            gauges[g].index == force.index)
+          columns[g].add(force.reading);
+  for (std::size_t g = 0; g < gauges.size(); ++g) {
+    InstrumentDescription& instrument = *gauges[g].instrument;
+    if (columns[g].largest() == 0) continue;
+    instrument.is_given = true;
+    if (!instrument.sd) instrument.sd = columns[g].noise();
+    if (!instrument.gain_sd) instrument.gain_sd = usual_gain_sd;
+    if (!instrument.zero_sd) instrument.zero_sd = usual_zero_sd * columns[g].largest();
+    remarks.push_back("the scene does not say all of the gauge " + quote(gauges[g].name) +
+                      " in \"sensors\": \"sd\" " + plain(*instrument.sd) + " N, \"gain_sd\" " +
+                      plain(*instrument.gain_sd) + " and \"zero_sd\" " + plain(*instrument.zero_sd) +
+                      " N are taken");
+  }
+}
+
+void fill_in_strokes(const std::string& path, const LogRules& rules, SceneDescription& scene,
+                     std::vector<std::string>& remarks) {
+  std::ifstream stream = open_log(path);
+  const LogReader log(stream, path, scene, rules);
+  for (CableDescription& cable : scene.cables)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::string column = cable.name + "." + end_name(end) + ".stroke";
+      InstrumentDescription& stroke = cable.stroke[end];
+      if (!cable.is_jacked(end) || stroke.is_given || !log.has(column)) continue;
+      stroke.is_given = stroke.is_assumed = stroke.has_free_zero = true;
+      stroke.sd = usual_stroke_sd;
+      remarks.push_back("the stroke " + quote(column) +
+                        " is not in \"sensors\": \"sd\" 0.001 m and a free zero are taken");
+    }
+}
+
+// What the readings of a load cell say of it.
+struct CellReadings {
+  double largest = 0;
+  NoiseLevel<double> noise;
+  double time = 0;
+  long count = 0;
+
+  void take(double reading, double at) {
+    largest = std::max(largest, std::fabs(reading));
+    noise.take(reading, at - time);
+    time = at;
+    ++count;
+  }
+};
+
+using CellTable = std::vector<std::array<CellReadings, 2>>;
+
+CellTable read_cells(const std::string& path, const SceneDescription& scene, const LogRules& rules) {
+  CellTable cells(scene.cables.size());
+  std::ifstream stream = open_log(path);
+  LogReader log(stream, path, scene, rules);
+  LogRow row = log.first_row();
+  while (log.next(row))
+    for (std::size_t c = 0; c < cells.size(); ++c)
       for (std::size_t end = 0; end < 2; ++end)
-        if (const double reading = std::fabs(row.cables[c][end].reading.value_or(0));
-            rules.is_possible_force(c, reading))
-          largest[c][end] = std::max(largest[c][end], reading);
-  return largest;
+        if (const auto& reading = row.cables[c][end].reading;
+            reading && rules.is_possible_force(c, *reading)) {
+          CellReadings& cell = cells[c][end];
+          if (cell.count == 0) cell.noise.start(least_noise * std::fabs(*reading));
+          cell.take(*reading, row.time);
+        }
+  return cells;
+}
+
+// What is taken for the parts of an instrument that the scene does not say.
+std::string fill_in(const CellReadings& readings, InstrumentDescription& instrument) {
+  std::string taken;
+  const auto take = [&](std::optional<double>& value, double usual, const std::string& what) {
+    if (value) return;
+    value = usual;
+    taken += (taken.empty() ? "" : ", ") + what;
+  };
+  const double noise = std::max(readings.noise.sd(), least_noise * readings.largest);
+  take(instrument.sd, noise, "sd " + plain(noise) + " N as its readings scatter");
+  take(instrument.gain_sd, usual_gain_sd, "gain_sd " + plain(usual_gain_sd));
+  const double zero = usual_zero_sd * readings.largest;
+  take(instrument.zero_sd, zero, "zero_sd " + plain(zero) + " N");
+  return taken;
+}
+
+// Cells without readings are none.
+void fill_in_cells(const CellTable& cells, SceneDescription& scene, std::vector<std::string>& remarks) {
+  for (std::size_t c = 0; c < scene.cables.size(); ++c) {
+    CableDescription& cable = scene.cables[c];
+    for (std::size_t end = 0; end < 2; ++end) {
+      InstrumentDescription& cell = cable.cell[end];
+      if (cell.exact || cells[c][end].largest == 0) continue;
+      std::string taken = fill_in(cells[c][end], cell);
+      if (cable.is_jacked(end) && !cell.is_given) {
+        cell.part_sd = usual_hysteresis_sd;
+        taken += ", hysteresis sd " + plain(usual_hysteresis_sd);
+      }
+      if (!taken.empty())
+        remarks.push_back("the load cell " + quote(cable.name + "." + end_name(end)) +
+                          " is taken for an ordinary one in what \"sensors\" does not say of it: " + taken);
+    }
+  }
 }
 
 }  // namespace
@@ -49,26 +194,23 @@ std::vector<std::string> fill_in_mu_deviations(SceneDescription& scene) {
   return remarks;
 }
 
+std::vector<std::string> fill_in_jacks(SceneDescription& scene) {
+  std::vector<std::string> remarks;
+  CellTable cells(scene.cables.size());
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end)
+      if (scene.cables[c].is_jacked(end))
+        cells[c][end].largest = usual_strain * scene.cables[c].E * scene.cables[c].A;
+  fill_in_cells(cells, scene, remarks);
+  return remarks;
+}
+
 std::vector<std::string> fill_in_deviations(const std::string& path, const LogRules& rules,
                                             SceneDescription& scene) {
   std::vector<std::string> remarks = fill_in_mu_deviations(scene);
-  const auto largest = largest_readings(path, scene, rules);
-  for (std::size_t c = 0; c < scene.cables.size(); ++c) {
-    CableDescription& cable = scene.cables[c];
-    for (std::size_t end = 0; end < 2; ++end) {
-      if (cable.sensor_sd[end] > 0 || largest[c][end] == 0) continue;
-      const std::string cell = quote(cable.name + "." + end_name(end));
-      if (cable.is_jacked(end)) {
-        remarks.push_back("the load cell " + cell +
-                          " has no \"sd\" in \"sensors\": its readings are taken for exact");
-        continue;
-      }
-      cable.sensor_sd[end] = usual_cell_sd * largest[c][end];
-      remarks.push_back("the load cell " + cell +
-                        " has no \"sd\" in \"sensors\": 0.5 % of its largest reading, " +
-                        plain(cable.sensor_sd[end]) + " N, is taken");
-    }
-  }
+  fill_in_gauges(path, rules, scene, remarks);
+  fill_in_strokes(path, rules, scene, remarks);
+  fill_in_cells(read_cells(path, scene, rules), scene, remarks);
   return remarks;
 }
 

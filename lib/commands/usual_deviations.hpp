@@ -12,8 +12,14 @@ namespace taut::host {
 /// Gives every cable without one a standard deviation of mu: half of it. Returns a remark on each.
 std::vector<std::string> fill_in_mu_deviations(SceneDescription& scene);
 
-/// Gives the scene standard deviations where it has none: half of mu, and 0.5 % of the largest reading of a
-/// load cell at an anchored end. Returns a remark on each.
+/// Gives every jack's load cell that is not exact what the scene does not say of it, without a log: the
+/// largest reading is taken for that of a strain of 0.5 %. Returns a remark on each.
+std::vector<std::string> fill_in_jacks(SceneDescription& scene);
+
+/// Gives the scene standard deviations where it has none: half of mu; of a load cell, and of a measured force
+/// of a segment or strut, its scatter in the log, 1 % of gain and 0.2 % of the largest reading for the zero;
+/// 1 % of the force for the ram of a jack of which the scene says nothing; of a stroke 1 mm and a free zero.
+/// Returns a remark on each.
 std::vector<std::string> fill_in_deviations(const std::string& path, const LogRules& rules,
                                             SceneDescription& scene);
 

@@ -10,7 +10,7 @@
 namespace taut::host {
 
 /// `outlier:C.end`, `sensor:C.start`, `mu:C`, `mu:C.3`, `stuck:C.3`, `elongation:C.end`, `force-high:C.T3`,
-/// `force-low:C.T3`, `no-information:C.start`, `gauge:strut3` or `lift-off:C.end`; joints, segments and
+/// `force-low:C.T3`, `no-information:C.start`, `gauge:strut3`, `gauge:C.T3` or `lift-off:C.end`; joints, segments and
 /// struts are counted from 1, blanks in a name are `_`.
 inline std::string alarm_word(const Alarm& alarm, const SceneDescription& scene) {
   const std::string number = std::to_string(alarm.place + 1);
@@ -39,6 +39,8 @@ inline std::string alarm_word(const Alarm& alarm, const SceneDescription& scene)
       return "no-information:" + end;
     case Alarm::Kind::strut:
       return "gauge:" + end;
+    case Alarm::Kind::segment:
+      return "gauge:" + cable + ".T" + number;
     case Alarm::Kind::lift_off:
       return "lift-off:" + end;
   }

@@ -11,16 +11,17 @@
 namespace taut::host {
 
 /// What a column of a log holds.
-enum class Quantity { time, factor, force, locked, stroke };
+enum class Quantity { time, factor, force, locked, stroke, segment_force, strut_force };
 
 /// A column: its quantity and whose it is.
 struct LogColumn {
   Quantity quantity = Quantity::time;
-  std::size_t index = 0;  ///< of the load pattern or the cable
-  std::size_t end = 0;    ///< of the cable: 0 start, 1 end
+  std::size_t index = 0;  ///< of the load pattern, the cable or the strut
+  std::size_t end = 0;    ///< of the cable: 0 start, 1 end; or the segment
 };
 
-/// All columns of a scene by name, `time` and those of every load pattern and every end of an open cable.
+/// All columns of a scene by name: `time`, those of every load pattern and every end of an open cable, and
+/// measured forces of segments and struts.
 class LogColumns {
  public:
   explicit LogColumns(const SceneDescription& scene) {
@@ -35,6 +36,11 @@ class LogColumns {
         add(name + ".stroke", {Quantity::stroke, i, end});
       }
     }
+    for (std::size_t i = 0; i < scene.cables.size(); ++i)
+      for (std::size_t k = 0; k < scene.cables[i].segments(); ++k)
+        add(scene.cables[i].name + ".T" + std::to_string(k + 1), {Quantity::segment_force, i, k});
+    for (std::size_t i = 0; i < scene.struts.size(); ++i)
+      add("strut" + std::to_string(i + 1), {Quantity::strut_force, i, 0});
   }
 
   /// Null if there is no such column.

@@ -188,6 +188,7 @@ bool LogReader::next(LogRow& row) {
   for (auto& cable : row.cables) {
     for (EndRow& end : cable) end.reading = end.stroke = std::nullopt;
   }
+  row.forces.clear();
   for (std::size_t i = 0; i < columns_.size(); ++i) take(i, row);
   if (rows_ > 1) check_time(row.time, time_before);
   check_jacks(row);
@@ -223,6 +224,15 @@ void LogReader::take(std::size_t i, LogRow& row) {
     take_factor(i, row.factor[column.index]);
     return;
   }
+  if (column.quantity == Quantity::segment_force) {
+    const InstrumentDescription& instrument = scene_.cables[column.index].force[column.end];
+    row.forces.push_back({false, column.index, column.end, instrument.force_of(number(i))});
+    return;
+  }
+  if (column.quantity == Quantity::strut_force) {
+    row.forces.push_back({true, 0, column.index, scene_.struts[column.index].gauge.force_of(number(i))});
+    return;
+  }
   EndRow& end = row.cables[column.index][column.end];
   if (column.quantity == Quantity::stroke) {
     end.stroke = number(i);
@@ -233,7 +243,7 @@ void LogReader::take(std::size_t i, LogRow& row) {
     }
     end.locked = fields_[i] == "1";
   } else {
-    end.reading = number(i);
+    end.reading = scene_.cables[column.index].cell[column.end].force_of(number(i));
     // A reading that is impossible is for the estimator to refuse.
     if (!rules_.are_readings || rules_.is_possible_force(column.index, *end.reading))
       end.force = *end.reading;

@@ -23,6 +23,13 @@ struct EndRow {
   std::optional<double> stroke;   ///< payout given in this row [m]
 };
 
+/// The force of a segment or a strut, measured in a row [N].
+struct MeasuredForce {
+  bool of_strut = false;
+  std::size_t cable = 0, index = 0;  ///< segment of the cable; or strut
+  double reading = 0;
+};
+
 /// A row of a log, with what it keeps from the rows before.
 struct LogRow {
   std::size_t row = 0;                        ///< counted from 1 without the header
@@ -30,6 +37,7 @@ struct LogRow {
   double time = 0;                            ///< [s]
   std::vector<double> factor;                 ///< of every load pattern
   std::vector<std::array<EndRow, 2>> cables;  ///< start and end of every cable
+  std::vector<MeasuredForce> forces;          ///< measured in this row
 };
 
 /// What a log may hold beyond its format.

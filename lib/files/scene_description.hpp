@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,33 @@ struct NodeDescription {
   std::uint8_t held = held_none;  ///< see Axis
 };
 
+/// What the file says of an instrument, by column of the log. Units: those of the column.
+struct InstrumentDescription {
+  bool is_given = false;
+  bool is_assumed = false;  ///< not by the file, as an ordinary one
+  bool exact = false;       ///< has no error at all
+  std::optional<double> sd, gain_sd, zero_sd;
+  double resolution = 0;
+  double part = 0, part_sd = 0;  ///< hysteresis of a ram, relative to the force
+  bool right_while_it_pulls = false;
+  std::vector<std::array<double, 2>> calibration;  ///< readings and their forces [N], both ascending
+  bool has_free_zero = false;                      ///< a stroke that is read from any mark
+
+  /// The force behind a reading of a calibrated gauge [N]; beyond the table its ends go on straight.
+  double force_of(double reading) const {
+    if (calibration.size() < 2) return reading;
+    std::size_t i = 1;
+    while (i + 1 < calibration.size() && reading > calibration[i][0]) ++i;
+    const auto &from = calibration[i - 1], &to = calibration[i];
+    return from[1] + (reading - from[0]) * (to[1] - from[1]) / (to[0] - from[0]);
+  }
+};
+
 /// A strut between two nodes of SceneDescription::nodes. Units: N/m2, m2.
 struct StrutDescription {
   std::array<int, 2> nodes{};
   double E = 0, A = 0;
+  InstrumentDescription gauge;  ///< of its axial force
 };
 
 /// A cable; the fields mean what they mean in Cable.
@@ -39,7 +63,13 @@ struct CableDescription {
   bool has_mu_sd = false;  ///< the file gives it
   bool shared_mu = false;
   double alpha = 0, seating = 0;
-  std::array<double, 2> sensor_sd{};  ///< 0: not given
+  double E_sd = 0.03;                           ///< relative standard deviation of E A
+  double temperature_sd = 0;                    ///< of what no column says of its temperature once locked [K]
+  std::optional<double> seating_sd;             ///< [m]
+  double scatter = 0.1, drift = 0;              ///< of mu from joint to joint, and by a pass; relative
+  std::array<InstrumentDescription, 2> cell;    ///< load cells at start and end
+  std::array<InstrumentDescription, 2> stroke;  ///< of the jacks
+  std::vector<InstrumentDescription> force;     ///< of every segment
 
   std::size_t segments() const { return closed ? path.size() : path.size() - 1; }
   std::size_t joints() const { return closed ? path.size() : path.size() - 2; }

@@ -8,6 +8,7 @@
 
 #include "lib/files/file_text.hpp"
 #include "lib/files/input_error.hpp"
+#include "lib/files/instrument_reader.hpp"
 #include "lib/files/json_field.hpp"
 #include "lib/files/log_columns.hpp"
 #include "lib/files/text.hpp"
@@ -47,6 +48,9 @@ const Keys cable_keys = {
     {"prestrain", false, ""},
     {"alpha", false, ""},
     {"seating", false, ""},
+    {"E_sd", false, ""},
+    {"seating_sd", false, ""},
+    {"temperature_sd", false, ""},
 };
 const Keys friction_keys = {
     {"law", true, "\"point\" or \"capstan\""},
@@ -54,6 +58,8 @@ const Keys friction_keys = {
     {"wobble", false, ""},
     {"mu_sd", false, ""},
     {"shared", false, ""},
+    {"scatter", false, ""},
+    {"drift", false, ""},
 };
 const Keys substructure_keys = {
     {"name", true, "a name for messages"},
@@ -61,8 +67,6 @@ const Keys substructure_keys = {
     {"stiffness", true, "a symmetric matrix as a list of rows [N/m]"},
 };
 const Keys load_keys = {{"forces", false, ""}, {"temperature", false, ""}};
-const Keys sensor_keys = {{"sd", true, "the standard deviation of the load cell [N]"}};
-
 // Turns the tree of a scene file into a description, part by part in the order in which one refers to
 // another.
 class SceneReader {
@@ -77,7 +81,7 @@ class SceneReader {
     if (const auto cables = root_.find("cables")) read_cables(*cables);
     if (const auto substructures = root_.find("substructures")) read_substructures(*substructures);
     if (const auto loads = root_.find("loads")) read_loads(*loads);
-    if (const auto sensors = root_.find("sensors")) read_sensors(*sensors);
+    if (const auto sensors = root_.find("sensors")) read_instruments(*sensors, scene_);
     return std::move(scene_);
   }
 
@@ -234,6 +238,12 @@ class SceneReader {
       if (const auto seating = item.find("seating")) {
         cable.seating = seating->number("the wedge draw-in [m] as a number");
       }
+      if (const auto sd = item.find("E_sd")) cable.E_sd = deviation(*sd, "of E A, relative, as a number");
+      if (const auto sd = item.find("seating_sd"))
+        cable.seating_sd = deviation(*sd, "of the seating [m] as a number");
+      if (const auto sd = item.find("temperature_sd"))
+        cable.temperature_sd = deviation(*sd, "of the temperature [K] as a number");
+      cable.force.resize(cable.segments());
       scene_.cables.push_back(std::move(cable));
     }
   }
@@ -298,6 +308,15 @@ class SceneReader {
       cable.has_mu_sd = true;
     }
     if (const auto shared = field.find("shared")) cable.shared_mu = shared->boolean("true or false");
+    if (const auto scatter = field.find("scatter"))
+      cable.scatter = deviation(*scatter, "of mu from joint to joint, relative, as a number");
+    if (const auto drift = field.find("drift")) cable.drift = drift->number("the drift of mu as a number");
+  }
+
+  static double deviation(const Field& field, const std::string& of) {
+    const double sd = field.amount("the standard deviation " + of);
+    if (!(sd >= 0)) field.refuse("a standard deviation of " + plain(sd), "write zero or more");
+    return sd;
   }
 
   // One number for all, or a list with one for each.
@@ -375,31 +394,6 @@ class SceneReader {
       const int index = cable(kelvin, name);
       load.temperatures.push_back({index, kelvin.number("a temperature change [K] as a number")});
     }
-  }
-
-  void read_sensors(const Field& field) {
-    for (const auto& [name, item] : field.members("an object that gives cable ends their load cells")) {
-      double& sd = sensor_at(item, name);
-      item.require_keys(sensor_keys, "a load cell: { \"sd\": ... }");
-      const Field value = item.at("sd");
-      sd = value.amount("the standard deviation [N] as a number");
-      if (!(sd > 0)) value.refuse("a standard deviation of " + plain(sd), "write one greater than zero");
-    }
-  }
-
-  // Where the standard deviation of the load cell `<cable>.start` or `<cable>.end` goes.
-  double& sensor_at(const Field& item, const std::string& name) {
-    std::vector<std::string> known;
-    for (CableDescription& cable : scene_.cables) {
-      if (cable.closed && (name == cable.name + ".start" || name == cable.name + ".end")) {
-        item.refuse("cable " + quote(cable.name) + " is closed and has no ends", "remove the load cell");
-      }
-      for (std::size_t end = 0; !cable.closed && end < 2; ++end) {
-        known.push_back(cable.name + "." + end_name(end));
-        if (name == known.back()) return cable.sensor_sd[end];
-      }
-    }
-    item.refuse("there is no cable end " + quote(name), suggestion(name, known, "the cable ends are"));
   }
 
   Field root_;

@@ -93,11 +93,13 @@ KnowledgeArrays knowledge_arrays(const SceneDescription& scene) {
   arrays.mu = row_of(knowledge->mu, static_cast<int>(joints));
   arrays.grip = row_of(knowledge->grip, static_cast<int>(joints));
   arrays.mu_sd = row_of(knowledge->mu_sd, cables);
+  arrays.seating_sd = row_of(knowledge->seating_sd, cables);
+  arrays.scatter = row_of(knowledge->scatter, cables);
   for (int c = 0; c < cables; ++c) {
     arrays.capstan.push_back(knowledge->capstan[c]);
     arrays.shared.push_back(knowledge->shared[c]);
-    const auto& sd = knowledge->sensor_sd[c];
-    arrays.sensor_sd.push_back({static_cast<double>(sd[0]), static_cast<double>(sd[1])});
+    const auto& cell = knowledge->cell[c];
+    arrays.cell.push_back({LoadCell<double>::of(cell[0]), LoadCell<double>::of(cell[1])});
   }
   return arrays;
 }

@@ -36,7 +36,8 @@ struct KnowledgeArrays {
   std::vector<bool> capstan;
   CondensedArrays::Row mu_sd;
   std::vector<bool> shared;
-  std::vector<std::array<double, 2>> sensor_sd;
+  std::vector<double> scatter, seating_sd;
+  std::vector<std::array<LoadCell<double>, 2>> cell;
 };
 
 /// Collects it from a usable scene in the given type.

@@ -1,6 +1,8 @@
 // A scene and the method that computes it, behind one interface for all their types.
 #pragma once
 
+#include <string>
+
 #include "lib/files/answer.hpp"
 #include "lib/files/log_file.hpp"
 #include "lib/files/scene_description.hpp"
@@ -26,8 +28,14 @@ class Model {
   virtual Followed start(int substeps) = 0;
   /// Follows the path to the loads and jack forces of the row.
   virtual Followed advance(const LogRow& row, int substeps) = 0;
+  /// All that restore() needs, as bytes; empty for a method that cannot go on.
+  virtual std::string save() const { return ""; }
+  /// In place of start(): goes on where a model of the same scene was saved, with its last row at `time` [s].
+  virtual Followed restore(const std::string& bytes, double time);
   /// The present state.
   virtual void read(Answer& answer) const = 0;
 };
+
+inline Followed Model::restore(const std::string&, double) { return {Status::at(Code::bad_sample, Place::none, 0), 0}; }
 
 }  // namespace taut::host

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "lib/files/scene_description.hpp"
@@ -17,6 +18,21 @@ std::array<double, static_cast<std::size_t>(Dimension)> shortened(const std::arr
   return axes;
 }
 
+/// What an instrument's description says, for the core: what it does not say is zero.
+inline LoadCell<double> load_cell(const InstrumentDescription& described) {
+  LoadCell<double> cell;
+  if (described.exact) return cell;
+  // A display that steps scatters by its step.
+  const double step = described.resolution;
+  if (described.sd) cell.sd = std::sqrt(*described.sd * *described.sd + step * step / 12);
+  cell.gain_sd = described.gain_sd.value_or(0);
+  cell.zero_sd = described.zero_sd.value_or(0);
+  cell.hysteresis_sd = described.part_sd;
+  cell.up = described.right_while_it_pulls ? 1 : 1 + described.part;
+  cell.down = described.right_while_it_pulls ? 1 - 2 * described.part : 1 - described.part;
+  return cell;
+}
+
 /// Adds a cable with the friction of every joint and the prestrain of every segment.
 template <class SceneType>
 void build_cable(const CableDescription& described, SceneType& scene) {
@@ -29,9 +45,13 @@ void build_cable(const CableDescription& described, SceneType& scene) {
   cable.wobble = described.wobble;
   cable.mu_sd = described.mu_sd;
   cable.shared_mu = described.shared_mu;
+  if (described.shared_mu) cable.scatter = described.scatter;
   cable.alpha = described.alpha;
+  // A cable that is stiffer than thought loses more.
+  cable.seating_sd =
+      std::hypot(described.seating_sd.value_or(described.seating / 4), described.E_sd * described.seating);
   cable.seating = described.seating;
-  cable.sensor_sd = described.sensor_sd;
+  for (std::size_t end = 0; end < 2; ++end) cable.cell[end] = load_cell(described.cell[end]);
   const int index = scene.add_cable(cable, described.path.data(), static_cast<int>(described.path.size()));
   if (index < 0) return;  // validate() reports what had no room
   const Cable<double>& added = scene.cables[index];

@@ -38,7 +38,8 @@ constexpr std::array<std::pair<const char*, AlarmMeaning>, 10> meanings = {{
       "nothing about mu.",
       "Nothing. Readings taken while the cable slides over all joints are worth more."}},
     {"gauge",
-     {"The strain gauge on this strut contradicts the model by more than five standard deviations.",
+     {"The measured force of this strut or segment contradicts the model by more than five standard "
+      "deviations.",
       "Check the gauge (zero, temperature, bending of the strut), then the scene: loads, areas, mu and its "
       "sd."}},
     {"lift-off",

@@ -34,9 +34,11 @@ constexpr TrussString make_truss_string() {
   cable.mu = 0.12;
   cable.mu_sd = 0.03;
   cable.shared_mu = true;
-  cable.sensor_sd[0] = 500;
+  cable.cell[0].sd = 500;
   cable.ends[1] = taut::End::jacked;
+  cable.scatter = 0.1;
   cable.seating = 0.004;
+  cable.seating_sd = 0.0010071742649611338;  // a quarter of it, and 3 % for E A
   scene.add_cable(cable, {a, p, q, r, e});
   const int roof = scene.add_load();
   scene.add_force(roof, b, {0, -40000});

@@ -19,6 +19,12 @@ struct JackReading {
   Scalar variance = 0;  ///< of that estimate before anything else has been measured [N^2]
 };
 
+/// What is expected of a reading.
+template <class Scalar>
+struct Expected {
+  Scalar value = 0, variance = 0;
+};
+
 /// A reading of an instrument.
 template <class Scalar>
 struct Measured {
@@ -33,8 +39,9 @@ struct Measured {
 /// where the model is linearized. What several measurements of one row have in common, the errors of the
 /// jacks' readings, are unknowns of that row alone.
 ///
-/// First the unknowns of friction are added, whose bounds are kept, then others, which are in use as soon as
-/// they have a variance.
+/// The unknowns are added in this order: those of friction, whose bounds are kept; those that jacks' forces
+/// depend on; errors that friction remembers, which are in use as soon as they have a variance; those that
+/// readings alone depend on. The model is linearized anew for the first and the third.
 template <class Scalar, int Parameters, int Jacks>
 class Belief {
  public:
@@ -54,7 +61,7 @@ class Belief {
   static constexpr Scalar gate = 25;
 
   void clear() {
-    size_ = friction_ = in_use_ = 0;
+    size_ = friction_ = loads_ = carried_ = in_use_ = 0;
     state_.mean.fill(Scalar(0));
     state_.linearized_at.fill(Scalar(0));
     state_.covariance = {};
@@ -75,7 +82,15 @@ class Belief {
     most_[p] = -larger(-most_[p], -most);
   }
   /// What is added from here on is not friction.
-  void end_friction() { friction_ = in_use_ = size_; }
+  void end_friction() { friction_ = loads_ = carried_ = in_use_ = size_; }
+  /// What is added from here on are no constants of jacks' instruments.
+  void end_loads() { loads_ = carried_ = in_use_ = size_; }
+  /// What is added from here on changes no force.
+  void end_carried() { carried_ = size_; }
+  /// All have been added.
+  void end() {
+    if (size_ > carried_) in_use_ = size_;
+  }
   /// Something new takes the place of unknown `p`, independent of all others.
   void renew(int p, Scalar sd) {
     in_use_ = larger(in_use_, p + 1);
@@ -86,7 +101,8 @@ class Belief {
   /// The model is linearized at `values` from here on. Returns by how much each unknown in use moves.
   Values linearize_at(const Values& values) {
     Values change;
-    for (int p = 0; p < in_use_; ++p) {
+    for (int p = 0; p < carried(); ++p) {
+      if (p >= friction_ && p < loads_) continue;
       change[p] = values[p] - state_.linearized_at[p];
       state_.linearized_at[p] = values[p];
     }
@@ -101,12 +117,14 @@ class Belief {
 
   int size() const { return size_; }
   int in_use() const { return in_use_; }
+  /// Those in use that forces depend on: the first ones.
+  int carried() const { return in_use_ < carried_ ? in_use_ : carried_; }
   bool has_friction() const { return friction_ > 0; }
   const Values& mean() const { return state_.mean; }
   Scalar mean(int p) const { return state_.mean[p]; }
   Scalar linearized_at(int p) const { return state_.linearized_at[p]; }
   Scalar variance(int p) const { return state_.covariance[p][p]; }
-  /// Variance S P S^T, Eq. (20), of a number whose derivative by unknown `p` is derivative(p). Cost: half the
+  /// Variance S P S^T, Eq. (20), of a force whose derivative by unknown `p` is derivative(p). Cost: half the
   /// square of the unknowns in use.
   template <class Derivatives>
   [[gnu::always_inline]] Scalar variance_of(const Derivatives& derivative) const {
@@ -114,13 +132,32 @@ class Belief {
     std::array<Scalar, static_cast<std::size_t>(Parameters)> derivatives;
     const auto S = [&derivatives](int p) -> Scalar& { return derivatives[static_cast<std::size_t>(p)]; };
     Scalar variance = 0;
-    for (int p = 0; p < in_use_; ++p) {
+    for (int p = 0, n = carried(); p < n; ++p) {
       S(p) = derivative(p);
       Scalar sum = S(p) * state_.covariance[p][p];
       for (int q = 0; q < p; ++q) sum += 2 * S(q) * state_.covariance[p][q];
       variance += S(p) * sum;
     }
     return variance;
+  }
+
+  /// The same of a reading with the derivatives `H` by all unknowns in use.
+  Scalar variance_of_reading(const Values& H) const {
+    Scalar variance = 0;
+    for (int p = 0; p < in_use_; ++p)
+      for (int q = 0; q < in_use_; ++q) variance += H[p] * state_.covariance[p][q] * H[q];
+    return variance;
+  }
+
+  /// A prediction at the best estimate of unknowns and loads, and its variance with the noise of a reading.
+  Expected<Scalar> expect(const PredictionType& prediction, const JackReadings& jacks, Scalar sd) const {
+    Expected<Scalar> y = {prediction.value, sd * sd + variance_of_reading(prediction.H)};
+    for (int p = 0; p < in_use_; ++p) y.value += prediction.H[p] * (state_.mean[p] - state_.linearized_at[p]);
+    for (int k = 0; k < jacks.size(); ++k) {
+      y.value += prediction.by_jack[k] * jacks[k].beyond;
+      y.variance += prediction.by_jack[k] * prediction.by_jack[k] * jacks[k].variance;
+    }
+    return y;
   }
 
   /// Begins a row: nothing of it has been measured yet.
@@ -229,7 +266,7 @@ class Belief {
     FixedArray<FixedArray<Scalar, Jacks>, Jacks> with_error;
   };
 
-  int size_ = 0, friction_ = 0;
+  int size_ = 0, friction_ = 0, loads_ = 0, carried_ = 0;
   int in_use_ = 0;  // the unknowns beyond have no variance yet
   State state_;
   Values least_, most_;

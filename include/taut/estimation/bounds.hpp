@@ -25,7 +25,7 @@ struct ForceRange {
 template <class Scalar>
 struct BoundWidths {
   Scalar mu = 2;      ///< mu is at most its nominal value and so many of its standard deviations
-  Scalar sensor = 2;  ///< a load cell is off by at most so many of its own
+  Scalar sensor = 2;  ///< a load cell is off by at most so many of its own, of each kind of its errors
 };
 
 /// Bounds on every segment of a cable whose past is not known: a controller switched on beside a stressed
@@ -66,8 +66,11 @@ bool find_bounds(
   for (std::size_t end = 0; end < 2; ++end) {
     if (!ends[end].has_force) continue;
     any = true;
-    const Scalar off = widths.sensor * knowledge.sensor_sd[c][end];
-    Scalar least = larger(Scalar(0), ends[end].force - off), most = larger(Scalar(0), ends[end].force + off);
+    const LoadCell<Scalar>& cell = knowledge.cell[c][end];
+    const Scalar force = ends[end].force;
+    const Scalar off = widths.sensor * (cell.sd + cell.zero_sd + (cell.gain_sd + cell.hysteresis_sd) * force);
+    Scalar least = larger(Scalar(0), force / larger(cell.up, cell.down) - off),
+           most = larger(Scalar(0), -force / larger(-cell.up, -cell.down) + off);
     const int n = cable.segments();
     for (int i = 0; i < n; ++i) {
       const int at = end == 0 ? i : n - 1 - i;

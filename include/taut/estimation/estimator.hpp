@@ -10,6 +10,7 @@
 #include "taut/estimation/far_ends.hpp"
 #include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/friction_filter.hpp"
+#include "taut/estimation/gauges.hpp"
 #include "taut/estimation/jack_loads.hpp"
 #include "taut/estimation/knowledge.hpp"
 #include "taut/estimation/monitoring.hpp"
@@ -34,13 +35,15 @@ namespace taut {
 /// Strain gauges on struts and the strokes of jacks are measurements of the same kind for whoever has them:
 /// take_strut(), take_stroke().
 ///
-/// `Parameters` bounds the number of unknowns: one a cable with a shared mu, one a joint otherwise; and
+/// `Parameters` bounds the number of unknowns that forces depend on: one a cable with a shared mu, one a
+/// joint otherwise; gain, zero and hysteresis of a jack's load cell where they are not known; and
 /// `remembered_reversals` of every jack whose load cell has noise. If there is no room for these, reversals
-/// are taken for exact.
+/// are taken for exact. `Further` bounds those that readings alone depend on: gain and zero of cells at
+/// anchored ends. See count_unknowns().
 ///
 /// Nothing here may be called from an interrupt while another call is under way; two estimators share
 /// nothing.
-template <class CondensedType, int Parameters>
+template <class CondensedType, int Parameters, int Further = 0>
 class Estimator {
  public:
   using Scalar = typename CondensedType::Scalar;
@@ -49,11 +52,13 @@ class Estimator {
   using TrackerType = Tracker<CondensedType, Parameters>;
   using KnowledgeType = Knowledge<Scalar, Cap>;
   using ReadingsType = Readings<Scalar, Cap>;
-  using FilterType = FrictionFilter<CondensedType, Parameters>;
+  using FilterType = FrictionFilter<CondensedType, Parameters, Further>;
   /// Reversals of every jack that friction is taken to remember.
   static constexpr int remembered_reversals = 2;
   using JacksType = JackLoads<Scalar, Cap, remembered_reversals>;
   using FarEndsType = FarEnds<FilterType, JacksType>;
+  using GaugesType = Gauges<Scalar, Further, Cap::cables>;
+  using NoGauges = FixedList<LoadCell<Scalar>, 0>;
   using Alarms = FixedList<Alarm, 8 + 4 * Cap::cables + Cap::joints + Cap::segments>;
 
   /// All that restore() needs to go on with the same bits, as Tracker::State: a plain value.
@@ -62,33 +67,49 @@ class Estimator {
     typename JacksType::State jacks;
     typename FilterType::State friction;
     typename FarEndsType::State far_ends;
+    typename GaugesType::State gauges;
   };
 
   // Beginning.
 
   /// Begins without loads, with friction as it is known beforehand. `condensed` and `knowledge` must outlive
-  /// the estimator. Fails with `capacity_exceeded` if and only if there are more unknown mu than Parameters
-  /// (the amount is what is missing), else as Tracker::start() does. Cost: that of the
-  /// prestrain.
+  /// the estimator; `gauges`, a range of LoadCell, are the instruments whose readings take_segment(),
+  /// take_strut() and take_stroke() are given. Fails with `capacity_exceeded` if and only if there are more
+  /// unknown mu than Parameters, or more gauges, or unknowns of them, than Further (the amount is what is
+  /// missing), else as Tracker::start() does. Cost: that of the prestrain.
+  template <class Cells = NoGauges>
   Progress<Scalar> start(const CondensedType& condensed, const KnowledgeType& knowledge,
-                         const AlarmLimits<Scalar>& limits = {}) {
-    const Status known = begin(condensed, knowledge, limits);
+                         const AlarmLimits<Scalar>& limits = {}, const Cells& gauges = {}) {
+    const Status known = begin(condensed, knowledge, limits, gauges);
     if (!known) return {known, Scalar(0), 0};
-    return tracker_.start(condensed, filter_.friction(condensed));
+    return tracker_.start(condensed, filter_.friction(condensed), load_errors());
   }
   /// The state between two rows. Cost: a copy of it.
-  State save() const { return {tracker_.save(), jacks_.save(), filter_.save(), far_ends_.save()}; }
+  State save() const {
+    State state = {confirmed_.tracker, jacks_.save(), filter_.save(), far_ends_.save(), gauges_.save()};
+    if (is_ahead_)
+      confirmed_.put_back(state.jacks);
+    else
+      state.tracker = tracker_.save();
+    return state;
+  }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `capacity_exceeded` if and
   /// only if start() would, and with `bad_sample` if the state is none of this scene; then only start() or
   /// another restore() may follow. Cost: that of one event.
+  template <class Cells = NoGauges>
   Status restore(const CondensedType& condensed, const KnowledgeType& knowledge, const State& state,
-                 const AlarmLimits<Scalar>& limits = {}) {
-    const Status known = begin(condensed, knowledge, limits);
+                 const AlarmLimits<Scalar>& limits = {}, const Cells& gauges = {}) {
+    const Status known = begin(condensed, knowledge, limits, gauges);
     if (!known) return known;
     jacks_.restore(state.jacks);
     filter_.restore(state.friction);
     far_ends_.restore(state.far_ends);
-    return tracker_.restore(condensed, filter_.friction(condensed), state.tracker);
+    gauges_.restore(state.gauges);
+    is_ahead_ = false;
+    const Status restored =
+        tracker_.restore(condensed, filter_.friction(condensed), state.tracker, load_errors());
+    if (restored) look_ahead();
+    return restored;
   }
 
   // A row of readings.
@@ -107,9 +128,12 @@ class Estimator {
     for (int i = 0; i < load_patterns(model()); ++i)
       if (!(std::fabs(readings.sample.factor[i]) <= model().most_factor[i]))
         return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
+    go_back();
     begin_row();
     Corners corners;
     const bool has_more = condition(readings, corners);
+    for (int k = 0; k < jacks_.size(); ++k)
+      if (!jacks_[k].at.reversed) change_branch(k);
     Progress<Scalar> progress;
     if (corners.any() || !try_extend(tracker_, jacks_, readings.sample)) {
       learn_waiting();
@@ -118,9 +142,18 @@ class Estimator {
                        [this](int k) { remember_reversal(k); });
       if (corners.any() || progress.events > 0) far_ends_.restart();
       if (!progress.status || progress.fraction < 1) return progress;
+      if (corners.locks && remember_seating())
+        progress = join(progress, tracker_.advance(jacks_.target(readings.sample), event_budget));
+      if (!progress.status) return progress;
     }
+    for (int e = 0; e < far_ends_.ends().size(); ++e) {
+      const EndReading<Scalar>& given = far_ends_.ends()[e].in(readings.ends);
+      if (given.has_force) far_ends_.follow_noise(e, given.force, readings.dt);
+    }
+    if (gauges_.size() > 0) follow_gauges(corners, readings.dt);
     if (!jacks_.may_have_reversed()) measure_far_ends(readings);
     if (has_more) check_jacks(readings);
+    look_ahead();
     if (!is_friction_fine_ && filter_.belief().has_friction())
       is_friction_fine_ = check_friction(model().cables, filter_, alarms_);
     if (limits_.has_force())
@@ -136,7 +169,7 @@ class Estimator {
   /// `no_information`. Cost: an update, with at most four calls of Tracker::adjust().
   void take_strut(const CondensedStruts<Scalar, Cap>& rows, int strut, Scalar reading, Scalar sd) {
     const auto predict = [&](auto& prediction) {
-      predict_strut(tracker_, rows, strut, filter_.belief().in_use(), jacks_.ends(), prediction);
+      predict_strut(tracker_, rows, strut, filter_.belief(), jacks_.ends(), prediction);
     };
     take_measurement(predict, reading, sd, Alarm::of(Alarm::Kind::strut, -1, strut));
   }
@@ -149,9 +182,43 @@ class Estimator {
     const int k = jacks_.find(cable, end);
     if (k < 0 || jacks_[k].locked) return;
     const auto predict = [&](auto& prediction) {
-      predict_stroke(tracker_, jacks_.end(k), filter_.belief().in_use(), jacks_.ends(), prediction);
+      predict_stroke(tracker_, jacks_.end(k), filter_.belief(), jacks_.ends(), prediction);
     };
     take_measurement(predict, reading, sd, alarm_at(Alarm::Kind::elongation, jacks_.end(k)));
+  }
+
+  /// The same of instruments with unknowns of their own: numbers in the list that start() was given. Which
+  /// readings count is told by Gauges; all may be handed in. What contradicts raises Alarm::Kind::strut,
+  /// `elongation`, or `segment` for the measured force of a segment [N].
+  void take_strut(const CondensedStruts<Scalar, Cap>& rows, int strut, Scalar reading, Gauge gauge) {
+    const auto predict = [&](auto& prediction) {
+      predict_strut(tracker_, rows, strut, filter_.belief(), jacks_.ends(), prediction);
+    };
+    take_gauge(predict, reading, gauge, Alarm::of(Alarm::Kind::strut, -1, strut));
+  }
+  void take_stroke(int cable, std::size_t end, Scalar reading, Gauge gauge) {
+    const int k = jacks_.find(cable, end);
+    if (k < 0 || jacks_[k].locked) return;
+    const auto predict = [&](auto& prediction) {
+      predict_stroke(tracker_, jacks_.end(k), filter_.belief(), jacks_.ends(), prediction);
+    };
+    take_gauge(predict, reading, gauge, alarm_at(Alarm::Kind::elongation, jacks_.end(k)));
+  }
+  void take_segment(int segment, Scalar reading, Gauge gauge) {
+    int c = 0;
+    while (segment >= model().cables[c].first_segment + model().cables[c].segments()) ++c;
+    const auto predict = [&](auto& prediction) {
+      predict_tension(tracker_, segment, filter_.belief(), jacks_.ends(), prediction);
+    };
+    take_gauge(predict, reading, gauge,
+               Alarm::of(Alarm::Kind::segment, c, segment - model().cables[c].first_segment));
+  }
+  const GaugesType& gauges() const { return gauges_; }
+  /// The best estimate of what a gauge reads where there is nothing: a free zero with the mark that it was
+  /// read from.
+  Scalar zero(Gauge gauge) const {
+    const int p = gauges_.unknowns(gauge).zero;
+    return gauges_.mark(gauge) + (p < 0 ? Scalar(0) : filter_.belief().mean(p));
   }
 
   // The answers.
@@ -159,12 +226,10 @@ class Estimator {
   /// Force of a segment [N], >= 0, and its standard deviation [N]; both at once take hardly longer than the
   /// deviation alone. Cost: of a force one product a jack and unknown, of a deviation half the square of the
   /// unknowns more.
-  Scalar force(int segment) const {
-    return estimate_force<false>(tracker_, jacks_, filter_.belief(), segment).force;
-  }
+  Scalar force(int segment) const { return estimate_force<false>(tracker_, jacks_, filter_, segment).force; }
   Scalar deviation(int segment) const { return estimate(segment).deviation; }
   ForceEstimate<Scalar> estimate(int segment) const {
-    return estimate_force<true>(tracker_, jacks_, filter_.belief(), segment);
+    return estimate_force<true>(tracker_, jacks_, filter_, segment);
   }
   /// Friction coefficient of a joint, and its standard deviation [-].
   Scalar mu(int joint) const { return filter_.mu(joint); }
@@ -178,7 +243,7 @@ class Estimator {
     model().resolve_joints(response);
     for (int k = 0; k < jacks_.size(); ++k) {
       Scalar& payout = jacks_.in(response.payout, k);
-      payout = estimate_payout(tracker_, jacks_, k, payout);
+      payout = estimate_payout(tracker_, jacks_, filter_.belief(), k, payout);
     }
   }
   /// What is odd about the last row.
@@ -199,20 +264,41 @@ class Estimator {
     return Alarm::of(kind, at.cable(), static_cast<int>(at.end));
   }
 
+  template <class Cells>
   Status begin(const CondensedType& condensed, const KnowledgeType& knowledge,
-               const AlarmLimits<Scalar>& limits) {
+               const AlarmLimits<Scalar>& limits, const Cells& gauges) {
     limits_ = limits;
     alarms_.clear();
-    is_friction_fine_ = false;
+    is_friction_fine_ = is_ahead_ = false;
     jacks_.start(condensed, knowledge);
-    const Status known = filter_.start(condensed, knowledge);
+    Status known = filter_.start(condensed, knowledge);
     for (std::size_t m = 0; m < remembered_reversals; ++m)
       for (int k = 0; k < jacks_.size(); ++k) {
-        const bool has_noise = jacks_.in(knowledge.sensor_sd, k) > 0;
+        const bool has_noise = jacks_.in(knowledge.cell, k).sd > 0;
         jacks_[k].memory[m] = static_cast<std::int16_t>(has_noise ? filter_.add_load_error() : -1);
       }
+    for (int k = 0; k < jacks_.size(); ++k) {
+      const bool is_uncertain = knowledge.seating_sd[jacks_.end(k).cable()] > 0;
+      jacks_[k].seating = static_cast<std::int16_t>(is_uncertain ? filter_.add_load_error() : -1);
+    }
+    if (known) known = filter_.end(condensed, [&](const auto& add) { return gauges_.start(gauges, add); });
     far_ends_.start(condensed, filter_, jacks_);
     return known;
+  }
+  /// The unknowns that forces of jacks depend on.
+  FixedList<JackError<Scalar>, 3 * JacksType::capacity> load_errors() const {
+    FixedList<JackError<Scalar>, 3 * JacksType::capacity> errors;
+    for (int k = 0; k < jacks_.size(); ++k)
+      for_each_load_error(k, [&](const JackError<Scalar>& error) { errors.add(error); });
+    return errors;
+  }
+  template <class Visit>
+  void for_each_load_error(int k, const Visit& visit) const {
+    const EndType& at = jacks_.end(k);
+    filter_.instruments()
+        .at(at.cable(), at.end)
+        .for_each_error(jacks_.in(filter_.prior().cell, k), 2 * at.cable() + static_cast<int>(at.end),
+                        jacks_[k].erred_up, visit);
   }
   void begin_row() {
     filter_.begin_row();
@@ -227,17 +313,32 @@ class Estimator {
     for (int k = 0; k < jacks_.size(); ++k) {
       const EndReading<Scalar>& given = jacks_.in(readings.ends, k);
       const bool locked = jacks_.in(readings.sample.jack, k).locked;
-      if (jacks_[k].take(locked, given, readings.dt, jacks_.in(filter_.prior().sensor_sd, k), most_force(k),
+      ForceEstimate<Scalar> held;
+      if (jacks_[k].locked && !locked) held = estimate(end_segment(k));
+      if (jacks_[k].take(locked, given, readings.dt, jacks_.in(filter_.prior().cell, k), most_force(k), held,
                          corners))
         alarms_.add(alarm_at(Alarm::Kind::outlier, jacks_.end(k)));
       has_more |= given.has_stroke | (jacks_[k].locked & given.has_force);
     }
     return has_more;
   }
+  /// A load that leaves the place of its last turn is read on the other branch from there on; the tracker is
+  /// at that place.
+  void change_branch(int k) {
+    auto& jack = jacks_[k];
+    if (jack.erred_up == jack.pulls || jack.locked || jack.target() == jack.turned) return;
+    jack.erred_up = jack.pulls;
+    for_each_load_error(k, [&](const JackError<Scalar>& error) { tracker_.change_load_error(error); });
+  }
+  int end_segment(int k) const {
+    const EndType& at = jacks_.end(k);
+    return model().cables[at.cable()].end_segment(at.end);
+  }
   Scalar most_force(int k) const { return model().most_force[jacks_.end(k).cable()]; }
   /// A jack that reverses or is locked now: friction will remember the error of its load.
   void remember_reversal(int k) {
     auto& jack = jacks_[k];
+    change_branch(k);
     const int p = jack.memory[static_cast<std::size_t>(jack.oldest)];
     if (p < 0) return;
     jack.oldest = (jack.oldest + 1) % remembered_reversals;
@@ -245,15 +346,59 @@ class Estimator {
     is_friction_fine_ = false;
   }
 
+  /// Where the best estimate of a load lies beyond the present piece, the forces there follow from the events
+  /// in between: the tracker goes there, until the next row.
+  void look_ahead() {
+    if (is_ahead_ || !is_beyond_piece()) return;
+    confirmed_.tracker = tracker_.save();
+    for (int k = 0; k < jacks_.size(); ++k) confirmed_.driven[k] = jacks_[k].driven;
+    is_ahead_ = true;
+    const auto to = jacks_.best(jacks_.driven(load_patterns(model())));
+    const auto progress = tracker_.advance(to);
+    if (progress.status && !(progress.fraction < 1))
+      jacks_.arrive(to, load_patterns(model()));
+    else
+      go_back();
+  }
+  bool is_beyond_piece() const {
+    for (int k = 0; k < jacks_.size(); ++k)
+      if (!jacks_[k].locked && !jacks_[k].at.behind && jacks_[k].beyond() != 0 &&
+          !tracker_.reaches(k, jacks_[k].at.load))
+        return true;
+    return false;
+  }
+  void go_back() {
+    if (!is_ahead_) return;
+    is_ahead_ = false;
+    static_cast<void>(
+        tracker_.restore(model(), filter_.friction(model()), confirmed_.tracker, load_errors()).ok());
+    for (int k = 0; k < jacks_.size(); ++k) jacks_[k].driven = confirmed_.driven[k];
+  }
+
+  /// How far the wedges were drawn in that hold since this row is not known exactly.
+  /// Returns whether there are any.
+  bool remember_seating() {
+    bool any = false;
+    for (int k = 0; k < jacks_.size(); ++k) {
+      if (!jacks_[k].locks_now || jacks_[k].seating < 0) continue;
+      const EndType& at = jacks_.end(k);
+      filter_.remember_seating(tracker_, jacks_[k].seating, at.cable(), at.end,
+                               filter_.prior().seating_sd[at.cable()]);
+      any = true;
+    }
+    return any;
+  }
+
   // Measuring.
 
   void measure_far_ends(const ReadingsType& readings) {
     const bool gathers = far_ends_.gathers(jacks_);
-    for (const EndType& end : far_ends_.ends()) {
+    for (int e = 0; e < far_ends_.ends().size(); ++e) {
+      const EndType& end = far_ends_.ends()[e];
       const EndReading<Scalar>& given = end.in(readings.ends);
       if (!given.has_force) continue;
       const Update update = gathers ? far_ends_.gather(given.force, tracker_, filter_, jacks_)
-                                    : far_ends_.measure(end, given.force, tracker_, filter_, jacks_);
+                                    : far_ends_.measure(e, given.force, tracker_, filter_, jacks_);
       if (update != Update::waits) note(update, alarm_at(Alarm::Kind::sensor, end));
     }
   }
@@ -265,18 +410,63 @@ class Estimator {
   template <class Predict>
   void take_measurement(const Predict& predict, Scalar reading, Scalar sd, const Alarm& contradiction) {
     if (!(sd > 0) || !filter_.belief().has_friction() || jacks_.may_have_reversed()) return;
-    // The errors of the jack that they share.
-    if (far_ends_.has_waiting()) {
-      const bool shares_row = far_ends_.has_waiting_of_row();
-      learn_waiting();
-      if (!shares_row) begin_row();
-    }
+    wait_for_none();
     predict(filter_.prediction());
     if (!filter_.is_informative(tracker_, contradiction.cable, sd))
       note(Update::no_information, contradiction);
     else
       note(filter_.update(tracker_, predict, jacks_.readings(filter_.prior()), {reading, sd, Scalar(0)}),
            contradiction);
+    look_ahead();
+  }
+  /// The tracker is where the loads are confirmed to have come, and nothing else of the row waits.
+  void wait_for_none() {
+    go_back();
+    // The errors of the jack that they share.
+    if (!far_ends_.has_waiting()) return;
+    const bool shares_row = far_ends_.has_waiting_of_row();
+    learn_waiting();
+    if (!shares_row) begin_row();
+  }
+  void follow_gauges(const Corners& corners, Scalar dt) {
+    Scalar load = 0;
+    for (int k = 0; k < jacks_.size(); ++k) load += jacks_[k].driven.force;
+    if (corners.locks) gauges_.forget_marks();
+    gauges_.begin_row(load, dt);
+    for (int c = 0; c < model().cables.size(); ++c)
+      gauges_.follow_sliding(c, filter_.slides_throughout(tracker_, c));
+  }
+  /// Whether all cables that prediction() depends on, read with `sd` at `cable`, surely slide throughout.
+  bool is_sure(int cable, Scalar sd) const {
+    for (int c = 0; c < model().cables.size(); ++c)
+      if (filter_.matters(tracker_, c, cable, sd) &&
+          !gauges_.surely_slides(c, filter_.relative_deviation(tracker_, c)))
+        return false;
+    return true;
+  }
+  template <class Predict>
+  void take_gauge(const Predict& predict, Scalar reading, Gauge gauge, const Alarm& contradiction) {
+    if (!gauges_.has(gauge) || !std::isfinite(reading)) return;
+    gauges_.follow_noise(gauge, reading);
+    if (!filter_.belief().has_friction() || jacks_.may_have_reversed() || !gauges_.is_due(gauge)) return;
+    const auto predict_reading = [&](auto& prediction) {
+      predict(prediction);
+      gauges_.depend(gauge, prediction);
+    };
+    const Scalar sd = gauges_.sd(gauge);
+    wait_for_none();
+    predict_reading(filter_.prediction());
+    if (!is_sure(contradiction.cable, sd)) return look_ahead();
+    const auto jacks = jacks_.readings(filter_.prior());
+    if (gauges_.lacks_mark(gauge)) {
+      const Expected<Scalar> expected = filter_.belief().expect(filter_.prediction(), jacks, sd);
+      gauges_.set_mark(gauge, reading - expected.value);
+      filter_.renew(gauges_.unknowns(gauge).zero, GaugesType::very_unknown * std::sqrt(expected.variance));
+    }
+    gauges_.count(gauge);
+    note(filter_.update(tracker_, predict_reading, jacks, {reading - gauges_.mark(gauge), sd, Scalar(0)}),
+         contradiction);
+    look_ahead();
   }
   void note(Update update, const Alarm& contradiction) {
     if (update == Update::updated)
@@ -299,17 +489,27 @@ class Estimator {
   }
   void check_stroke(int k, Scalar stroke) {
     const auto moves = tracker_.moves();
-    const Scalar expected =
-        estimate_payout(tracker_, jacks_, k, static_cast<Scalar>(jacks_.in(moves.payout, k)));
+    const Scalar expected = estimate_payout(tracker_, jacks_, filter_.belief(), k,
+                                            static_cast<Scalar>(jacks_.in(moves.payout, k)));
     if (!is_within_tolerance(stroke, expected, limits_, jacks_[k].most_payout))
       alarms_.add(alarm_at(Alarm::Kind::elongation, jacks_.end(k)));
   }
   void check_lift_off(int k, Scalar reading) {
     const EndType& at = jacks_.end(k);
-    const int segment = model().cables[at.cable()].end_segment(at.end);
+    const int segment = end_segment(k);
     if (jacks_[k].lifts_off(reading, most_force(k), force(segment), [&] { return deviation(segment); }))
       alarms_.add(alarm_at(Alarm::Kind::lift_off, at));
   }
+
+  /// Where the loads are confirmed to have come.
+  struct Confirmed {
+    typename TrackerType::State tracker;
+    FixedArray<Jack<Scalar>, JacksType::capacity> driven;
+
+    void put_back(typename JacksType::State& jacks) const {
+      for (int k = 0; k < JacksType::capacity; ++k) jacks.jack[k].driven = driven[k];
+    }
+  };
 
   // What every row needs comes first: instructions reach it directly.
   AlarmLimits<Scalar> limits_;
@@ -318,7 +518,10 @@ class Estimator {
   JacksType jacks_;
   TrackerType tracker_;
   FilterType filter_;
+  GaugesType gauges_;
   Alarms alarms_;
+  Confirmed confirmed_;    // while it looks ahead
+  bool is_ahead_ = false;  // of what is confirmed
 };
 
 }  // namespace taut

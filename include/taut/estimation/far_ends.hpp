@@ -8,6 +8,7 @@
 #include "taut/estimation/cable_end.hpp"
 #include "taut/estimation/friction_filter.hpp"
 #include "taut/estimation/gathered.hpp"
+#include "taut/estimation/noise_level.hpp"
 #include "taut/scene/fixed_list.hpp"
 #include "taut/scene/scene.hpp"
 
@@ -28,7 +29,8 @@ class FarEnds {
   /// What has been gathered so far.
   struct State {
     Gathered<Scalar> gathered;
-    std::uint8_t learned = 0;  ///< readings since something has happened
+    std::uint8_t learned = 0;                               ///< readings since something has happened
+    FixedArray<NoiseLevel<Scalar>, 2 * Cap::cables> noise;  ///< of the cells in the order of ends()
   };
 
   /// Finds the ends; after FilterType::start() and Jacks::start().
@@ -37,8 +39,8 @@ class FarEnds {
     ends_.clear();
     for (int c = 0; c < model.cables.size() && filter.belief().has_friction(); ++c)
       for (std::size_t end = 0; end < 2 && !model.cables[c].closed; ++end)
-        if (model.cables[c].ends[end] == End::anchored && filter.prior().sensor_sd[c][end] > 0)
-          ends_.add(EndType::of(c, end));
+        if (model.cables[c].ends[end] == End::anchored && filter.prior().cell[c][end].sd > 0)
+          state_.noise[ends_.add(EndType::of(c, end))].start(filter.prior().cell[c][end].sd);
     can_gather_ = ends_.size() == 1 && jacks.size() == 1;
     state_.gathered = {};
     state_.learned = 0;
@@ -60,10 +62,13 @@ class FarEnds {
     return (has_waiting() || (can_gather_ && room() > 1)) && (jacks[0].is_new || jacks[0].locked);
   }
 
-  /// Takes a reading [N] of the cell at `end` into account at once. Cost: that of FilterType::update().
-  [[nodiscard]] Update measure(const EndType& end, Scalar reading, TrackerType& tracker, FilterType& filter,
+  /// A reading [N] of cell `e` of ends(), `dt` after the one before, tells how much its readings scatter.
+  void follow_noise(int e, Scalar reading, Scalar dt) { state_.noise[e].take(reading, dt); }
+  /// Takes a reading [N] of cell `e` into account at once. Cost: that of FilterType::update().
+  [[nodiscard]] Update measure(int e, Scalar reading, TrackerType& tracker, FilterType& filter,
                                const Jacks& jacks) {
-    const Scalar sd = end.in(filter.prior().sensor_sd);
+    const EndType& end = ends_[e];
+    const Scalar sd = state_.noise[e].sd();
     const auto predict = [&](auto& prediction) { predict_at(end, tracker, filter, jacks, prediction); };
     predict(filter.prediction());
     if (!filter.is_informative(tracker, end.cable(), sd)) return Update::no_information;
@@ -92,13 +97,15 @@ class FarEnds {
     const auto predict = [&](auto& prediction) {
       predict_at(ends_[0], tracker, filter, jacks, prediction);
       if (back == 0) return;
-      for (int p = 0; p < filter.belief().in_use(); ++p)
+      for (int p = 0; p < filter.belief().carried(); ++p)
         prediction.H[p] += back * sensitivity_slope(p, tracker);
+      const int gain = filter.instruments().at(ends_[0].cable(), ends_[0].end).gain;
+      if (gain >= 0) prediction.H[gain] += back * prediction.by_jack[0];
     };
     predict(filter.prediction());
     typename FilterType::JackReadings readings;
     readings.add({all.jack() - driven, all.jack_variance * all.share()});
-    const Scalar sd = ends_[0].in(filter.prior().sensor_sd);
+    const Scalar sd = state_.noise[0].sd();
     return filter.update(tracker, predict, readings,
                          {all.reading(), sd * std::sqrt(all.share()), all.spread});
   }
@@ -110,7 +117,10 @@ class FarEnds {
   template <class PredictionType>
   static void predict_at(const EndType& end, const TrackerType& tracker, const FilterType& filter,
                          const Jacks& jacks, PredictionType& prediction) {
-    predict_tension(tracker, segment_at(end, tracker), filter.belief().in_use(), jacks.ends(), prediction);
+    predict_tension(tracker, segment_at(end, tracker), filter.belief(), jacks.ends(), prediction);
+    const InstrumentUnknowns& own = filter.instruments().at(end.cable(), end.end);
+    if (own.gain >= 0) prediction.H[own.gain] = prediction.value;
+    if (own.zero >= 0) prediction.H[own.zero] = 1;
   }
   Scalar sensitivity_slope(int p, const TrackerType& tracker) const {
     return tracker.sensitivity_slope(p, 0, segment_at(ends_[0], tracker));
@@ -125,8 +135,8 @@ class FarEnds {
   bool begin_gathering(Scalar driven, const TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
     const auto& belief = filter.belief();
     auto& prediction = filter.prediction();
-    const Scalar sd = ends_[0].in(filter.prior().sensor_sd);
-    const auto jack = jacks[0].reading(jacks.in(filter.prior().sensor_sd, 0));
+    const Scalar sd = state_.noise[0].sd();
+    const auto jack = jacks[0].reading(jacks.in(filter.prior().cell, 0));
     predict_at(ends_[0], tracker, filter, jacks, prediction);
     if (!filter.is_informative(tracker, ends_[0].cable(), sd)) return false;
     Gathered<Scalar>& gathered = state_.gathered;
@@ -138,11 +148,12 @@ class FarEnds {
       const Scalar change = belief.mean(p) - belief.linearized_at(p);
       if (change == 0) continue;
       gathered.level += prediction.H[p] * change;
-      gathered.slope += sensitivity_slope(p, tracker) * change;
+      if (p < belief.carried()) gathered.slope += sensitivity_slope(p, tracker) * change;
     }
+    const int gain = filter.instruments().at(ends_[0].cable(), ends_[0].end).gain;
+    if (gain >= 0) gathered.slope += by_jack * belief.mean(gain);
     gathered.jack_variance = jack.variance;
-    gathered.spread = sd * sd + by_jack * by_jack * jack.variance +
-                      belief.variance_of([&](int p) { return prediction.H[p]; });
+    gathered.spread = sd * sd + by_jack * by_jack * jack.variance + belief.variance_of_reading(prediction.H);
     return true;
   }
 

@@ -17,8 +17,9 @@ void find_knowledge(const SceneType& scene, Knowledge<Scalar, typename SceneType
     knowledge.capstan[c] = cable.law == FrictionLaw::capstan;
     knowledge.mu_sd[c] = static_cast<Scalar>(cable.mu_sd);
     knowledge.shared[c] = cable.shared_mu;
-    for (std::size_t end = 0; end < 2; ++end)
-      knowledge.sensor_sd[c][end] = static_cast<Scalar>(cable.sensor_sd[end]);
+    knowledge.seating_sd[c] = static_cast<Scalar>(cable.seating_sd);
+    knowledge.scatter[c] = static_cast<Scalar>(cable.scatter);
+    for (std::size_t end = 0; end < 2; ++end) knowledge.cell[c][end] = LoadCell<Scalar>::of(cable.cell[end]);
     for (int k = 0; k < cable.joints(); ++k) {
       const int j = cable.first_joint + k;
       const auto at = scene.joint_nodes(cable, k);

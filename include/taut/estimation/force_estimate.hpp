@@ -15,11 +15,13 @@ struct ForceEstimate {
 
 /// The tension of a segment where the tracker is, carried on along its present piece to the best estimate of
 /// the loads and of friction: T + dT/dF (F - driven) + dT/dmu (mu - mu_0), not below zero. The standard
-/// deviation has that of the loads, of friction, and of what friction remembers; zero if not `HasDeviation`.
-/// Cost: one product a jack and unknown in use, and with a deviation half the square of the unknowns.
-template <bool HasDeviation, class TrackerType, class Jacks, class BeliefType>
+/// deviation has that of the loads, of friction and its scatter, and of what friction remembers; zero if not
+/// `HasDeviation`. Cost: one product a jack and unknown in use, and with a deviation half the square of the
+/// unknowns.
+template <bool HasDeviation, class TrackerType, class Jacks, class FilterType>
 ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tracker, const Jacks& jacks,
-                                                           const BeliefType& belief, int segment) {
+                                                           const FilterType& filter, int segment) {
+  const auto& belief = filter.belief();
   using Scalar = typename TrackerType::Scalar;
   Scalar T = tracker.tension(segment), variance = 0;
   for (int k = 0; k < jacks.size(); ++k) {
@@ -33,26 +35,40 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
     if (load.at.behind) variance += further * further;
   }
   if (HasDeviation) {
-    variance += belief.variance_of([&](int p) {
+    const Scalar of_scatter =
+        filter.scatter().variance(segment, [&](int p) { return tracker.sensitivity(p, segment); });
+    const Scalar of_unknowns = of_scatter + belief.variance_of([&](int p) {
       const Scalar S = tracker.sensitivity(p, segment);
       T += S * (belief.mean(p) - belief.linearized_at(p));
       return S;
     });
+    // Forces are about exponential in mu: the longer side counts.
+    const Scalar square = T * T;
+    variance +=
+        of_unknowns + (of_unknowns < square ? 2 * of_unknowns * of_unknowns / square : 2 * of_unknowns);
   } else {
-    for (int p = 0; p < belief.in_use(); ++p)
+    for (int p = 0; p < belief.carried(); ++p)
       if (belief.mean(p) != belief.linearized_at(p))
         T += tracker.sensitivity(p, segment) * (belief.mean(p) - belief.linearized_at(p));
   }
   return {larger(T, Scalar(0)), HasDeviation ? std::sqrt(larger(variance, Scalar(0))) : Scalar(0)};
 }
 
-/// The payout of jack `k` [m] at the best estimate of its load, from that where the tracker is.
-template <class TrackerType, class Jacks>
-typename TrackerType::Scalar estimate_payout(const TrackerType& tracker, const Jacks& jacks, int k,
+/// The payout of jack `k` [m] at the best estimate of its load and of the unknowns, from that where the
+/// tracker is. Cost: all that moves along the cables for every unknown that is not where the tracker is
+/// linearized.
+template <class TrackerType, class Jacks, class BeliefType>
+typename TrackerType::Scalar estimate_payout(const TrackerType& tracker, const Jacks& jacks,
+                                             const BeliefType& belief, int k,
                                              typename TrackerType::Scalar of_tracker) {
+  const int cable = jacks.end(k).cable();
+  const std::size_t end = jacks.end(k).end;
+  auto payout = of_tracker;
+  for (int p = 0; p < belief.carried(); ++p)
+    if (belief.mean(p) != belief.linearized_at(p))
+      payout += tracker.payout_sensitivity(p, cable, end) * (belief.mean(p) - belief.linearized_at(p));
   const auto beyond = jacks[k].beyond();
-  if (beyond == 0) return of_tracker;
-  return of_tracker + tracker.payout_slope(jacks.end(k).cable(), jacks.end(k).end) * beyond;
+  return beyond == 0 ? payout : payout + tracker.payout_slope(cable, end) * beyond;
 }
 
 }  // namespace taut

@@ -5,6 +5,8 @@
 #include <cstdint>
 
 #include "taut/estimation/belief.hpp"
+#include "taut/estimation/friction_scatter.hpp"
+#include "taut/estimation/instruments.hpp"
 #include "taut/estimation/knowledge.hpp"
 #include "taut/estimation/prediction.hpp"
 #include "taut/estimation/sliding_check.hpp"
@@ -27,7 +29,7 @@ enum class Update : std::uint8_t {
 /// The unknowns: one factor a cable on the nominal mu if the cable shares it, else one mu a joint, with the
 /// prior of the scene; then errors of the loads at which jacks last reversed or were locked, which friction
 /// remembers. The tracker always has the friction at which the filter is linearized.
-template <class CondensedType, int Parameters>
+template <class CondensedType, int Parameters, int Further>
 class FrictionFilter {
  public:
   using Scalar = typename CondensedType::Scalar;
@@ -35,7 +37,7 @@ class FrictionFilter {
   using Cap = typename CondensedType::Capacity;
   using TrackerType = Tracker<CondensedType, Parameters>;
   using PriorType = Knowledge<Scalar, Cap>;
-  using BeliefType = Belief<Scalar, Parameters, max_jacks<Cap>>;
+  using BeliefType = Belief<Scalar, Parameters + Further, max_jacks<Cap>>;
   using PredictionType = typename BeliefType::PredictionType;
   using JackReadings = typename BeliefType::JackReadings;
   using State = typename BeliefType::State;
@@ -53,9 +55,10 @@ class FrictionFilter {
     belief_.clear();
     unknown_of_.fill(-1);
     sliding_.start(model);
+    scatter_.clear();
     int missing = 0;
     const auto add = [&](Scalar sd) {
-      const int p = belief_.add(sd);
+      const int p = belief_.size() < Parameters ? belief_.add(sd) : -1;
       if (p < 0) ++missing;
       return p;
     };
@@ -79,14 +82,31 @@ class FrictionFilter {
         const Real weight = shared && sum > 0 ? prior.mu[j] * static_cast<Real>(free) / sum : Real(1);
         depend(c, j, p, static_cast<Scalar>(weight));
       }
+      if (shared && common >= 0 && prior_->scatter[c] > 0) scatters(c, cable, common);
     }
     belief_.end_friction();
+    instruments_.clear();
+    missing += add_instruments(model, End::jacked, Parameters);
+    belief_.end_loads();
     if (missing > 0) return Status::at(Code::capacity_exceeded, Place::none, Parameters, missing);
     return Status::success();
   }
   /// After start(): room for the error of a load that friction will remember. Returns its number, or -1 if
   /// there is none: then such loads are taken for exact.
   int add_load_error() { return belief_.size() < Parameters ? belief_.add(Scalar(0)) : -1; }
+
+  /// After the last of them: the unknowns of cells at anchored ends, on which no force depends, and those
+  /// that add_gauges(add) adds, which returns how many found no room. Fails with `capacity_exceeded` if and
+  /// only if there are more of them than Further.
+  template <class AddGauges>
+  Status end(const CondensedType& model, const AddGauges& add_gauges) {
+    belief_.end_carried();
+    int missing = add_instruments(model, End::anchored, Parameters + Further);
+    missing += add_gauges([this](Scalar sd) { return belief_.add(sd); });
+    belief_.end();
+    if (missing > 0) return Status::at(Code::capacity_exceeded, Place::none, Further, missing);
+    return Status::success();
+  }
 
   const State& save() const { return belief_.save(); }
   /// Goes on where save() was called; after start().
@@ -98,6 +118,8 @@ class FrictionFilter {
   }
 
   const BeliefType& belief() const { return belief_; }
+  const FrictionScatter<Scalar, Cap>& scatter() const { return scatter_; }
+  const Instruments<Scalar, Cap>& instruments() const { return instruments_; }
   const PriorType& prior() const { return *prior_; }
   /// Where the caller predicts a number before is_informative() and update(). A member, so that what is not
   /// in use need not be cleared.
@@ -121,16 +143,32 @@ class FrictionFilter {
     return p < 0 ? Scalar(0) : weight_[joint] * std::sqrt(belief_.variance(p));
   }
 
+  /// What is known of unknown `p` gives way to what is new, with this standard deviation.
+  void renew(int p, Scalar sd) { belief_.renew(p, sd); }
   /// Begins a row: its measurements share the errors of the jacks' readings.
   void begin_row() { belief_.begin_row(); }
   /// Whether prediction() has a derivative to go by: all of `cable` must slide (-1: no cable does in
   /// particular), and every other one whose friction shows in a number read with the standard deviation `sd`.
   /// Cost: a pass over the joints.
   bool is_informative(const TrackerType& tracker, int cable, Scalar sd) const {
-    const auto& cables = tracker.model().cables;
-    for (int c = 0; c < cables.size(); ++c)
-      if ((c == cable || shows(cables[c], c, sd)) && !sliding_.slides_throughout(tracker, c)) return false;
+    for (int c = 0; c < tracker.model().cables.size(); ++c)
+      if (matters(tracker, c, cable, sd) && !slides_throughout(tracker, c)) return false;
     return true;
+  }
+  /// Whether friction of cable `c` matters to prediction(), read with `sd` at `cable` (-1: at none).
+  bool matters(const TrackerType& tracker, int c, int cable, Scalar sd) const {
+    return c == cable || shows(tracker.model().cables[c], c, sd);
+  }
+  bool slides_throughout(const TrackerType& tracker, int c) const {
+    return sliding_.slides_throughout(tracker, c);
+  }
+  /// Standard deviation of the mu of a cable by that mu, where it is largest [-].
+  Scalar relative_deviation(const TrackerType& tracker, int c) const {
+    const auto& cable = tracker.model().cables[c];
+    Scalar largest = 0;
+    for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
+      if (mu(j) > 0) largest = larger(largest, mu_deviation(j) / mu(j));
+    return largest;
   }
   /// Takes a reading into account (iterated update; Gelb, Applied Optimal Estimation, 1974, 6.1).
   /// prediction() has what is expected of it, and predict(prediction) makes it anew after the tracker has
@@ -151,6 +189,13 @@ class FrictionFilter {
       predict(prediction_);
     }
   }
+  /// The wedge at this end has been seated: from here on unknown `p` is by how much further it was drawn in
+  /// than the model has it, with the standard deviation `sd` [m]. Cost: that of remember_reversal().
+  void remember_seating(TrackerType& tracker, int p, int cable, std::size_t end, Scalar sd) {
+    if (belief_.mean(p) != belief_.linearized_at(p)) static_cast<void>(relinearize(tracker, belief_.mean()));
+    tracker.draw_in(p, cable, end);
+    belief_.renew(p, sd);
+  }
   /// The jack at this end reverses now or is locked: from here on unknown `p` is the error of its load, with
   /// the standard deviation `sd` [N]. Cost: that of Tracker::turn(), and at worst of Tracker::adjust().
   void remember_reversal(TrackerType& tracker, int p, int cable, std::size_t end, Scalar sd) {
@@ -170,6 +215,28 @@ class FrictionFilter {
     const Real most_mu = (prior_->capstan[c] ? Real(6) : Real(0.98)) / prior_->grip[j];
     const auto nominal = static_cast<Scalar>(prior_->mu[j]);
     belief_.bound(p, -nominal / weight, (static_cast<Scalar>(most_mu) - nominal) / weight);
+  }
+  /// Adds the unknowns of the cells at all ends of this kind, up to so many in all. Returns how many are
+  /// missing.
+  int add_instruments(const CondensedType& model, End kind, int most) {
+    int missing = 0;
+    for (int c = 0; c < model.cables.size(); ++c)
+      for (std::size_t end = 0; end < 2 && !model.cables[c].closed; ++end) {
+        const LoadCell<Scalar>& cell = prior_->cell[c][end];
+        if (model.cables[c].ends[end] != kind || (kind == End::anchored && !(cell.sd > 0))) continue;
+        missing += instruments_.at(c, end).add(
+            cell, [&](Scalar sd) { return belief_.size() < most ? belief_.add(sd) : -1; });
+      }
+    return missing;
+  }
+  template <class CableLayout>
+  void scatters(int c, const CableLayout& cable, int parameter) {
+    const auto grip = [&](int j) {
+      return unknown_of_[j] < 0 ? Scalar(0) : static_cast<Scalar>(prior_->grip[j]);
+    };
+    scatter_.find(
+        cable, parameter, [&](int j) { return grip(j) * weight_[j]; },
+        [&](int j) { return grip(j) * prior_->scatter[c] * static_cast<Scalar>(prior_->mu[j]); });
   }
   JointFriction<Real> friction_of(const CondensedType& model, int j) const {
     const int p = unknown_of_[j];
@@ -202,6 +269,8 @@ class FrictionFilter {
 
   const PriorType* prior_ = nullptr;
   BeliefType belief_;
+  Instruments<Scalar, Cap> instruments_;
+  FrictionScatter<Scalar, Cap> scatter_;
   PredictionType prediction_;
   SlidingCheck<Cap> sliding_;
   FixedArray<std::int16_t, Cap::joints> unknown_of_;

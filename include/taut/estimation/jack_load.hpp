@@ -9,9 +9,12 @@
 #include <new>
 
 #include "taut/estimation/belief.hpp"
+#include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/load_filter.hpp"
+#include "taut/estimation/noise_level.hpp"
 #include "taut/estimation/readings.hpp"
 #include "taut/numerics/larger.hpp"
+#include "taut/scene/load_cell.hpp"
 #include "taut/scene/sample.hpp"
 
 namespace taut {
@@ -30,29 +33,72 @@ struct JackLoad {
   static constexpr std::uint8_t confirmed_below = 3;
 
   LoadFilter<Scalar> filter;
+  NoiseLevel<Scalar> noise;
   ConditionedLoad<Scalar> at{};
   Jack<Scalar> driven{};  ///< where the tracker was driven to
   Scalar since = 0;       ///< time since the last reading
-  Scalar raw = 0;         ///< the last reading [N]
-  Scalar first = 0;       ///< the least load once there is one [N]: which way things slide shows from then on
-  Scalar sd_before = 0;   ///< standard deviation of the load a sample ago [N]
-  bool is_new = false;    ///< `raw` is of this row, and was believed
+  Scalar turned = 0;      ///< load where it turned last [N], for a cell with two branches
+  bool pulls = true;      ///< the branch: since then the load has gone up
+  bool erred_up =
+      true;  ///< the branch whose error the tracker has: after a turn, while the load rests, the old one
+  Scalar raw = 0;        ///< the last reading [N]
+  Scalar first = 0;      ///< the least load once there is one [N]: which way things slide shows from then on
+  Scalar sd_before = 0;  ///< standard deviation of the load a sample ago [N]
+  bool is_new = false;   ///< `raw` is of this row, and was believed
   bool locks_now = false, locked = false;
   Scalar most_payout = 0;  ///< that it should have had so far [m]
   std::uint8_t below = 0;  ///< locked: readings in a row that were confirmed to be below what the wedge holds
   /// Unknown errors of its load where it last reversed or was locked, or -1; the oldest is forgotten next.
   std::array<std::int16_t, static_cast<std::size_t>(Reversals)> memory{};
   int oldest = 0;
+  std::int16_t seating = -1;  ///< the unknown of its wedge's draw-in, or -1
 
   /// A reading, or none if it is more than the cable can carry, `most` [N].
   static Scalar possible(Scalar reading, Scalar most) {
     return std::fabs(reading) <= most ? reading : std::numeric_limits<Scalar>::quiet_NaN();
   }
 
-  /// Takes what a row says of the jack: whether it is locked, a reading of its load cell, with the standard
-  /// deviation `sd`, and the time since the row before. Returns true if and only if the reading was refused
+  /// The load behind a conditioned reading of a cell with two branches: after a turn it rests until the
+  /// reading has come to the other branch.
+  ConditionedLoad<Scalar> behind_branches(const ConditionedLoad<Scalar>& reading,
+                                          const LoadCell<Scalar>& cell) {
+    ConditionedLoad<Scalar> load = reading;
+    const auto on = [&](Scalar of_reading) {
+      return pulls ? larger(turned, of_reading / cell.up) : -larger(-turned, -of_reading / cell.down);
+    };
+    if (reading.reversed) {
+      load.reversal = turned = on(reading.reversal);
+      pulls = !pulls;
+    }
+    load.sd = reading.sd / (pulls ? cell.up : cell.down);
+    load.confirmed = on(reading.confirmed);
+    load.load = on(reading.load);
+    if (!reading.behind) return load;
+    // If it has turned, it rests at first.
+    const Scalar other = reading.load / (pulls ? cell.down : cell.up);
+    load.load = pulls ? -larger(-load.confirmed, -other) : larger(load.confirmed, other);
+    load.behind = load.load != load.confirmed;
+    return load;
+  }
+
+  void start(const LoadCell<Scalar>& cell) {
+    *this = JackLoad();
+    filter.start(cell.sd);
+    noise.start(cell.sd);
+  }
+  /// The filter goes by the scatter that there is, not only by what was said.
+  void follow_noise(Scalar reading, const LoadCell<Scalar>& cell) {
+    if (!(cell.sd > 0) || at.refused) return;
+    noise.take(reading, since);
+    const Scalar sd = noise.sd(), used = filter.sd();
+    if ((sd > Scalar(1.3) * used || used > Scalar(1.3) * sd) && !filter.has_waiting()) filter.change_sd(sd);
+  }
+
+  /// Takes what a row says of the jack: whether it is locked, a reading of its load cell, and the time since
+  /// the row before. `held` is the force of a locked end. Returns true if and only if the reading was refused
   /// as an outlier. Cost: that of LoadFilter::take().
-  [[nodiscard]] bool take(bool locks, const EndReading<Scalar>& given, Scalar dt, Scalar sd, Scalar most,
+  [[nodiscard]] bool take(bool locks, const EndReading<Scalar>& given, Scalar dt,
+                          const LoadCell<Scalar>& cell, Scalar most, const ForceEstimate<Scalar>& held,
                           Corners& corners) {
     is_new = locks_now = false;
     at.reversed = false;
@@ -62,23 +108,32 @@ struct JackLoad {
       if (locked) return false;
       corners.locks = locks_now = locked = true;
       at.behind = false;
-      filter.start(sd);
+      filter.start(filter.sd());
       below = 0;
       return false;
     }
     if (!given.has_force) return false;
     // A released end keeps its wedge until a load is read.
     if (locked) {
-      filter.start(sd);
+      filter.start_at(filter.sd(), held.force, held.deviation);
       at = {};
+      at.load = at.confirmed = held.force;
+      turned = 0;
+      pulls = true;
       locked = false;
+      since = dt;
     }
     sd_before = at.sd;
     // Placed there, not on the heap: a copy would read back at once what was just written in parts, and wait.
     new (&at) ConditionedLoad<Scalar>(filter.take(possible(given.force, most), since));
-    if (first == 0 && at.load > 0) first = Scalar(1e-3) * sd;
-    since = 0;
+    follow_noise(given.force, cell);
     raw = given.force;
+    if (cell.has_branches()) {
+      at = behind_branches(at, cell);
+      raw /= pulls ? cell.up : cell.down;
+    }
+    if (first == 0 && at.load > 0) first = Scalar(1e-3) * cell.sd;
+    since = 0;
     is_new = !at.refused;
     corners.reverses |= at.reversed;
     return at.refused;
@@ -90,10 +145,12 @@ struct JackLoad {
   Scalar beyond() const { return locked ? Scalar(0) : at.load - driven.force; }
   /// The load as a measurement of the row sees it: the raw reading if there is one, so that errors are
   /// independent from row to row.
-  JackReading<Scalar> reading(Scalar cell_sd) const {
+  JackReading<Scalar> reading(const LoadCell<Scalar>& cell) const {
     if (locked) return {};
-    const Scalar sd = is_new ? cell_sd : at.sd;
-    return {(is_new ? raw : at.load) - driven.force, sd * sd};
+    // Between the branches the reading says nothing.
+    const bool is_read = is_new && !(cell.has_branches() && at.load == turned);
+    const Scalar sd = is_read ? filter.sd() : at.sd;
+    return {(is_read ? raw : at.load) - driven.force, sd * sd};
   }
 
   /// While the end is locked, its load cell is that of a jack put back on it. Returns true if and only if the

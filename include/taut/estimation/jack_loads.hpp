@@ -33,8 +33,7 @@ class JackLoads {
     for_each_jacked_end(model.cables, [&](int c, std::size_t end) { ends_.add(CableEnd<Cap>::of(c, end)); });
     state_.factor.fill(Scalar(0));
     for (int k = 0; k < size(); ++k) {
-      state_.jack[k] = {};
-      state_.jack[k].filter.start(in(prior.sensor_sd, k));
+      state_.jack[k].start(in(prior.cell, k));
     }
   }
   const State& save() const { return state_; }
@@ -60,7 +59,7 @@ class JackLoads {
   /// Every load as the measurements of the row see it.
   FixedList<JackReading<Scalar>, capacity> readings(const Knowledge<Scalar, Cap>& prior) const {
     FixedList<JackReading<Scalar>, capacity> all;
-    for (int k = 0; k < size(); ++k) all.add(state_.jack[k].reading(in(prior.sensor_sd, k)));
+    for (int k = 0; k < size(); ++k) all.add(state_.jack[k].reading(in(prior.cell, k)));
     return all;
   }
   /// What slides and what sticks is in doubt while a load may have reversed.
@@ -73,6 +72,14 @@ class JackLoads {
   SampleType target(const SampleType& given) const {
     SampleType to = given;
     for (int k = 0; k < size(); ++k) in(to.jack, k) = {state_.jack[k].target(), state_.jack[k].locked};
+    return to;
+  }
+  /// The best estimates of the loads, where none has perhaps reversed.
+  SampleType best(const SampleType& given) const {
+    SampleType to = target(given);
+    for (int k = 0; k < size(); ++k)
+      if (!state_.jack[k].locked && !state_.jack[k].at.behind)
+        in(to.jack, k).force = larger(state_.jack[k].at.load, Scalar(0));
     return to;
   }
   /// Where it was driven to last.

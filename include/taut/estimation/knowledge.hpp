@@ -6,10 +6,11 @@
 #include "taut/numerics/decay.hpp"
 #include "taut/numerics/wide.hpp"
 #include "taut/scene/fixed_list.hpp"
+#include "taut/scene/load_cell.hpp"
 
 namespace taut {
 
-/// Friction of every joint as a function of its mu, how well mu is known, and the noise of the load cells.
+/// Friction of every joint as a function of its mu, how well mu is known, and the load cells.
 /// Beside Condensed, all that an Estimator needs of a scene; an aggregate, it can be a constant in flash.
 template <class Scalar_, class Cap>
 struct Knowledge {
@@ -20,9 +21,11 @@ struct Knowledge {
   /// What mu is multiplied by: cot(alpha) of a point contact, beta + k s of a capstan [-].
   FixedArray<Real, Cap::joints> grip;
   FixedArray<bool, Cap::cables> capstan;
-  FixedArray<Scalar, Cap::cables> mu_sd;  ///< standard deviation of what is known of mu; 0: known exactly
-  FixedArray<bool, Cap::cables> shared;   ///< one unknown a cable: a common factor on the nominal values
-  FixedArray<std::array<Scalar, 2>, Cap::cables> sensor_sd;  ///< of the load cells at both ends [N]
+  FixedArray<Scalar, Cap::cables> mu_sd;    ///< standard deviation of what is known of mu; 0: known exactly
+  FixedArray<bool, Cap::cables> shared;     ///< one unknown a cable: a common factor on the nominal values
+  FixedArray<Scalar, Cap::cables> scatter;  ///< of mu from joint to joint about that, relative
+  FixedArray<Scalar, Cap::cables> seating_sd;  ///< standard deviation of the wedges' draw-in [m]
+  FixedArray<std::array<LoadCell<Scalar>, 2>, Cap::cables> cell;  ///< at both ends
 
   /// rho = T_small / T_big at which a joint of cable `c` slides, and its derivative with respect to mu:
   /// (1 - kappa) / (1 + kappa) with kappa = mu cot(alpha), or exp(-mu (beta + k s)); Eqs. (4), (5), (17).

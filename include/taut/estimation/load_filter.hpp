@@ -63,6 +63,42 @@ class LoadFilter : LoadFilterTuning {
     per_sd_ = sd_ > 0 ? 1 / sd_ : Scalar(0);
   }
 
+  /// Begins again at a load that was held until now, known with a standard deviation [N]; what came before is
+  /// forgotten, and the load is taken to go up from there.
+  void start_at(Scalar sd, Scalar held, Scalar held_sd) {
+    start(sd);
+    if (sd_ > 0) {
+      hypotheses_.clear();
+      base_ = held;
+      const int first = hypotheses_.add();
+      const auto known = static_cast<Level>(held_sd * per_sd_);
+      at(hypotheses_.level_variance, first) = larger(known * known, Level(1e-4));
+      at(hypotheses_.weight, first) = 1;
+      at(hypotheses_.run_length, first) = at(hypotheses_.known, first) = 1;
+      best_ = static_cast<std::int8_t>(first);
+    }
+    set_confirmed(held);
+  }
+  /// Standard deviation of a reading [N].
+  Scalar sd() const { return sd_; }
+  /// From here on readings scatter by another standard deviation `sd` > 0 [N]. Nothing may wait, see
+  /// has_waiting().
+  void change_sd(Scalar sd) {
+    if (!(sd_ > 0 && sd > 0)) return;
+    const auto f = static_cast<Level>(sd_ / sd);
+    sd_ = sd;
+    per_sd_ = 1 / sd;
+    for (auto* const lanes : {&hypotheses_.level, &hypotheses_.slope, &hypotheses_.mean, &hypotheses_.corner})
+      for (Level& each : *lanes) each *= f;
+    for (auto* const lanes :
+         {&hypotheses_.level_variance, &hypotheses_.covariance, &hypotheses_.slope_variance})
+      for (Level& each : *lanes) each *= f * f;
+    off_best_ *= f;
+    beside_best_ *= f * f;
+    set_confirmed(confirmed_);
+  }
+  bool has_waiting() const { return block_.has_room(); }
+
   /// Takes the next reading [N], `dt` > 0 after the one before, in any unit of time; for the first it does
   /// not matter. What is not finite is refused, and may be anything else. Cost: while readings wait a few
   /// operations; else those of four hypotheses; at worst, when sixteen that wait are taken apart, six times

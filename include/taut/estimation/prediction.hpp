@@ -16,25 +16,33 @@ struct Prediction {
   FixedArray<Scalar, Jacks> by_jack;  ///< by the force of every unlocked jack [unit of y / N]
 };
 
-/// The tension of a segment [N]. `unknowns` are those in use, `jacks` all jacked ends. Always possible.
+/// No unknown of another instrument matters to the reading of this one.
+template <class BeliefType, class PredictionType>
+void clear_further(const BeliefType& unknowns, PredictionType& prediction) {
+  for (int p = unknowns.carried(); p < unknowns.in_use(); ++p) prediction.H[p] = 0;
+}
+
+/// The tension of a segment [N]. `unknowns` is a Belief, `jacks` all jacked ends. Always possible.
 /// Cost: two multiplications an unknown and input.
-template <class TrackerType, class Jacks, class PredictionType>
-void predict_tension(const TrackerType& tracker, int segment, int unknowns, const Jacks& jacks,
+template <class TrackerType, class BeliefType, class Jacks, class PredictionType>
+void predict_tension(const TrackerType& tracker, int segment, const BeliefType& unknowns, const Jacks& jacks,
                      PredictionType& prediction) {
   prediction.value = tracker.tension(segment);
-  for (int p = 0; p < unknowns; ++p) prediction.H[p] = tracker.sensitivity(p, segment);
+  clear_further(unknowns, prediction);
+  for (int p = 0; p < unknowns.carried(); ++p) prediction.H[p] = tracker.sensitivity(p, segment);
   for (int k = 0; k < jacks.size(); ++k) prediction.by_jack[k] = tracker.slope(k, segment);
 }
 
 /// The stroke of a jack [m]: its payout since the start. The same arguments; Cost: all that moves along the
 /// cables once an unknown and jack.
-template <class TrackerType, class Cap, class Jacks, class PredictionType>
-void predict_stroke(const TrackerType& tracker, const CableEnd<Cap>& at, int unknowns, const Jacks& jacks,
-                    PredictionType& prediction) {
+template <class TrackerType, class Cap, class BeliefType, class Jacks, class PredictionType>
+void predict_stroke(const TrackerType& tracker, const CableEnd<Cap>& at, const BeliefType& unknowns,
+                    const Jacks& jacks, PredictionType& prediction) {
   using Scalar = typename TrackerType::Scalar;
   const auto of = [&](const auto& moving) { return static_cast<Scalar>(at.in(moving.payout)); };
   prediction.value = of(tracker.moves());
-  for (int p = 0; p < unknowns; ++p) prediction.H[p] = of(tracker.move_sensitivity(p));
+  clear_further(unknowns, prediction);
+  for (int p = 0; p < unknowns.carried(); ++p) prediction.H[p] = of(tracker.move_sensitivity(p));
   for (int k = 0; k < jacks.size(); ++k)
     prediction.by_jack[k] = of(tracker.move_slope(jacks[k].cable(), jacks[k].end));
 }
@@ -42,8 +50,8 @@ void predict_stroke(const TrackerType& tracker, const CableEnd<Cap>& at, int unk
 /// The axial force of a strut [N], tension positive. `rows` are the CondensedStruts of the scene, `strut` has
 /// the number of the scene; the other arguments as for a stroke. Cost: all that moves along the cables and a
 /// sum over the segments once an unknown and jack.
-template <class TrackerType, class StrutRows, class Jacks, class PredictionType>
-void predict_strut(const TrackerType& tracker, const StrutRows& rows, int strut, int unknowns,
+template <class TrackerType, class StrutRows, class BeliefType, class Jacks, class PredictionType>
+void predict_strut(const TrackerType& tracker, const StrutRows& rows, int strut, const BeliefType& unknowns,
                    const Jacks& jacks, PredictionType& prediction) {
   using Scalar = typename TrackerType::Scalar;
   using Real = typename TrackerType::Real;
@@ -57,7 +65,8 @@ void predict_strut(const TrackerType& tracker, const StrutRows& rows, int strut,
   Real value = loads.prestrain * rows.prestrain[strut] + carried(tracker.elongations());
   for (int i = 0; i < model.loads; ++i) value += loads.factor[i] * rows.load[i][strut];
   prediction.value = static_cast<Scalar>(value);
-  for (int p = 0; p < unknowns; ++p)
+  clear_further(unknowns, prediction);
+  for (int p = 0; p < unknowns.carried(); ++p)
     prediction.H[p] = static_cast<Scalar>(carried(tracker.elongations_by(tracker.move_sensitivity(p))));
   for (int k = 0; k < jacks.size(); ++k)
     prediction.by_jack[k] = static_cast<Scalar>(

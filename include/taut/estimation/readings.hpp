@@ -23,7 +23,7 @@ template <class Scalar, class Cap>
 struct Readings {
   Sample<Scalar, Cap> sample;
   FixedArray<std::array<EndReading<Scalar>, 2>, Cap::cables> ends;
-  Scalar dt = 1;  ///< time since the row before, in any unit, > 0
+  Scalar dt = 1;  ///< time since the row before [s], > 0
 };
 
 }  // namespace taut

@@ -6,6 +6,7 @@
 
 #include "taut/scene/capacity.hpp"
 #include "taut/scene/fixed_list.hpp"
+#include "taut/scene/load_cell.hpp"
 
 namespace taut {
 
@@ -80,11 +81,12 @@ struct Cable : CableLayout<Scalar> {
   Scalar wobble = 0;       ///< unintended angle a length, k [rad/m], capstan only
   Scalar mu_sd = 0;        ///< standard deviation of what is known of mu beforehand [-]
   bool shared_mu = false;  ///< one mu holds for all joints
+  Scalar scatter = 0;      ///< standard deviation of mu from joint to joint about that, relative [-]
+  Scalar seating_sd = 0;   ///< standard deviation of the wedges' draw-in [m]
   Scalar prestrain = 0;    ///< given to every segment: unstressed length is (1 - prestrain) x distance
   Scalar alpha = 0;        ///< thermal expansion [1/K]
-  std::array<Scalar, 2>
-      sensor_sd{};     ///< standard deviation of the load cells at start and end [N]; 0: not given
-  int first_path = 0;  ///< of its nodes in Scene::path
+  std::array<LoadCell<Scalar>, 2> cell{};  ///< at start and end
+  int first_path = 0;                      ///< of its nodes in Scene::path
 };
 
 /// A linear elastic body that is known by its stiffness matrix on a few nodes.

@@ -122,8 +122,13 @@ class SceneCheck {
     if (cable.nodes < (cable.closed ? 3 : 2))
       return Status::at(Code::path_too_short, Place::cable, c, cable.nodes);
     Code code = first_failure(positive(cable.E), positive(cable.A));
-    for (const Real x : {cable.wobble, cable.mu_sd, cable.seating, cable.sensor_sd[0], cable.sensor_sd[1]})
+    for (const Real x : {cable.wobble, cable.mu_sd, cable.scatter, cable.seating, cable.seating_sd})
       code = first_failure(code, not_negative(x));
+    for (const LoadCell<Real>& cell : cable.cell) {
+      for (const Real x : {cell.sd, cell.gain_sd, cell.zero_sd, cell.hysteresis_sd})
+        code = first_failure(code, not_negative(x));
+      code = first_failure(code, first_failure(positive(cell.up), positive(cell.down)));
+    }
     if (!std::isfinite(cable.alpha)) code = first_failure(code, Code::not_finite);
     if (code != Code::ok) return Status::at(code, Place::cable, c);
     Status status = path(c);

@@ -2,18 +2,29 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "taut/tracking/affine_map.hpp"
 
 namespace taut {
 
+/// The force F of a jack depends on an unknown: dF/dp = constant + proportional F.
+template <class Scalar>
+struct JackError {
+  std::int16_t parameter = 0;
+  std::int16_t jack = 0;  ///< 2 x cable + end
+  Scalar constant = 0;
+  Scalar proportional = 0;
+};
+
 /// Derivatives of everything that moves along the cables, and of the tensions, with respect to `Parameters`
-/// numbers on which the friction of the joints depends; at fixed loads.
+/// numbers on which the friction of the joints, or the force of a jack, depends; all other loads are fixed.
 ///
-/// A sliding joint keeps T_small = rho T_big, so its derivative keeps T'_small = rho T'_big + rho' T_big, Eq.
-/// (16). A joint that sticks keeps the derivative of its slip. Where sliding ends at an event, that is at a
-/// load that itself depends on friction, the derivative jumps by the rate of slip times the derivative of
-/// that load, Eq. (18). Like tensions, derivatives are affine in the inputs while no state changes.
+/// The segment at a jack has the jack's force, and its derivative. A sliding joint keeps T_small = rho T_big,
+/// so its derivative keeps T'_small = rho T'_big + rho' T_big, Eq. (16). A joint that sticks keeps the
+/// derivative of its slip. Where sliding ends at an event, that is at a load that itself depends on friction,
+/// the derivative jumps by the rate of slip times the derivative of that load, Eq. (18). Like tensions,
+/// derivatives are affine in the inputs while no state changes.
 template <class CondensedType, class Laws, int Parameters>
 class Sensitivity {
  public:
@@ -34,6 +45,7 @@ class Sensitivity {
   void begin() {
     frozen_ = {};
     parameter_.fill(-1);
+    error_.fill({0, -1, 0, 0});
     event_shift_.fill(Real(0));
   }
   /// The parameter that the joint's friction depends on, or -1, and the derivative of its rho.
@@ -43,6 +55,11 @@ class Sensitivity {
     slope_[joint] = slope;
   }
   bool depends(int joint) const { return parameter_[joint] >= 0; }
+  /// A parameter that the force of a jack depends on, or that it depends on in another way from here on.
+  void depend_on_load(const JackError<Scalar>& error) {
+    use(error.parameter);
+    error_[error.parameter] = error;
+  }
   const Frozen& frozen() const { return frozen_; }
   void set_frozen(const Frozen& frozen) { frozen_ = frozen; }
   /// Calls change(derivatives of all that has moved) for every parameter.
@@ -61,12 +78,12 @@ class Sensitivity {
       carry(frozen_.derivative[p], T);
       Moves moves;
       for (int i = 0; i < map.active(); ++i) moves[i] = static_cast<Real>(of_move(map.move(i), p));
-      settle(due(map, p, map.base()), T, moves);
+      settle(due(map, p, map.base(), error_at_anchor(map, p)), T, moves);
       store(map, T, moves, base_[p], base_moves_[p]);
       for (int k = 0; k < map.inputs(); ++k) {
         T.fill(Real(0));
         moves.fill(Real(0));
-        settle(due(map, p, map.column(k)), T, moves);
+        settle(due(map, p, map.column(k), error_by_input(map, p, k)), T, moves);
         store(map, T, moves, column_[p][k], column_moves_[p][k]);
       }
     }
@@ -119,6 +136,13 @@ class Sensitivity {
     for (int i = 0; i < map.active(); ++i)
       of_move(map.move(i), p) = static_cast<Scalar>(map.column_move(k, i));
   }
+  /// From here on parameter `p` is by how much less cable an end holds that is locked; `jack` is
+  /// 2 x cable + end.
+  void draw_in(int p, int jack) {
+    use(p);
+    frozen_.derivative[p] = {};
+    frozen_.derivative[p].payout[jack / 2][static_cast<std::size_t>(jack % 2)] = -1;
+  }
   /// What comes next is not at an event.
   void pass() { event_shift_.fill(Real(0)); }
 
@@ -143,10 +167,30 @@ class Sensitivity {
       at += (x[k] - map.anchor()[k]) * static_cast<Real>(column_moves_[p][k][i]);
     return at;
   }
-  /// What the laws' derivatives are to be: rho' T_big of every sliding joint.
-  Moves due(const Map& map, int p, const Tensions& T) const {
+  bool is_force_of(const Input& input, int p) const {
+    return input.kind == Input::Kind::jack_force && input.index == error_[p].jack;
+  }
+  /// Derivative of the force of the jack that depends on `p`, where the map was made.
+  Real error_at_anchor(const Map& map, int p) const {
+    for (int k = 0; error_[p].jack >= 0 && k < map.inputs(); ++k)
+      if (is_force_of(map.input(k), p))
+        return static_cast<Real>(error_[p].constant) +
+               static_cast<Real>(error_[p].proportional) * map.anchor()[k];
+    return 0;
+  }
+  /// How that changes with input `k`.
+  Real error_by_input(const Map& map, int p, int k) const {
+    return error_[p].jack >= 0 && is_force_of(map.input(k), p) ? static_cast<Real>(error_[p].proportional)
+                                                               : Real(0);
+  }
+  /// What the laws' derivatives are to be: rho' T_big of every sliding joint, and that of the jack's force.
+  Moves due(const Map& map, int p, const Tensions& T, Real of_jack) const {
     Moves values;
     values.fill(Real(0));
+    if (of_jack != 0)
+      for (int i = 0; i < map.active(); ++i)
+        if (map.move(i).kind == Move::Kind::payout && map.move(i).index == error_[p].jack)
+          values[i] = of_jack;
     if constexpr (Cap::joints > 0) {
       for (int i = 0; i < map.active(); ++i) {
         const Active& active = map.actives()[i];
@@ -165,6 +209,7 @@ class Sensitivity {
   Frozen frozen_;
   FixedArray<std::int16_t, Cap::joints> parameter_;
   FixedArray<Real, Cap::joints> slope_;
+  FixedArray<JackError<Scalar>, Parameters> error_;  // jack -1: none
   FixedArray<Real, Parameters>
       event_shift_;  // by how much of what was left of the path the event comes later
   FixedArray<FixedArray<Scalar, Cap::segments>, Parameters> base_;

@@ -29,6 +29,13 @@ struct JointFriction {
   Real slope = 0;
 };
 
+/// Nothing is unknown of the forces of jacks.
+struct NoLoadErrors {
+  struct None {};
+  constexpr const None* begin() const { return nullptr; }
+  constexpr const None* end() const { return nullptr; }
+};
+
 /// The exact answer between samples. Along the straight path of loads and jack forces tensions are piecewise
 /// linear; only where a piece ends (a joint begins to slide, a run goes slack or taut) is anything solved.
 ///
@@ -75,7 +82,13 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   template <class Friction, class = decltype(std::declval<Friction>()(0))>
   Progress<Scalar> start(const CondensedType& condensed, const Friction& friction,
                          int event_budget = default_budget) {
-    begin(condensed, friction);
+    return start(condensed, friction, NoLoadErrors(), event_budget);
+  }
+  /// And with unknowns on which the forces of jacks depend: `errors` is a list of JackError.
+  template <class Friction, class Errors, class = decltype(std::declval<Errors>().begin())>
+  Progress<Scalar> start(const CondensedType& condensed, const Friction& friction, const Errors& errors,
+                         int event_budget = default_budget) {
+    begin(condensed, friction, errors);
     if (cables_.has_prestrain()) return follow(event_budget);
     cables_.state.now.prestrain = 1;
     cables_.state.arrived = true;
@@ -96,10 +109,11 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   Status restore(const CondensedType& condensed, const State& saved) {
     return restore(condensed, as_condensed, saved);
   }
-  /// Goes on with the friction that was used when the state was saved.
-  template <class Friction>
-  Status restore(const CondensedType& condensed, const Friction& friction, const State& saved) {
-    begin(condensed, friction);
+  /// Goes on with the friction, and the unknowns, that were used when the state was saved.
+  template <class Friction, class Errors = NoLoadErrors>
+  Status restore(const CondensedType& condensed, const Friction& friction, const State& saved,
+                 const Errors& errors = {}) {
+    begin(condensed, friction, errors);
     cables_.state = saved;
     if constexpr (is_adjustable) cables_.derivatives.set_frozen(saved);
     cables_.find_redundant_jack();
@@ -147,6 +161,8 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   bool goes_along(const Sample<Scalar, Cap>& sample) { return samples_.goes_along(cables_, sample); }
   /// Follows the force of this jack, by its number, in the same way.
   bool goes_along(int jack, Scalar force) { return samples_.goes_along(cables_, jack, force); }
+  /// Whether this force of a jack, by its number, is on the present piece; nothing is changed.
+  bool reaches(int jack, Scalar force) const { return samples_.reaches(cables_, jack, force); }
 
   // Unknown friction.
 
@@ -154,8 +170,8 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   /// order; `change` is by how much each unknown differs. Joints that come to lie outside of their cone are
   /// put on its edge. Fails with `mechanism`; then only start() may follow. Cost: that of one event, and of
   /// one more for every joint on the edge.
-  template <class Friction>
-  Status adjust(const Friction& friction, const FixedArray<Scalar, Parameters>& change) {
+  template <class Friction, class Changes>
+  Status adjust(const Friction& friction, const Changes& change) {
     depend(friction);
     if (!cables_.state.has_map) return Status::success();
     cables_.freeze();
@@ -184,6 +200,23 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     cables_.drop_map();
     samples_.forget(cables_);
   }
+  /// From here on unknown `p` is by how much further [m] the wedge of a locked end was drawn in than the model
+  /// has it, now that it is seated. Cost: that of turn().
+  void draw_in(int p, int cable, std::size_t end) {
+    cables_.find_forces();
+    cables_.freeze();
+    cables_.derivatives.draw_in(p, 2 * cable + static_cast<int>(end));
+    cables_.drop_map();
+    samples_.forget(cables_);
+  }
+  /// From here on the force of a jack depends on an unknown by another error. Cost: that of turn().
+  void change_load_error(const JackError<Scalar>& error) {
+    cables_.find_forces();
+    cables_.freeze();
+    cables_.derivatives.depend_on_load(error);
+    cables_.drop_map();
+    samples_.forget(cables_);
+  }
   /// Derivative of a tension with respect to unknown `p` [N], at the loads reached.
   Scalar sensitivity(int p, int segment) const {
     if (!cables_.state.has_map) return 0;
@@ -194,6 +227,10 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   Scalar sensitivity_slope(int p, int jack, int segment) const {
     const int k = cables_.input_of(jack);
     return k < 0 ? Scalar(0) : cables_.derivatives.tension_slope(p, k, segment);
+  }
+  /// Derivative of a jack's extension with respect to unknown `p`.
+  Scalar payout_sensitivity(int p, int cable, std::size_t end) const {
+    return move_sensitivity(p).payout[cable][end];
   }
   /// Derivatives of moves() with respect to unknown `p`.
   taut::Moving<Scalar, Cap> move_sensitivity(int p) const {
@@ -210,10 +247,12 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   using JackedEnd = typename Cables::JackedEnd;
 
   static JointFriction<Real> as_condensed(int) { return {}; }
-  template <class Friction>
-  void begin(const CondensedType& condensed, const Friction& friction) {
+  template <class Friction, class Errors = NoLoadErrors>
+  void begin(const CondensedType& condensed, const Friction& friction, const Errors& errors = {}) {
     cables_.begin(condensed);
     depend(friction);
+    if constexpr (is_adjustable && !std::is_same_v<Errors, NoLoadErrors>)
+      for (const JackError<Scalar>& error : errors) cables_.derivatives.depend_on_load(error);
   }
   template <class Friction>
   void depend(const Friction& friction) {

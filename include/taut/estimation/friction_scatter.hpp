@@ -1,0 +1,59 @@
+// Friction that scatters from joint to joint about the mu that a cable's joints share.
+#pragma once
+
+#include <cstdint>
+
+#include "taut/numerics/larger.hpp"
+#include "taut/scene/fixed_list.hpp"
+
+namespace taut {
+
+/// What the scatter of mu from joint to joint adds to the variance of a force, without an unknown a joint.
+///
+/// The shared unknown stands for the friction of all joints together, which a far end tells. On the way there
+/// the sum of the joints' friction strays from its share like a bridge: where the joints up to a segment have
+/// the contributions w_j to the derivative of its force, each with the variance a_j, with sums W and A up to
+/// there and A_n over all, the variance relative to the square of the derivative is (A - A^2 / A_n) / W^2.
+template <class Scalar, class Cap>
+class FrictionScatter {
+ public:
+  /// Fills in the segments of a cable whose shared unknown is `parameter`; weight(j) is what mu of joint j
+  /// varies by with the unknown, times its grip, and deviation(j) the standard deviation of its mu about the
+  /// shared one, times its grip. Joints that cannot slide have zero. Cost: four passes over the joints.
+  template <class CableLayout, class Weight, class Deviation>
+  void find(const CableLayout& cable, int parameter, const Weight& weight, const Deviation& deviation) {
+    Scalar all = 0, whole = 0;
+    for (int j = 0; j < cable.joints(); ++j) {
+      const Scalar d = deviation(cable.first_joint + j);
+      all += d * d;
+      whole += weight(cable.first_joint + j);
+    }
+    Scalar A = 0, W = 0;
+    for (int i = 0; i < cable.segments(); ++i) {
+      // From the end from which fewer joints lie in between: that is the one whose friction counts.
+      const Scalar way = -larger(-W, W - whole);
+      const bool is_between = way > 0 && all > 0;
+      variance_[cable.first_segment + i] =
+          is_between ? larger(A * (all - A) / all, Scalar(0)) / (way * way) : Scalar(0);
+      parameter_[cable.first_segment + i] = static_cast<std::int16_t>(parameter);
+      if (i == cable.joints()) break;
+      const Scalar d = deviation(cable.first_joint + i);
+      A += d * d;
+      W += weight(cable.first_joint + i);
+    }
+  }
+  void clear() { parameter_.fill(-1); }
+  /// Variance of the force of a segment [N^2]; `sensitivity(p)` is its derivative by unknown `p`.
+  template <class Sensitivity>
+  Scalar variance(int segment, const Sensitivity& sensitivity) const {
+    if (parameter_[segment] < 0) return 0;
+    const Scalar S = sensitivity(parameter_[segment]);
+    return S * S * variance_[segment];
+  }
+
+ private:
+  FixedArray<std::int16_t, Cap::segments> parameter_;  // the shared unknown, or -1
+  FixedArray<Scalar, Cap::segments> variance_;         // relative to the square of the derivative
+};
+
+}  // namespace taut

@@ -1,0 +1,151 @@
+// Instruments whose readings are handed in one by one: what is unknown of them, and which readings count.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "taut/estimation/instruments.hpp"
+#include "taut/estimation/noise_level.hpp"
+#include "taut/numerics/larger.hpp"
+#include "taut/scene/fixed_list.hpp"
+#include "taut/scene/load_cell.hpp"
+
+namespace taut {
+
+/// Number of an instrument in the list that Estimator::start() was given.
+struct Gauge {
+  int number = 0;
+};
+
+/// A zero_sd for instruments that are read from any mark.
+template <class Scalar>
+constexpr Scalar free_zero = std::numeric_limits<Scalar>::infinity();
+
+/// Measured segment forces, strain gauges of struts and strokes: a reading of what should be y is
+///     reading = (1 + gain) y + zero + noise,
+/// with gain and zero unknown constants. A LoadCell says how well they are known, for a stroke in metres; its
+/// hysteresis has no meaning. The errors of a model do not average out from row to row: a reading counts only
+/// if the jacks have moved by `part` of the largest load since the last one that did.
+template <class Scalar, int Capacity, int Cables>
+class Gauges {
+ public:
+  static constexpr Scalar part = Scalar(1) / 256;
+  /// A zero that is free is as unknown as so many standard deviations of the first reading.
+  static constexpr Scalar very_unknown = 10;
+
+  /// All that is known between two rows.
+  struct State {
+    struct One {
+      NoiseLevel<Scalar> noise;
+      Scalar since = 0;  ///< time since its last reading [s]
+      Scalar mark = 0;   ///< what is taken off a reading
+      Scalar taken = 0;  ///< `way` of the last reading that counted
+      bool is_marked = false, is_taken = false;
+    };
+    Scalar way = 0, largest = 0;  ///< that the sum of all loads has gone, and the largest such sum [N]
+    Scalar last = 0;              ///< the present sum [N]
+    FixedArray<One, Capacity> one;
+    /// `way` where a cable last began and ceased to slide throughout.
+    FixedArray<Scalar, Cables> began, ceased;
+    FixedArray<bool, Cables> slides;
+  };
+
+  /// Takes the instruments over, and numbers their unknowns by add(standard deviation). Returns how many
+  /// instruments or unknowns found no room.
+  template <class Cells, class Add>
+  int start(const Cells& cells, const Add& add) {
+    state_ = {};
+    cells_.clear();
+    int missing = 0;
+    for (const LoadCell<Scalar>& cell : cells) {
+      const int g = cells_.add(cell);
+      if (g < 0) {
+        ++missing;
+        continue;
+      }
+      LoadCell<Scalar> constants = cell;
+      constants.hysteresis_sd = 0;
+      if (is_free(g)) constants.zero_sd = 0;
+      missing += unknowns_[g].add(constants, add);
+      if (!is_free(g)) continue;
+      const int zero = add(Scalar(0));
+      if (zero < 0) ++missing;
+      unknowns_[g].zero = static_cast<std::int16_t>(zero);
+    }
+    for (int g = 0; g < size(); ++g) state_.one[g].noise.start(cells_[g].sd);
+    return missing;
+  }
+  const State& save() const { return state_; }
+  void restore(const State& state) { state_ = state; }
+
+  int size() const { return cells_.size(); }
+  bool has(Gauge gauge) const { return gauge.number >= 0 && gauge.number < size(); }
+  const InstrumentUnknowns& unknowns(Gauge gauge) const { return unknowns_[gauge.number]; }
+  /// Standard deviation of the noise of a reading, found from readings; never less than was given.
+  Scalar sd(Gauge gauge) const { return state_.one[gauge.number].noise.sd(); }
+  /// What is taken off a reading before anything else.
+  Scalar mark(Gauge gauge) const { return state_.one[gauge.number].mark; }
+  /// Whether its zero is free and nothing has been read from it yet.
+  bool lacks_mark(Gauge gauge) const { return is_free(gauge.number) && !state_.one[gauge.number].is_marked; }
+  void set_mark(Gauge gauge, Scalar mark) {
+    state_.one[gauge.number].mark = mark;
+    state_.one[gauge.number].is_marked = true;
+  }
+
+  /// A row `dt` [s] after the one before, with this sum of all jacks' loads [N].
+  void begin_row(Scalar load, Scalar dt) {
+    state_.way += std::fabs(load - state_.last);
+    state_.largest = larger(state_.largest, load);
+    state_.last = load;
+    for (int g = 0; g < size(); ++g) state_.one[g].since += dt;
+  }
+  /// Whether cable `c` slides throughout in this row.
+  void follow_sliding(int c, bool slides) {
+    if (slides == state_.slides[c]) return;
+    state_.slides[c] = slides;
+    (slides ? state_.began : state_.ceased)[c] = state_.way;
+  }
+  /// Whether it surely slides throughout, with a friction that is known to the part `mu_sd`: the way that the
+  /// jacks go until it does is in proportion to friction, and they have gone beyond that with a friction
+  /// that is higher by one standard deviation.
+  bool surely_slides(int c, Scalar mu_sd) const {
+    return state_.slides[c] &&
+           state_.way - state_.ceased[c] >= (1 + mu_sd) * (state_.began[c] - state_.ceased[c]);
+  }
+  /// What was read from a mark may be read from another one from now on.
+  void forget_marks() {
+    for (int g = 0; g < size(); ++g) state_.one[g].is_marked = state_.one[g].is_taken = false;
+  }
+  /// A reading tells how much readings scatter.
+  void follow_noise(Gauge gauge, Scalar reading) {
+    auto& one = state_.one[gauge.number];
+    one.noise.take(reading, one.since);
+    one.since = 0;
+  }
+  /// Whether the next reading counts.
+  bool is_due(Gauge gauge) const {
+    const auto& one = state_.one[gauge.number];
+    return !one.is_taken || state_.way - one.taken >= part * state_.largest;
+  }
+  void count(Gauge gauge) {
+    state_.one[gauge.number].taken = state_.way;
+    state_.one[gauge.number].is_taken = true;
+  }
+  /// Completes what is predicted of y by the unknowns of the instrument.
+  template <class PredictionType>
+  void depend(Gauge gauge, PredictionType& prediction) const {
+    const InstrumentUnknowns& own = unknowns(gauge);
+    if (own.gain >= 0) prediction.H[own.gain] = prediction.value;
+    if (own.zero >= 0) prediction.H[own.zero] = 1;
+  }
+
+ private:
+  bool is_free(int g) const { return cells_[g].zero_sd > std::numeric_limits<Scalar>::max(); }
+
+  FixedList<LoadCell<Scalar>, Capacity> cells_;
+  FixedArray<InstrumentUnknowns, Capacity> unknowns_;
+  State state_;
+};
+
+}  // namespace taut
