@@ -151,7 +151,7 @@ class Estimator {
       if (given.has_force) far_ends_.follow_noise(e, given.force, readings.dt);
     }
     if (gauges_.size() > 0) follow_gauges(corners, readings.dt);
-    if (!jacks_.may_have_reversed()) measure_far_ends(readings);
+    if (!jacks_.may_have_reversed() && !jacks_.has_refused()) measure_far_ends(readings);
     if (has_more) check_jacks(readings);
     look_ahead();
     if (!is_friction_fine_ && filter_.belief().has_friction())

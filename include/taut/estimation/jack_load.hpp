@@ -10,6 +10,7 @@
 
 #include "taut/estimation/belief.hpp"
 #include "taut/estimation/force_estimate.hpp"
+#include "taut/estimation/jump_guard.hpp"
 #include "taut/estimation/load_filter.hpp"
 #include "taut/estimation/noise_level.hpp"
 #include "taut/estimation/readings.hpp"
@@ -33,6 +34,7 @@ struct JackLoad {
   static constexpr std::uint8_t confirmed_below = 3;
 
   LoadFilter<Scalar> filter;
+  JumpGuard<Scalar> guard;
   NoiseLevel<Scalar> noise;
   ConditionedLoad<Scalar> at{};
   Jack<Scalar> driven{};  ///< where the tracker was driven to
@@ -116,6 +118,7 @@ struct JackLoad {
     // A released end keeps its wedge until a load is read.
     if (locked) {
       filter.start_at(filter.sd(), held.force, held.deviation);
+      guard.start(held.force);
       at = {};
       at.load = at.confirmed = held.force;
       turned = 0;
@@ -125,7 +128,10 @@ struct JackLoad {
     }
     sd_before = at.sd;
     // Placed there, not on the heap: a copy would read back at once what was just written in parts, and wait.
-    new (&at) ConditionedLoad<Scalar>(filter.take(possible(given.force, most), since));
+    Scalar reading = possible(given.force, most);
+    if (cell.sd > 0 && std::isfinite(reading) && guard.holds(reading, since, filter.sd()))
+      reading = std::numeric_limits<Scalar>::quiet_NaN();
+    new (&at) ConditionedLoad<Scalar>(filter.take(reading, since));
     follow_noise(given.force, cell);
     raw = given.force;
     if (cell.has_branches()) {

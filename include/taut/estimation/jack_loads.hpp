@@ -68,6 +68,12 @@ class JackLoads {
       if (state_.jack[k].at.behind) return true;
     return false;
   }
+  /// Whether a reading of this row was none: the load is where it was last read, or elsewhere.
+  bool has_refused() const {
+    for (int k = 0; k < size(); ++k)
+      if (!state_.jack[k].locked && state_.jack[k].at.refused) return true;
+    return false;
+  }
   /// Where the tracker is driven to for a row.
   SampleType target(const SampleType& given) const {
     SampleType to = given;
