@@ -112,7 +112,7 @@ template <class Scalar>
 inline constexpr ::taut::Condensed<Scalar, Capacity> condensed = detail::make_condensed(Scalar());
 
 /// What is known of friction and load cells, for Estimator. Where the scene has no mu_sd it is half of the mean mu.
-/// Of a jack that the scene does not say to be exact, an ordinary cell is taken, at an anchored end none.
+/// Of a jack that the scene does not say to be exact, an ordinary cell is taken, at an anchored end only one whose sd it says.
 template <class Scalar>
 inline constexpr ::taut::Knowledge<Scalar, Capacity> knowledge = detail::make_knowledge(Scalar());
 

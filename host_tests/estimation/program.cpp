@@ -12,6 +12,7 @@
 
 #include "files/result_table.hpp"
 #include "files/run_program.hpp"
+#include "support/random.hpp"
 
 namespace {
 
@@ -89,7 +90,8 @@ TEST_CASE("after a pause the load is where it is read, not where the ramp would 
       CAPTURE(pause);
       CAPTURE(has_empty_rows);
       const Scratch scratch;
-      write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0)", R"("C.end": { "sd": 500, "gain_sd": 0, "zero_sd": 0 })"));
+      write(scratch, "scene.json",
+            scene(R"("mu": 0.2, "mu_sd": 0)", R"("C.end": { "sd": 500, "gain_sd": 0, "zero_sd": 0 })"));
       std::string log = "time,C.end\n";
       for (int i = 1; i <= 100; ++i) log += row(i, 1000.0 * i);
       const int empty = has_empty_rows ? static_cast<int>(pause) - 1 : 0;
@@ -379,9 +381,11 @@ TEST_CASE(
 TEST_CASE("the force of a segment in the log gives mu without a far-end cell") {
   const Scratch scratch;
   const double mu = 0.3;
-  write(scratch, "scene.json",
-        scene(R"("mu": 0.2, "mu_sd": 0.1, "shared": true)",
-              R"("C.end": { "sd": 300, "gain_sd": 0.002 }, "C.T1": { "sd": 300, "gain_sd": 0.002, "zero_sd": 100 })"));
+  write(
+      scratch, "scene.json",
+      scene(
+          R"("mu": 0.2, "mu_sd": 0.1, "shared": true)",
+          R"("C.end": { "sd": 300, "gain_sd": 0.002 }, "C.T1": { "sd": 300, "gain_sd": 0.002, "zero_sd": 100 })"));
   std::string log = "time,C.end,C.T1\n";
   for (int i = 1; i <= 200; ++i)
     log += std::to_string(i) + ',' + std::to_string(1000.0 * i) + ',' +
@@ -396,13 +400,17 @@ TEST_CASE("the force of a segment in the log gives mu without a far-end cell") {
 
 TEST_CASE("two logs with a state between them have the bits of one") {
   const Scratch scratch;
-  write(scratch, "scene.json", scene(R"("mu": 0.3, "mu_sd": 0.09, "shared": true)", loop_sensors));
   const std::string log = loop_log(0.36), head = log.substr(0, log.find('\n') + 1);
-  for (const std::string scalar : {"double", "float"})
-    for (const int rows : {1, 70, 130}) {
+  // Also where half of mu is taken for a deviation that the scene does not say.
+  for (const std::string friction : {R"("mu": 0.3, "mu_sd": 0.09, "shared": true)", R"("mu": 0.3)"})
+    for (const auto& [scalar, rows] :
+         {std::pair("double", 2), std::pair("double", 130), std::pair("float", 70)}) {
+      CAPTURE(friction);
       CAPTURE(rows);
+      write(scratch, "scene.json", scene(friction, loop_sensors));
       std::filesystem::remove(scratch.path / "state");
-      const std::string options = " --hex --scalar " + scalar, state = " --state " + scratch.quoted("state");
+      const std::string options = std::string(" --hex --scalar ") + scalar,
+                        state = " --state " + scratch.quoted("state");
       write(scratch, "log.csv", log);
       const std::string whole = estimate(scratch, options).out;
       std::size_t at = head.size();
@@ -443,4 +451,81 @@ TEST_CASE("a state of another scene, precision or that is cut off is refused, an
   CHECK(
       run_taut(scratch, "simulate " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv") + state)
           .status == 2);
+}
+
+TEST_CASE(
+    "a log that begins under load: intervals hold what any past can have left, until sliding has wiped it "
+    "out") {
+  // The truth has the past, as load steps find it; the log does not.
+  const std::uint64_t seed = 20261123;
+  CAPTURE(seed);
+  support::Random random(seed);
+  int inside = 0, all = 0;
+  for (int visit = 0; visit < 12; ++visit) {
+    CAPTURE(visit);
+    const Scratch scratch;
+    write(scratch, "scene.json",
+          scene(R"("mu": 0.2, "mu_sd": 0.02, "shared": true)",
+                R"("C.end": { "sd": 500, "gain_sd": 0, "zero_sd": 0 },
+                   "C.start": { "sd": 300, "gain_sd": 0, "zero_sd": 0 })"));
+    std::vector<double> path;
+    const auto go = [&](double to) {
+      const double from = path.empty() ? 0 : path.back();
+      for (int i = 1; i <= 30; ++i) path.push_back(from + (to - from) * i / 30);
+    };
+    for (int turn = random.below(4); turn >= 0; --turn) go(random.between(6e4, 2e5));
+    go(1e5);
+    const std::size_t past = path.size();
+    for (const double to : {1e5, 1.3e5, 1.3e5, 2.2e5, 2.2e5, 1.2e5}) go(to);
+    std::string whole = "time,C.end\n";
+    for (std::size_t i = 0; i < path.size(); ++i)
+      whole += std::to_string(i + 1) + ',' + std::to_string(path[i]) + '\n';
+    write(scratch, "whole.csv", whole);
+    const Outcome truth =
+        run_taut(scratch, "simulate " + scratch.quoted("scene.json") + ' ' + scratch.quoted("whole.csv") +
+                              " --method stepwise --substeps 4");
+    REQUIRE(truth.status == 0);
+    const Table was(truth.out);
+    std::string log = "time,C.end,C.start\n";
+    for (std::size_t i = past; i < path.size(); ++i)
+      log += std::to_string(i + 1) + ',' + std::to_string(path[i] + 500 * support::gaussian(random)) + ',' +
+             std::to_string(was.number(i, "C.T1") + 300 * support::gaussian(random)) + '\n';
+    write(scratch, "log.csv", log);
+    const Outcome outcome = estimate(scratch, " --state " + scratch.quoted("state"));
+    REQUIRE(outcome.status == 0);
+    CHECK(outcome.err.find("begins under load") != std::string::npos);
+    CHECK(std::filesystem::exists(scratch.path / "state"));
+    const Table table(outcome.out);
+    for (std::size_t i = 0; i < table.rows.size(); ++i)
+      for (const char* segment : {"1", "2", "3", "4"}) {
+        const double error = table.number(i, std::string("C.T") + segment) -
+                             was.number(past + i, std::string("C.T") + segment);
+        inside += std::fabs(error) <= 1.96 * table.number(i, std::string("C.sd") + segment) ? 1 : 0;
+        ++all;
+      }
+    CHECK(table.rows[10].back() == "unknown-past:C");
+    // Friction at 1e5 N holds between 8.9e4 and 1.12e5 N at the anchor.
+    CHECK(table.number(10, "C.sd1") > 3000);
+    CHECK(table.rows.back().back().find("unknown-past") == std::string::npos);
+    CHECK(table.number(table.rows.size() - 1, "C.sd1") < 1000);
+  }
+  CHECK(inside > 0.93 * all);
+}
+
+TEST_CASE("a log that comes up from zero, in one stage too, has no unknown past; nor has one with a state") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0.02, "shared": true)", both_cells));
+  for (const double stage : {1e3, 5e4}) {
+    std::string log = "time,C.end\n";
+    for (int i = 1; i <= 4; ++i) log += std::to_string(100 * i) + ',' + std::to_string(stage * i) + '\n';
+    write(scratch, "log.csv", log);
+    std::filesystem::remove(scratch.path / "state");
+    const Outcome first = estimate(scratch, " --state " + scratch.quoted("state"));
+    CHECK(first.out.find("unknown-past") == std::string::npos);
+    write(scratch, "log.csv",
+          "time,C.end\n900," + std::to_string(4 * stage) + "\n910," + std::to_string(4 * stage) + '\n');
+    CHECK(estimate(scratch, " --state " + scratch.quoted("state")).out.find("unknown-past") ==
+          std::string::npos);
+    CHECK(estimate(scratch).out.find("unknown-past") != std::string::npos);
+  }
 }

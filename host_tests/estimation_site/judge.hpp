@@ -64,8 +64,9 @@ struct Tally {
 
 /// Whether a word says that instruments and model do not fit, and not what friction or forces are.
 inline bool is_odd(const std::string& word) {
-  static const std::set<std::string> others = {"no-information", "lift-off", "force-low", "force-high",
-                                               "unknown-past",   "mu",       "stuck",     "outlier"};
+  static const std::set<std::string> others = {"no-information", "unknown-past", "lift-off", "force-low",
+                                               "force-high",     "unknown-past", "mu",       "stuck",
+                                               "outlier"};
   return others.count(word) == 0;
 }
 

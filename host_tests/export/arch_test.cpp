@@ -23,7 +23,8 @@ TEST_CASE("a joint that is locked by friction is exported as locked") {
 }
 
 TEST_CASE(
-    "unknowns: one mu for all joints of a cable, none of a locked joint, two memories of a noisy jack, a draw-in of every wedge") {
+    "unknowns: one mu for all joints of a cable, none of a locked joint, two memories of a noisy jack, a "
+    "draw-in of every wedge") {
   static_assert(arch::unknowns == 1 + 2 + 2);
 }
 

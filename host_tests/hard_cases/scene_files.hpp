@@ -151,8 +151,8 @@ class SceneText {
   std::string sensors() const {
     std::string text;
     for_each_jack([&](int c, std::size_t end) {
-      text += (text.empty() ? "\"C" : ", \"C") + std::to_string(c) +
-              (end == 0 ? ".start\"" : ".end\"") + ": { \"exact\": true }";
+      text += (text.empty() ? "\"C" : ", \"C") + std::to_string(c) + (end == 0 ? ".start\"" : ".end\"") +
+              ": { \"exact\": true }";
     });
     return text;
   }

@@ -101,7 +101,7 @@ TEST_CASE("alarms beyond the longest list are counted") {
 
 TEST_CASE("alarms have words") {
   for (const char* kind : {"outlier", "sensor", "mu", "stuck", "elongation", "force-high", "force-low",
-                           "no-information", "gauge", "lift-off"})
+                           "no-information", "gauge", "lift-off", "unknown-past"})
     CHECK(alarm_meaning(std::string(kind) + ":C").means != alarm_meaning("no such alarm").means);
   CHECK(alarm_place("force-high:a:b.T3") == "a:b.T3");
 }

@@ -88,19 +88,22 @@
 // cones, from the slips alone. It returns violations as parts of the largest force so far: where all is well
 // about 1e-11 in double and 1e-7 in float. Costs n (n + J + L); const.
 //
-// Estimator<Condensed, Parameters>: from readings to forces with standard deviations. Parameters holds one
-// unknown for every joint that can slide, or for every cable with a shared mu, and two for every jack whose
-// load cell has noise, without which reversals count as exact: `unknowns` of an exported header. Condensed
-// scene and Knowledge must outlive it. start(), then advance() for every Readings: forces [N] and strokes [m]
+// Estimator<Condensed, Parameters, Further>: from readings to forces with standard deviations. Parameters
+// holds one unknown for every joint that can slide, or for every cable with a shared mu; gain, zero and
+// hysteresis of a jack's load cell where they are not known; two for every jack whose load cell has noise and
+// one for its wedge, without which reversals and draw-in count as exact. Further holds gain and zero of all
+// other instruments. They are `unknowns` and `reading_unknowns` of an exported header. Condensed scene and
+// Knowledge must outlive it. start(), then advance() for every Readings: forces [N] and strokes [m]
 // of cable ends as far as they were read, load factors, locks, time since the row before.
 //
-//   start() fails with `capacity_exceeded` if and only if friction has more unknowns than Parameters,
-//   otherwise as Tracker::start(). advance() fails with `bad_sample`, and does nothing, if a load factor is
+//   start() fails with `capacity_exceeded` if and only if friction and cells at jacks have more unknowns than
+//   Parameters, or other instruments more than Further, otherwise as Tracker::start(). advance() fails with `bad_sample`, and does nothing, if a load factor is
 //   not finite or beyond Condensed::most_factor, otherwise as Tracker::advance(). A reading that is not
 //   finite, more than the cable can carry, or contradicts is no error: it is left out, with an alarm.
 //   alarms() are those of the last row.
 //
-//   Intervals hold for readings without bias, independent and Gaussian, with the stated standard deviations.
+//   Intervals hold for readings with a constant gain and zero as uncertain as stated, and independent
+//   Gaussian noise, at least as stated.
 //
 //   Costs n + K + P^2 a row without an event. With events the path has up to three parts (to a lock-off, to
 //   a reversal, to the row), and each part up to one call of Tracker::advance() and one more for every
@@ -128,6 +131,7 @@
 #include "taut/estimation/bounds.hpp"
 #include "taut/estimation/estimator.hpp"
 #include "taut/estimation/find_knowledge.hpp"
+#include "taut/estimation/unknown_past.hpp"
 #include "taut/scene/capacity.hpp"
 #include "taut/scene/friction.hpp"
 #include "taut/scene/sample.hpp"

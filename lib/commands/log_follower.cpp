@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "lib/commands/first_load.hpp"
 #include "lib/commands/progress_line.hpp"
 #include "lib/commands/usual_deviations.hpp"
 #include "lib/files/file_text.hpp"
@@ -69,9 +70,10 @@ LogFollower::LogFollower(const RunOptions& options)
   std::ifstream stream = open_log(options.log);
   for (const std::string& text : left_out) remark(text);
   remark_on_columns(LogReader(stream, options.log, scene_, rules_));
-  if (options.method == Method::estimate && !begun_) {
+  if (begun_)
+    fill_in_mu_deviations(scene_);
+  else if (options.method == Method::estimate)
     for (const std::string& text : fill_in_deviations(options.log, rules_, scene_)) remark(text);
-  }
   remark_on_substeps();
 }
 
@@ -81,6 +83,12 @@ std::string LogFollower::follow(const RowVisitor& visit) {
   if (!start.whole())
     return options_.scene + ": before the first row" + part(start.fraction) + ": " +
            reason_to_stop(start, scene_);
+  if (!begun_ && options_.method == Method::estimate && begins_under_load(options_.log, rules_, scene_)) {
+    remark(
+        "the log begins under load: until the cables have slid over all joints their forces are those of any "
+        "past; --state FILE goes on from the log before");
+    model_->forget_past();
+  }
   std::ifstream stream = open_log(options_.log);
   LogReader log(stream, options_.log, scene_, rules_);
   LogRow row = log.first_row();
@@ -105,6 +113,11 @@ std::string LogFollower::follow(const RowVisitor& visit) {
 
 void LogFollower::keep_state() const {
   if (options_.state.empty()) return;
+  if (model_->has_unknown_past()) {
+    std::cerr << "remark: no state is written: the log began under load, and the cables have not slid enough "
+                 "since for their forces to be known\n";
+    return;
+  }
   SavedState state;
   state.scalar = name_of(options_.numbers.scalar);
   state.assumed = assumptions(scene_);

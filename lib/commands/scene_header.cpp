@@ -428,7 +428,7 @@ std::string objects(const Shared& shared) {
          "/// What is known of friction and load cells, for Estimator. Where the scene has no mu_sd it is "
          "half of the mean mu.\n"
          "/// Of a jack that the scene does not say to be exact, an ordinary cell is taken, at an anchored "
-         "end none.\n"
+         "end only one whose sd it says.\n"
          "template <class Scalar>\n"
          "inline constexpr ::taut::Knowledge<Scalar, Capacity> knowledge = "
          "detail::make_knowledge(Scalar());\n\n"

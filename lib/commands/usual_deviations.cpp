@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "lib/files/text.hpp"
+#include "lib/kinds/capacities.hpp"
 #include "taut/estimation/noise_level.hpp"
 
 namespace taut::host {
@@ -143,8 +144,9 @@ CellTable read_cells(const std::string& path, const SceneDescription& scene, con
   return cells;
 }
 
-// What is taken for the parts of an instrument that the scene does not say.
-std::string fill_in(const CellReadings& readings, InstrumentDescription& instrument) {
+// What is taken for the parts of an instrument that the scene does not say; with its gain and zero only if
+// they may be unknown.
+std::string fill_in(const CellReadings& readings, bool has_constants, InstrumentDescription& instrument) {
   std::string taken;
   const auto take = [&](std::optional<double>& value, double usual, const std::string& what) {
     if (value) return;
@@ -152,22 +154,38 @@ std::string fill_in(const CellReadings& readings, InstrumentDescription& instrum
     taken += (taken.empty() ? "" : ", ") + what;
   };
   const double noise = std::max(readings.noise.sd(), least_noise * readings.largest);
-  take(instrument.sd, noise, "sd " + plain(noise) + " N as its readings scatter");
+  const bool is_read = readings.count > 0;
+  take(instrument.sd, noise, "sd " + plain(noise) + (is_read ? " N as its readings scatter" : " N"));
+  if (!has_constants) return taken;
   take(instrument.gain_sd, usual_gain_sd, "gain_sd " + plain(usual_gain_sd));
   const double zero = usual_zero_sd * readings.largest;
   take(instrument.zero_sd, zero, "zero_sd " + plain(zero) + " N");
   return taken;
 }
 
+// How many cells are read at ends with a jack, or without.
+int count_cells(const CellTable& cells, const SceneDescription& scene, bool at_jacks) {
+  int count = 0;
+  for (std::size_t c = 0; c < scene.cables.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end)
+      if (cells[c][end].largest > 0 && scene.cables[c].is_jacked(end) == at_jacks) ++count;
+  return count;
+}
+
 // Cells without readings are none.
 void fill_in_cells(const CellTable& cells, SceneDescription& scene, std::vector<std::string>& remarks) {
+  const int at_jacks = count_cells(cells, scene, true), others = count_cells(cells, scene, false);
+  if (std::max(at_jacks, others) > most_unknown_cells)
+    remarks.push_back("more than " + std::to_string(most_unknown_cells) +
+                      " load cells: gain and zero that the scene does not say are taken for exact");
   for (std::size_t c = 0; c < scene.cables.size(); ++c) {
     CableDescription& cable = scene.cables[c];
     for (std::size_t end = 0; end < 2; ++end) {
       InstrumentDescription& cell = cable.cell[end];
       if (cell.exact || cells[c][end].largest == 0) continue;
-      std::string taken = fill_in(cells[c][end], cell);
-      if (cable.is_jacked(end) && !cell.is_given) {
+      const bool has_constants = (cable.is_jacked(end) ? at_jacks : others) <= most_unknown_cells;
+      std::string taken = fill_in(cells[c][end], has_constants, cell);
+      if (cable.is_jacked(end) && !cell.is_given && has_constants) {
         cell.part_sd = usual_hysteresis_sd;
         taken += ", hysteresis sd " + plain(usual_hysteresis_sd);
       }

@@ -10,7 +10,8 @@
 namespace taut::host {
 
 /// `outlier:C.end`, `sensor:C.start`, `mu:C`, `mu:C.3`, `stuck:C.3`, `elongation:C.end`, `force-high:C.T3`,
-/// `force-low:C.T3`, `no-information:C.start`, `gauge:strut3`, `gauge:C.T3` or `lift-off:C.end`; joints, segments and
+/// `force-low:C.T3`, `no-information:C.start`, `gauge:strut3`, `gauge:C.T3`, `lift-off:C.end`
+/// or `unknown-past:C`; joints, segments and
 /// struts are counted from 1, blanks in a name are `_`.
 inline std::string alarm_word(const Alarm& alarm, const SceneDescription& scene) {
   const std::string number = std::to_string(alarm.place + 1);
@@ -41,6 +42,8 @@ inline std::string alarm_word(const Alarm& alarm, const SceneDescription& scene)
       return "gauge:" + end;
     case Alarm::Kind::segment:
       return "gauge:" + cable + ".T" + number;
+    case Alarm::Kind::unknown_past:
+      return "unknown-past:" + cable;
     case Alarm::Kind::lift_off:
       return "lift-off:" + end;
   }

@@ -31,6 +31,9 @@ using Capacities = CapacityList<TAUT_CAPACITIES>;
 /// That of the method `stepwise`, which is a reference and need not be fast.
 using LargestCapacity = CapacityList<Large>;
 
+/// Load cells whose gain, zero and turning points may be unknown: so many at jacks, and as many others.
+constexpr int most_unknown_cells = 32;
+
 /// Numbers of everything that a capacity counts, in the order of `amount_names`.
 using Amounts = std::array<std::size_t, 11>;
 

@@ -8,11 +8,13 @@
 #include <type_traits>
 #include <vector>
 
+#include "lib/kinds/capacities.hpp"
 #include "lib/kinds/condense_scene.hpp"
 #include "lib/kinds/model.hpp"
 #include "lib/kinds/scene_gauges.hpp"
 #include "lib/kinds/solver_values.hpp"
 #include "taut/estimation/estimator.hpp"
+#include "taut/estimation/unknown_past.hpp"
 
 namespace taut::host {
 
@@ -54,27 +56,49 @@ class EstimatorModel : public Model {
     check_strokes_from_their_marks();
     time_ = row.time;
     has_row_ = true;
+    if (past_) PastType::withhold(*condensed_, *readings_);
     const auto progress = estimator_->advance(*readings_);
-    if (progress.status && !(progress.fraction < 1)) take_gauges(row);
-    return {progress.status, static_cast<double>(progress.fraction)};
+    const Followed below = {progress.status, static_cast<double>(progress.fraction)};
+    if (!below.whole()) return below;
+    if (past_) return advance_past();
+    take_gauges(row);
+    return below;
   }
+  void forget_past() override {
+    past_ = std::make_unique<PastType>();
+    past_begins_ = true;
+  }
+  bool has_unknown_past() const override { return past_ != nullptr; }
   void read(Answer& answer) const override {
     Response<Scalar, Cap> response;
     estimator_->respond(response, struts_.get());
+    if (past_) {
+      for (int i = 0; i < condensed_->segments; ++i)
+        response.tension[i] = past_->estimate(*estimator_, i).force;
+      condensed_->resolve_joints(response);
+    }
     read_response(response, scene_, answer);
     read_certainty(*estimator_, scene_, answer);
+    if (!past_) return;
+    for (int i = 0; i < condensed_->segments; ++i)
+      answer.deviation[static_cast<std::size_t>(i)] =
+          static_cast<double>(past_->estimate(*estimator_, i).deviation);
+    for (int c = 0; c < condensed_->cables.size(); ++c)
+      if (!past_->is_wiped_out(*estimator_, condensed_->cables[c]))
+        answer.alarms += (answer.alarms.empty() ? "" : " ") +
+                         alarm_word(Alarm::of(Alarm::Kind::unknown_past, c, 0), scene_);
   }
 
  private:
   using CondensedType = Condensed<Scalar, Cap>;
   using StrutRows = CondensedStruts<Scalar, Cap>;
   using KnowledgeType = Knowledge<Scalar, Cap>;
-  // Of the jacks of more cables than these, turning points are taken for exact.
-  static constexpr int noisy_cables = Cap::cables < 8 ? Cap::cables : 8;
-  // Gain and zero of cells at anchored ends, and of a gauge a segment and a stroke a cable.
-  static constexpr int further = 4 * noisy_cables + 2 * most_gauges<Cap>;
-  using EstimatorType = Estimator<CondensedType, Cap::joints + 4 * noisy_cables, further>;
+  static constexpr int cells = 2 * Cap::cables < most_unknown_cells ? 2 * Cap::cables : most_unknown_cells;
+  // Gain, zero and hysteresis of a jack, its wedge's draw-in and two turning points; gain and zero of another
+  // cell, and of a gauge a segment and a stroke a cable.
+  using EstimatorType = Estimator<CondensedType, Cap::joints + 6 * cells, 2 * cells + 2 * most_gauges<Cap>>;
   using ReadingsType = Readings<Scalar, Cap>;
+  using PastType = UnknownPast<EstimatorType>;
   using State = typename EstimatorType::State;
   static_assert(std::is_trivially_copyable_v<State>, "a file keeps bytes");
 
@@ -92,6 +116,19 @@ class EstimatorModel : public Model {
     limits_.least_elongation =
         std::max(limits_.least_elongation, static_cast<Scalar>(5 * gauges_.stroke_sd()));
     return condensing.status;
+  }
+  // Both estimators go on until they agree; where that has no answer neither has.
+  Followed advance_past() {
+    const auto progress = past_begins_ ? past_->start(*condensed_, *knowledge_, limits_, cells_, *readings_)
+                                       : past_->advance(*readings_);
+    past_begins_ = false;
+    const Followed above = {progress.status, static_cast<double>(progress.fraction)};
+    if (!above.whole()) return above;
+    bool is_wiped_out = true;
+    for (const auto& cable : condensed_->cables)
+      is_wiped_out = is_wiped_out && past_->is_wiped_out(*estimator_, cable);
+    if (is_wiped_out) past_.reset();
+    return above;
   }
   // What was not read from the start is compared with what is expected beyond its mark.
   void check_strokes_from_their_marks() {
@@ -131,6 +168,8 @@ class EstimatorModel : public Model {
   std::unique_ptr<StrutRows> struts_;
   std::unique_ptr<KnowledgeType> knowledge_;
   std::unique_ptr<EstimatorType> estimator_;
+  std::unique_ptr<PastType> past_;  // while it is not known
+  bool past_begins_ = false;
   std::unique_ptr<ReadingsType> readings_;
   double time_ = 0;
   bool has_row_ = false;

@@ -26,16 +26,22 @@ class Model {
 
   /// Brings the prestrain on. Methods that need load steps take `substeps`, here and in advance().
   virtual Followed start(int substeps) = 0;
+  /// After start(): cables were under load before the first row, and nobody knows how they came there.
+  virtual void forget_past() {}
   /// Follows the path to the loads and jack forces of the row.
   virtual Followed advance(const LogRow& row, int substeps) = 0;
   /// All that restore() needs, as bytes; empty for a method that cannot go on.
   virtual std::string save() const { return ""; }
+  /// Whether forces still depend on a past that is not known.
+  virtual bool has_unknown_past() const { return false; }
   /// In place of start(): goes on where a model of the same scene was saved, with its last row at `time` [s].
   virtual Followed restore(const std::string& bytes, double time);
   /// The present state.
   virtual void read(Answer& answer) const = 0;
 };
 
-inline Followed Model::restore(const std::string&, double) { return {Status::at(Code::bad_sample, Place::none, 0), 0}; }
+inline Followed Model::restore(const std::string&, double) {
+  return {Status::at(Code::bad_sample, Place::none, 0), 0};
+}
 
 }  // namespace taut::host

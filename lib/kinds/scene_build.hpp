@@ -18,8 +18,9 @@ std::array<double, static_cast<std::size_t>(Dimension)> shortened(const std::arr
   return axes;
 }
 
-/// What an instrument's description says, for the core: what it does not say is zero.
-inline LoadCell<double> load_cell(const InstrumentDescription& described) {
+/// What an instrument's description says, for the core: what it does not say is zero. Only at a jack is it
+/// known which way a ram goes; elsewhere its friction is one more error of gain.
+inline LoadCell<double> load_cell(const InstrumentDescription& described, bool at_jack) {
   LoadCell<double> cell;
   if (described.exact) return cell;
   // A display that steps scatters by its step.
@@ -27,6 +28,10 @@ inline LoadCell<double> load_cell(const InstrumentDescription& described) {
   if (described.sd) cell.sd = std::sqrt(*described.sd * *described.sd + step * step / 12);
   cell.gain_sd = described.gain_sd.value_or(0);
   cell.zero_sd = described.zero_sd.value_or(0);
+  if (!at_jack) {
+    cell.gain_sd = std::hypot(cell.gain_sd, described.part, described.part_sd);
+    return cell;
+  }
   cell.hysteresis_sd = described.part_sd;
   cell.up = described.right_while_it_pulls ? 1 : 1 + described.part;
   cell.down = described.right_while_it_pulls ? 1 - 2 * described.part : 1 - described.part;
@@ -51,7 +56,8 @@ void build_cable(const CableDescription& described, SceneType& scene) {
   cable.seating_sd =
       std::hypot(described.seating_sd.value_or(described.seating / 4), described.E_sd * described.seating);
   cable.seating = described.seating;
-  for (std::size_t end = 0; end < 2; ++end) cable.cell[end] = load_cell(described.cell[end]);
+  for (std::size_t end = 0; end < 2; ++end)
+    cable.cell[end] = load_cell(described.cell[end], described.is_jacked(end));
   const int index = scene.add_cable(cable, described.path.data(), static_cast<int>(described.path.size()));
   if (index < 0) return;  // validate() reports what had no room
   const Cable<double>& added = scene.cables[index];

@@ -31,11 +31,11 @@ class SceneGauges {
       of_stroke_.push_back(strokes);
       std::vector<int> segments;
       for (const InstrumentDescription& force : cable.force)
-        segments.push_back(force.is_given ? add(load_cell(force)) : -1);
+        segments.push_back(force.is_given ? add(load_cell(force, false)) : -1);
       of_segment_.push_back(segments);
     }
     for (std::size_t i = 0; i < scene.struts.size(); ++i)
-      if (scene.struts[i].gauge.is_given) of_strut_[i] = add(load_cell(scene.struts[i].gauge));
+      if (scene.struts[i].gauge.is_given) of_strut_[i] = add(load_cell(scene.struts[i].gauge, false));
   }
 
   template <class Scalar>
@@ -58,7 +58,7 @@ class SceneGauges {
   }
   // What the elongation of a cable is uncertain by in proportion is that of E A.
   int add_stroke(const InstrumentDescription& described, double E_sd) {
-    LoadCell<double> stroke = load_cell(described);
+    LoadCell<double> stroke = load_cell(described, false);
     stroke.gain_sd = E_sd;
     if (described.has_free_zero) stroke.zero_sd = free_zero<double>;
     if (!described.is_assumed) stroke_sd_ = std::max(stroke_sd_, stroke.sd);

@@ -6,7 +6,7 @@
 namespace taut::host {
 namespace {
 
-constexpr std::array<std::pair<const char*, AlarmMeaning>, 10> meanings = {{
+constexpr std::array<std::pair<const char*, AlarmMeaning>, 11> meanings = {{
     {"outlier",
      {"A reading of the load cell at this jack does not belong to the others. It was left out.",
       "Nothing, if it is rare. If it comes again and again, check the cell, its cable and its sd in the "
@@ -42,6 +42,11 @@ constexpr std::array<std::pair<const char*, AlarmMeaning>, 10> meanings = {{
       "deviations.",
       "Check the gauge (zero, temperature, bending of the strut), then the scene: loads, areas, mu and its "
       "sd."}},
+    {"unknown-past",
+     {"The cable was under load before the first row, and nobody said how it came there. The interval holds "
+      "the forces of every past.",
+      "Pull on until the cable has slid over all joints, or give the state that the last visit left "
+      "(--state)."}},
     {"lift-off",
      {"The jack pulls what this locked end holds: its wedge comes free.",
       "Unlock the end in the log from here on (locked 0), so that the jack drives it again."}},

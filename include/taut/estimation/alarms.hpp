@@ -21,6 +21,7 @@ struct Alarm {
     strut,           ///< a strain gauge contradicts the model by more than five sigma: `place` is the strut
     lift_off,        ///< the jack pulls what a locked end holds: the wedge is free, the end can be unlocked
     segment,         ///< the measured force of a segment contradicts the model by more than five sigma
+    unknown_past,    ///< the cable was under load before the first reading, and has not slid enough since
   } kind = Kind::outlier;
   std::int16_t cable = -1;  ///< -1: `place` is a strut
   std::int16_t place = -1;  ///< joint or segment of the cable; end 0 or 1

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "taut/estimation/jack_loads.hpp"
+#include "taut/numerics/larger.hpp"
 #include "taut/status.hpp"
 #include "taut/tracking/tracker.hpp"
 
@@ -28,11 +29,14 @@ template <class TrackerType, class Jacks, class SampleType>
   return true;
 }
 
-/// What two jacks were confirmed to pull may differ by more than friction holds, although their loads do not:
-/// lets the one of cable `c` that pulls more pull only as much as friction holds. Returns false if and only
-/// if the loads themselves differ by more, by five sigma; then nothing is changed. Cost: one product a joint.
+/// What two jacks were confirmed to pull may differ by more than friction holds in the model, although it
+/// holds their loads: lets the one of cable `c` that pulls more pull only as much as friction holds. Returns
+/// false if and only if the loads themselves differ, by five sigma, by more than friction holds that is five
+/// sigma larger; then nothing is changed. `mu_sd` is the relative standard deviation of mu there. Cost: one
+/// product a joint.
 template <class TrackerType, class Jacks, class SampleType>
-[[nodiscard]] bool reconcile(const TrackerType& tracker, const Jacks& jacks, int c, SampleType& to) {
+[[nodiscard]] bool reconcile(const TrackerType& tracker, const Jacks& jacks, int c,
+                             typename TrackerType::Scalar mu_sd, SampleType& to) {
   using Scalar = typename TrackerType::Scalar;
   const auto& cable = tracker.model().cables[c];
   auto& jack = to.jack[c];
@@ -41,13 +45,17 @@ template <class TrackerType, class Jacks, class SampleType>
   Scalar carried = cable.joints() == 0 ? Scalar(1) : Scalar(1.02);
   for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
     carried *= static_cast<Scalar>(tracker.rho(j));
-  const auto load = [&](std::size_t end) {
+  // Farthest toward the other one that a load can be; where one ramp has been noticed and the other not yet,
+  // they are off by their noise too.
+  const auto at_best = [&](std::size_t end, int way) {
     const int k = jacks.find(c, end);
-    return k < 0 ? ConditionedLoad<Scalar>() : jacks[k].at;
+    return k < 0 ? Scalar(0)
+                 : jacks[k].at.load +
+                       static_cast<Scalar>(way) * (5 * jacks[k].at.sd + 3 * jacks[k].filter.sd());
   };
-  const ConditionedLoad<Scalar> larger_load = load(more), smaller_load = load(less);
-  if (smaller_load.load + 5 * smaller_load.sd < carried * (larger_load.load - 5 * larger_load.sd))
-    return false;
+  // Friction larger by the part x leaves about as much less.
+  const Scalar least = larger(carried - 5 * mu_sd * (1 - carried), Scalar(0));
+  if (at_best(less, 1) < least * at_best(more, -1)) return false;
   jack[more].force = jack[less].force / carried;
   return true;
 }
@@ -61,13 +69,15 @@ Progress<Scalar> join(const Progress<Scalar>& first, Progress<Scalar> then) {
 }
 
 /// Drives the tracker straight to these loads, two jacks as far as friction holds them; `to` is then where
-/// that is. Fails as Tracker::advance() does. Cost: that of Tracker::advance(), at most once more a cable.
-template <class TrackerType, class Jacks, class SampleType>
+/// that is. mu_sd(cable) is the relative standard deviation of mu. Fails as Tracker::advance() does. Cost:
+/// that of Tracker::advance(), at most once more a cable.
+template <class TrackerType, class Jacks, class SampleType, class Uncertainty>
 Progress<typename TrackerType::Scalar> drive_straight(TrackerType& tracker, const Jacks& jacks,
-                                                      SampleType& to, int event_budget) {
+                                                      SampleType& to, int event_budget,
+                                                      const Uncertainty& mu_sd) {
   auto progress = tracker.advance(to, event_budget);
   for (int count = 0; count < tracker.model().cables.size() && progress.status.code == Code::pulled_through &&
-                      reconcile(tracker, jacks, progress.status.index, to);
+                      reconcile(tracker, jacks, progress.status.index, mu_sd(progress.status.index), to);
        ++count)
     progress = join(progress, tracker.advance(to, event_budget));
   return progress;
@@ -76,23 +86,23 @@ Progress<typename TrackerType::Scalar> drive_straight(TrackerType& tracker, cons
 /// Drives the tracker to the loads that ends had when they were locked, then to where loads have reversed.
 /// remember(k) is called where jack `k` was locked or reversed. Fails as Tracker::advance() does. Cost: that
 /// of drive_straight() twice.
-template <class TrackerType, class Jacks, class Remember>
+template <class TrackerType, class Jacks, class Remember, class Uncertainty>
 Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks& jacks,
                                                      const Corners& corners, int event_budget,
-                                                     const Remember& remember) {
+                                                     const Remember& remember, const Uncertainty& mu_sd) {
   auto corner = jacks.driven(load_patterns(tracker.model()));
   Progress<typename TrackerType::Scalar> progress;
   if (corners.locks) {
     for (int k = 0; k < jacks.size(); ++k)
       if (jacks[k].locks_now) jacks.in(corner.jack, k).force = jacks[k].at.load;
-    progress = drive_straight(tracker, jacks, corner, event_budget);
+    progress = drive_straight(tracker, jacks, corner, event_budget, mu_sd);
     for (int k = 0; k < jacks.size(); ++k)
       if (progress.status && jacks[k].locks_now) remember(k);
   }
   if (corners.reverses && progress.status) {
     for (int k = 0; k < jacks.size(); ++k)
       if (jacks[k].has_reversed()) jacks.in(corner.jack, k).force = jacks[k].at.reversal;
-    progress = join(progress, drive_straight(tracker, jacks, corner, event_budget));
+    progress = join(progress, drive_straight(tracker, jacks, corner, event_budget, mu_sd));
     for (int k = 0; k < jacks.size(); ++k)
       if (progress.status && jacks[k].has_reversed()) remember(k);
   }
@@ -102,15 +112,16 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
 /// Drives the tracker through the corners to `target`, where more happens than that a load changes. Fails as
 /// Tracker::advance() does; the jacks are then where the path ended. Cost: that of drive_straight() three
 /// times.
-template <class TrackerType, class Jacks, class SampleType, class Remember>
+template <class TrackerType, class Jacks, class SampleType, class Remember, class Uncertainty>
 [[gnu::noinline]] Progress<typename TrackerType::Scalar> drive(TrackerType& tracker, Jacks& jacks,
                                                                const Corners& corners,
                                                                const SampleType& target, int event_budget,
-                                                               const Remember& remember) {
+                                                               const Remember& remember,
+                                                               const Uncertainty& mu_sd) {
   Progress<typename TrackerType::Scalar> progress;
-  if (corners.any()) progress = drive_through(tracker, jacks, corners, event_budget, remember);
+  if (corners.any()) progress = drive_through(tracker, jacks, corners, event_budget, remember, mu_sd);
   SampleType to = target;
-  if (progress.status) progress = join(progress, drive_straight(tracker, jacks, to, event_budget));
+  if (progress.status) progress = join(progress, drive_straight(tracker, jacks, to, event_budget, mu_sd));
   const int patterns = load_patterns(tracker.model());
   if (!progress.status || progress.fraction < 1)
     jacks.arrive(tracker.loads(), patterns);

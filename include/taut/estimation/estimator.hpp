@@ -36,10 +36,10 @@ namespace taut {
 /// take_strut(), take_stroke().
 ///
 /// `Parameters` bounds the number of unknowns that forces depend on: one a cable with a shared mu, one a
-/// joint otherwise; gain, zero and hysteresis of a jack's load cell where they are not known; and
-/// `remembered_reversals` of every jack whose load cell has noise. If there is no room for these, reversals
-/// are taken for exact. `Further` bounds those that readings alone depend on: gain and zero of cells at
-/// anchored ends. See count_unknowns().
+/// joint otherwise; gain, zero and hysteresis of a jack's load cell where they are not known;
+/// `remembered_reversals` of every jack whose load cell has noise; and the draw-in of its wedge. If there is
+/// no room for the last two, reversals and draw-ins are taken for exact. `Further` bounds those that readings
+/// alone depend on: gain and zero of cells at anchored ends, and of gauges. See count_unknowns().
 ///
 /// Nothing here may be called from an interrupt while another call is under way; two estimators share
 /// nothing.
@@ -83,6 +83,35 @@ class Estimator {
     const Status known = begin(condensed, knowledge, limits, gauges);
     if (!known) return {known, Scalar(0), 0};
     return tracker_.start(condensed, filter_.friction(condensed), load_errors());
+  }
+  /// After start(): the loads of these first readings, those of jacks having come down from so high that
+  /// every joint slid back, at most 0.99 of what Condensed::most_force allows: the largest forces that any
+  /// past of the jacks can have left, see UnknownPast. Fails as advance() does. Cost: two paths.
+  Progress<Scalar> come_down(const ReadingsType& first) {
+    auto to = first.sample;
+    for (int k = 0; k < jacks_.size(); ++k) {
+      const EndReading<Scalar>& given = jacks_.in(first.ends, k);
+      if (jacks_.in(to.jack, k).locked || !given.has_force || !(given.force > 0) ||
+          !(given.force <= most_force(k)))
+        continue;
+      jacks_[k].come_down(given.force, jacks_.in(filter_.prior().cell, k));
+      change_errors(k);
+      jacks_.in(to.jack, k).force = jacks_[k].at.load;
+    }
+    auto above = to;
+    for (int k = 0; k < jacks_.size(); ++k) {
+      const auto& cable = model().cables[jacks_.end(k).cable()];
+      Scalar held = 1;
+      for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
+        held *= static_cast<Scalar>(tracker_.rho(j));
+      auto& force = jacks_.in(above.jack, k).force;
+      const Scalar most = Scalar(0.99) * most_force(k), square = held * held;
+      force = Scalar(1.02) * force < most * square ? Scalar(1.02) * force / square : most;
+    }
+    auto progress = tracker_.advance(above);
+    if (progress.status) progress = join(progress, tracker_.advance(to));
+    if (progress.status) jacks_.arrive(to, load_patterns(model()));
+    return progress;
   }
   /// The state between two rows. Cost: a copy of it.
   State save() const {
@@ -138,8 +167,10 @@ class Estimator {
     if (corners.any() || !try_extend(tracker_, jacks_, readings.sample)) {
       learn_waiting();
       begin_row();
-      progress = drive(tracker_, jacks_, corners, jacks_.target(readings.sample), event_budget,
-                       [this](int k) { remember_reversal(k); });
+      progress = drive(
+          tracker_, jacks_, corners, jacks_.target(readings.sample), event_budget,
+          [this](int k) { remember_reversal(k); },
+          [this](int c) { return filter_.relative_deviation(tracker_, c); });
       if (corners.any() || progress.events > 0) far_ends_.restart();
       if (!progress.status || progress.fraction < 1) return progress;
       if (corners.locks && remember_seating())
@@ -151,7 +182,7 @@ class Estimator {
       if (given.has_force) far_ends_.follow_noise(e, given.force, readings.dt);
     }
     if (gauges_.size() > 0) follow_gauges(corners, readings.dt);
-    if (!jacks_.may_have_reversed() && !jacks_.has_refused()) measure_far_ends(readings);
+    if (!loads_are_in_doubt()) measure_far_ends(readings);
     if (has_more) check_jacks(readings);
     look_ahead();
     if (!is_friction_fine_ && filter_.belief().has_friction())
@@ -188,8 +219,9 @@ class Estimator {
   }
 
   /// The same of instruments with unknowns of their own: numbers in the list that start() was given. Which
-  /// readings count is told by Gauges; all may be handed in. What contradicts raises Alarm::Kind::strut,
-  /// `elongation`, or `segment` for the measured force of a segment [N].
+  /// readings count is told by Gauges, those while cables surely slide; all may be handed in. What
+  /// contradicts raises Alarm::Kind::strut, `elongation`, or `segment` for the measured force of a segment
+  /// [N].
   void take_strut(const CondensedStruts<Scalar, Cap>& rows, int strut, Scalar reading, Gauge gauge) {
     const auto predict = [&](auto& prediction) {
       predict_strut(tracker_, rows, strut, filter_.belief(), jacks_.ends(), prediction);
@@ -328,6 +360,9 @@ class Estimator {
     auto& jack = jacks_[k];
     if (jack.erred_up == jack.pulls || jack.locked || jack.target() == jack.turned) return;
     jack.erred_up = jack.pulls;
+    change_errors(k);
+  }
+  void change_errors(int k) {
     for_each_load_error(k, [&](const JackError<Scalar>& error) { tracker_.change_load_error(error); });
   }
   int end_segment(int k) const {
@@ -391,6 +426,8 @@ class Estimator {
 
   // Measuring.
 
+  /// What is read of forces cannot be compared with those of loads that may be others.
+  bool loads_are_in_doubt() const { return jacks_.may_have_reversed() || jacks_.has_refused(); }
   void measure_far_ends(const ReadingsType& readings) {
     const bool gathers = far_ends_.gathers(jacks_);
     for (int e = 0; e < far_ends_.ends().size(); ++e) {
@@ -409,7 +446,7 @@ class Estimator {
   /// Of something else than a load cell.
   template <class Predict>
   void take_measurement(const Predict& predict, Scalar reading, Scalar sd, const Alarm& contradiction) {
-    if (!(sd > 0) || !filter_.belief().has_friction() || jacks_.may_have_reversed()) return;
+    if (!(sd > 0) || !filter_.belief().has_friction() || loads_are_in_doubt()) return;
     wait_for_none();
     predict(filter_.prediction());
     if (!filter_.is_informative(tracker_, contradiction.cable, sd))
@@ -448,7 +485,7 @@ class Estimator {
   void take_gauge(const Predict& predict, Scalar reading, Gauge gauge, const Alarm& contradiction) {
     if (!gauges_.has(gauge) || !std::isfinite(reading)) return;
     gauges_.follow_noise(gauge, reading);
-    if (!filter_.belief().has_friction() || jacks_.may_have_reversed() || !gauges_.is_due(gauge)) return;
+    if (!filter_.belief().has_friction() || loads_are_in_doubt() || !gauges_.is_due(gauge)) return;
     const auto predict_reading = [&](auto& prediction) {
       predict(prediction);
       gauges_.depend(gauge, prediction);
@@ -497,7 +534,9 @@ class Estimator {
   void check_lift_off(int k, Scalar reading) {
     const EndType& at = jacks_.end(k);
     const int segment = end_segment(k);
-    if (jacks_[k].lifts_off(reading, most_force(k), force(segment), [&] { return deviation(segment); }))
+    const Scalar up = jacks_.in(filter_.prior().cell, k).up;
+    if (jacks_[k].lifts_off(reading, most_force(k), up * force(segment),
+                            [&] { return up * deviation(segment); }))
       alarms_.add(alarm_at(Alarm::Kind::lift_off, at));
   }
 

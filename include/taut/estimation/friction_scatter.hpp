@@ -5,15 +5,17 @@
 
 #include "taut/numerics/larger.hpp"
 #include "taut/scene/fixed_list.hpp"
+#include "taut/scene/scene.hpp"
 
 namespace taut {
 
 /// What the scatter of mu from joint to joint adds to the variance of a force, without an unknown a joint.
 ///
 /// The shared unknown stands for the friction of all joints together, which a far end tells. On the way there
-/// the sum of the joints' friction strays from its share like a bridge: where the joints up to a segment have
-/// the contributions w_j to the derivative of its force, each with the variance a_j, with sums W and A up to
-/// there and A_n over all, the variance relative to the square of the derivative is (A - A^2 / A_n) / W^2.
+/// the sum of the joints' friction strays from its share like a bridge: where the joints from the jack to a
+/// segment have the contributions w_j to the derivative of its force, each with the variance a_j, with sums W
+/// and A up to there and A_n over all, the variance relative to the square of the derivative is (A - A^2 /
+/// A_n) / W^2.
 template <class Scalar, class Cap>
 class FrictionScatter {
  public:
@@ -28,10 +30,14 @@ class FrictionScatter {
       all += d * d;
       whole += weight(cable.first_joint + j);
     }
+    const auto is_jacked = [&](std::size_t end) { return !cable.closed && cable.ends[end] == End::jacked; };
     Scalar A = 0, W = 0;
     for (int i = 0; i < cable.segments(); ++i) {
-      // From the end from which fewer joints lie in between: that is the one whose friction counts.
-      const Scalar way = -larger(-W, W - whole);
+      // From the jack; of two, from the one that less friction lies before.
+      const Scalar from_start = W, from_end = whole - W,
+                   way = is_jacked(0) == is_jacked(1) ? -larger(-from_start, -from_end)
+                         : is_jacked(0)               ? from_start
+                                                      : from_end;
       const bool is_between = way > 0 && all > 0;
       variance_[cable.first_segment + i] =
           is_between ? larger(A * (all - A) / all, Scalar(0)) / (way * way) : Scalar(0);

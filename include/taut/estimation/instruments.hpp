@@ -55,8 +55,9 @@ class Instruments {
   FixedArray<std::array<InstrumentUnknowns, 2>, Cap::cables> of_;
 };
 
-/// How many unknowns an Estimator of these cables has room for: `forces` depend on the first ones, readings
-/// alone on the others. is_locked(joint) tells which joints have no friction to be found.
+/// How many unknowns an Estimator of these cables needs room for: forces depend on those that are carried,
+/// readings alone on the further ones, without those of gauges. is_locked(joint) tells which joints have no
+/// friction to be found.
 struct UnknownCounts {
   int carried = 0, further = 0;
 };

@@ -40,6 +40,7 @@ struct JackLoad {
   Jack<Scalar> driven{};  ///< where the tracker was driven to
   Scalar since = 0;       ///< time since the last reading
   Scalar turned = 0;      ///< load where it turned last [N], for a cell with two branches
+  Scalar turned_sd = 0;   ///< and its standard deviation [N]
   bool pulls = true;      ///< the branch: since then the load has gone up
   bool erred_up =
       true;  ///< the branch whose error the tracker has: after a turn, while the load rests, the old one
@@ -60,6 +61,8 @@ struct JackLoad {
     return std::fabs(reading) <= most ? reading : std::numeric_limits<Scalar>::quiet_NaN();
   }
 
+  /// What a reading is times the load, as the load goes at present.
+  Scalar branch(const LoadCell<Scalar>& cell) const { return pulls ? cell.up : cell.down; }
   /// The load behind a conditioned reading of a cell with two branches: after a turn it rests until the
   /// reading has come to the other branch.
   ConditionedLoad<Scalar> behind_branches(const ConditionedLoad<Scalar>& reading,
@@ -70,11 +73,14 @@ struct JackLoad {
     };
     if (reading.reversed) {
       load.reversal = turned = on(reading.reversal);
+      turned_sd = sd_before;
       pulls = !pulls;
     }
-    load.sd = reading.sd / (pulls ? cell.up : cell.down);
+    load.sd = reading.sd / branch(cell);
     load.confirmed = on(reading.confirmed);
     load.load = on(reading.load);
+    // While it rests, no reading tells more of it.
+    if (load.load == turned) load.sd = larger(load.sd, turned_sd);
     if (!reading.behind) return load;
     // If it has turned, it rests at first.
     const Scalar other = reading.load / (pulls ? cell.down : cell.up);
@@ -87,6 +93,16 @@ struct JackLoad {
     *this = JackLoad();
     filter.start(cell.sd);
     noise.start(cell.sd);
+  }
+  /// The load has come down to what this first reading says [N].
+  void come_down(Scalar reading, const LoadCell<Scalar>& cell) {
+    filter.start_at(cell.sd, reading, cell.sd, false);
+    guard.start(reading);
+    at = {};
+    at.load = at.confirmed = turned = reading / cell.down;
+    at.sd = cell.sd / cell.down;
+    pulls = erred_up = false;
+    first = Scalar(1e-3) * cell.sd;
   }
   /// The filter goes by the scatter that there is, not only by what was said.
   void follow_noise(Scalar reading, const LoadCell<Scalar>& cell) {
@@ -116,11 +132,11 @@ struct JackLoad {
     }
     if (!given.has_force) return false;
     // A released end keeps its wedge until a load is read.
+    const bool is_released = locked;
     if (locked) {
-      filter.start_at(filter.sd(), held.force, held.deviation);
-      guard.start(held.force);
+      // Readings of a jack that pulls are those of its upper branch.
+      filter.start_at(filter.sd(), cell.up * held.force, cell.up * held.deviation);
       at = {};
-      at.load = at.confirmed = held.force;
       turned = 0;
       pulls = true;
       locked = false;
@@ -129,6 +145,8 @@ struct JackLoad {
     sd_before = at.sd;
     // Placed there, not on the heap: a copy would read back at once what was just written in parts, and wait.
     Scalar reading = possible(given.force, most);
+    // How far the jack pulled while the wedge held is not known.
+    if (is_released) guard.start(reading);
     if (cell.sd > 0 && std::isfinite(reading) && guard.holds(reading, since, filter.sd()))
       reading = std::numeric_limits<Scalar>::quiet_NaN();
     new (&at) ConditionedLoad<Scalar>(filter.take(reading, since));
@@ -136,7 +154,7 @@ struct JackLoad {
     raw = given.force;
     if (cell.has_branches()) {
       at = behind_branches(at, cell);
-      raw /= pulls ? cell.up : cell.down;
+      raw /= branch(cell);
     }
     if (first == 0 && at.load > 0) first = Scalar(1e-3) * cell.sd;
     since = 0;
@@ -155,14 +173,14 @@ struct JackLoad {
     if (locked) return {};
     // Between the branches the reading says nothing.
     const bool is_read = is_new && !(cell.has_branches() && at.load == turned);
-    const Scalar sd = is_read ? filter.sd() : at.sd;
+    const Scalar sd = is_read ? filter.sd() / branch(cell) : at.sd;
     return {(is_read ? raw : at.load) - driven.force, sd * sd};
   }
 
-  /// While the end is locked, its load cell is that of a jack put back on it. Returns true if and only if the
-  /// jack, confirmed to pull less for `confirmed_below` readings, comes to pull what the end segment has:
-  /// the wedge is free. `held` is that force [N], deviation() its standard deviation. Cost: that of
-  /// LoadFilter::take(), and at most one call of deviation().
+  /// While the end is locked, its load cell is that of a jack put back on it, which pulls. Returns true if
+  /// and only if the jack, confirmed to pull less for `confirmed_below` readings, comes to pull what the end
+  /// segment has: the wedge is free. `held` is its reading then [N], deviation() the standard deviation.
+  /// Cost: that of LoadFilter::take(), and at most one call of deviation().
   template <class Deviation>
   [[nodiscard]] bool lifts_off(Scalar reading, Scalar most, Scalar held, const Deviation& deviation) {
     const ConditionedLoad<Scalar> pull = filter.take(possible(reading, most), since);

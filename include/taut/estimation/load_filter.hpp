@@ -64,9 +64,10 @@ class LoadFilter : LoadFilterTuning {
   }
 
   /// Begins again at a load that was held until now, known with a standard deviation [N]; what came before is
-  /// forgotten, and the load is taken to go up from there.
-  void start_at(Scalar sd, Scalar held, Scalar held_sd) {
+  /// forgotten, and the load is taken to go up from there, or down.
+  void start_at(Scalar sd, Scalar held, Scalar held_sd, bool rises = true) {
     start(sd);
+    way_ = rises ? Level(1) : Level(-1);
     if (sd_ > 0) {
       hypotheses_.clear();
       base_ = held;

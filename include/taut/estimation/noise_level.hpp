@@ -9,12 +9,15 @@
 namespace taut {
 
 /// The standard deviation of readings about a line, of neighbours and of means over three seconds, at least
-/// eight readings: noise that lasts longer than a reading averages out less than its scatter tells.
+/// eight readings: noise that lasts longer than a reading averages out less than its scatter tells. Of noise
+/// that is remembered for a second half the variance of long means is seen: it is common to neighbouring
+/// ones.
 ///
 /// Second differences of what lies on a line are zero; their median, which is not moved by corners and
-/// outliers, is followed in steps that shrink to a hundredth. After n of them the level is known to 1.2 /
-/// sqrt(n) of itself; it counts where it exceeds what was said by three times of that. Readings must be about
-/// equally far apart in time. A plain value. Cost: a few operations a reading.
+/// outliers, is followed in steps that shrink to a hundredth. After n of them, at most 99, the level is known
+/// to about 1.2 / sqrt(n) of itself; it counts where it exceeds what was said by 4 / sqrt(n + 1), so that
+/// noise of 1.4 times what was said is found at last. Readings must be about equally far apart in time. A
+/// plain value. Cost: a few operations a reading.
 template <class Scalar>
 class NoiseLevel {
  public:

@@ -1,0 +1,200 @@
+// The scatter that NoiseLevel finds in readings against noise whose scatter is known.
+#include "taut/estimation/noise_level.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <initializer_list>
+
+#include "support/random.hpp"
+
+using taut::NoiseLevel;
+
+namespace {
+
+constexpr int seeds = 200;
+
+/// What many levels say, each after its own noise.
+struct Levels {
+  double mean = 0, square_error = 0;
+  double rms_error() const { return std::sqrt(square_error); }
+};
+/// Levels that were told `said`, after `count` readings that read(i, random) tells; they should find `truth`.
+template <class Scalar, class Read>
+Levels levels_after(int count, double dt, double said, double truth, Read read) {
+  Levels levels;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    support::Random random(seed);
+    NoiseLevel<Scalar> level;
+    level.start(static_cast<Scalar>(said));
+    for (int i = 0; i < count; ++i) level.take(static_cast<Scalar>(read(i, random)), static_cast<Scalar>(dt));
+    const double found = static_cast<double>(level.sd());
+    levels.mean += found / seeds;
+    levels.square_error += (found - truth) * (found - truth) / seeds;
+  }
+  return levels;
+}
+/// A line of slope one, with this noise.
+auto white(double sd) {
+  return [sd](int i, support::Random& random) { return 100 + i + sd * support::gaussian(random); };
+}
+
+/// Noise of standard deviation one that is remembered for a second.
+class Remembered {
+ public:
+  explicit Remembered(double dt) : kept_(std::exp(-dt)) {}
+  double operator()(int i, support::Random& random) {
+    const double fresh = support::gaussian(random);
+    now_ = i == 0 ? fresh : kept_ * now_ + std::sqrt(1 - kept_ * kept_) * fresh;
+    return now_;
+  }
+  /// Covariance of means over `count` readings, one `later` readings after the other.
+  double covariance(int count, int later) const {
+    double sum = 0;
+    for (int a = 0; a < count; ++a)
+      for (int b = 0; b < count; ++b) sum += std::pow(kept_, std::abs(later + a - b));
+    return sum / count / count;
+  }
+
+ private:
+  double kept_, now_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("white noise of more than what was said is found", Scalar, float, double) {
+  for (const double truth : {2.0, 3.0})
+    for (const double dt : {0.05, 0.5, 5.0})
+      for (const int count : {400, 3000}) {
+        CAPTURE(truth);
+        CAPTURE(dt);
+        CAPTURE(count);
+        const Levels levels = levels_after<Scalar>(count, dt, 1, truth, white(truth));
+        // Each to 12 %, and the larger of two of them; in the mean of all seeds much better.
+        CHECK(std::fabs(levels.mean / truth - 1) < 0.1);
+        CHECK(levels.rms_error() / truth < 0.2);
+      }
+}
+
+TEST_CASE("what was said stands where it is right") {
+  for (const double dt : {0.05, 0.5, 5.0})
+    for (const int count : {10, 30, 100, 300, 1000, 3000}) {
+      CAPTURE(dt);
+      CAPTURE(count);
+      const Levels levels = levels_after<double>(count, dt, 1, 1, white(1));
+      CHECK(levels.mean >= 1);
+      CHECK(levels.mean < 1.02);
+    }
+}
+
+TEST_CASE("readings that scatter less than was said change nothing") {
+  const Levels levels = levels_after<double>(1000, 0.5, 1, 1, white(0.3));
+  CHECK(levels.square_error == 0);
+}
+
+TEST_CASE("a level that has settled is known to 12 %") {
+  // Readings so close together that no mean of them is known yet.
+  const Levels levels = levels_after<double>(240, 1e-3, 0.25, 1, white(1));
+  CHECK(std::fabs(levels.mean - 1) < 0.06);
+  CHECK(levels.rms_error() > 0.07);
+  CHECK(levels.rms_error() < 0.13);
+}
+
+TEST_CASE("a ramp is no noise: to the last bit") {
+  for (const double slope : {0.5, -64.0}) {
+    CAPTURE(slope);
+    NoiseLevel<double> held, ramped;
+    held.start(0.25);
+    ramped.start(0.25);
+    support::Random random(1);
+    for (int i = 0; i < 1000; ++i) {
+      // In steps that a double holds even on top of the ramp, and in means of a power of two of readings.
+      const double noise = std::round(1024 * support::gaussian(random)) / 1024;
+      held.take(noise, 0.5);
+      ramped.take(noise + slope * i, 0.5);
+      REQUIRE(held.sd() == ramped.sd());
+    }
+    CHECK(held.sd() > 0.5);
+  }
+}
+
+TEST_CASE("now and then a corner or an outlier changes nothing") {
+  // Ramps and holds of 300 readings, and every 300th reading is wrong altogether.
+  const auto load = [](int i) {
+    const int whole = i / 600, rest = i % 600;
+    return 2e4 * whole + (rest < 300 ? 2e4 * rest / 300.0 : 2e4);
+  };
+  for (const double truth : {1.0, 3.0}) {
+    CAPTURE(truth);
+    const Levels levels = levels_after<double>(3000, 0.5, 1, truth, [&](int i, support::Random& random) {
+      const double wrong = i % 300 == 170 ? 1e4 : 0;
+      return load(i) + wrong + truth * support::gaussian(random);
+    });
+    CHECK(levels.mean >= truth);
+    // Of eight readings each the means see them eight times as often: up to a sixth of their differences.
+    CHECK(levels.mean < (truth > 1 ? 1.25 * truth : 1.02));
+  }
+}
+
+TEST_CASE("noise that is remembered counts by the means over three seconds") {
+  for (const double dt : {0.1, 0.2, 0.5}) {
+    CAPTURE(dt);
+    Remembered noise(dt);
+    // At least eight readings.
+    const int count = dt < 0.4 ? static_cast<int>(std::lround(3 / dt)) : 8;
+    const double of_difference = 6 * noise.covariance(count, 0) - 8 * noise.covariance(count, count) +
+                                 2 * noise.covariance(count, 2 * count);
+    const double expected = std::sqrt(of_difference / 6 * count);
+    CAPTURE(expected);
+    REQUIRE(expected > 1.5);
+    const Levels levels = levels_after<double>(static_cast<int>(600 / dt), dt, 1, expected, noise);
+    CHECK(std::fabs(levels.mean / expected - 1) < 0.1);
+    CHECK(levels.rms_error() / expected < 0.2);
+  }
+}
+
+TEST_CASE("noise that alternates counts by its scatter, although it averages out at once") {
+  // Differences of white noise: their second differences are third ones, 1 - 3 + 3 - 1.
+  const double expected = std::sqrt((1 + 9 + 9 + 1) / 6.0);
+  double last = 0;
+  const Levels levels = levels_after<double>(1000, 0.5, 1, expected, [&](int, support::Random& random) {
+    const double before = last;
+    last = support::gaussian(random);
+    return last - before;
+  });
+  CHECK(std::fabs(levels.mean / expected - 1) < 0.1);
+}
+
+TEST_CASE("across steps in time that are not even nothing is compared") {
+  for (const double longer : {1.2, 1.3}) {
+    CAPTURE(longer);
+    NoiseLevel<double> level;
+    level.start(1);
+    support::Random random(5);
+    for (int i = 0; i < 2000; ++i) level.take(10 * support::gaussian(random), i % 2 == 0 ? 1 : longer);
+    // A quarter is even enough.
+    if (longer < 1.25)
+      CHECK(level.sd() > 5);
+    else
+      CHECK(level.sd() == 1);
+  }
+}
+
+TEST_CASE("a ramp stays no noise where its readings become rare, or pause") {
+  NoiseLevel<double> held, ramped;
+  held.start(0.25);
+  ramped.start(0.25);
+  support::Random random(2);
+  double time = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double dt = i % 50 == 0 ? 16 : i < 1000 ? 0.5 : 2;
+    time += dt;
+    const double noise = std::round(1024 * support::gaussian(random)) / 1024;
+    held.take(noise, dt);
+    ramped.take(noise + 32 * time, dt);
+    REQUIRE(held.sd() == ramped.sd());
+  }
+  CHECK(held.sd() > 0.5);
+}
