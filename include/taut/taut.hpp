@@ -97,10 +97,10 @@
 // of cable ends as far as they were read, load factors, locks, time since the row before.
 //
 //   start() fails with `capacity_exceeded` if and only if friction and cells at jacks have more unknowns than
-//   Parameters, or other instruments more than Further, otherwise as Tracker::start(). advance() fails with `bad_sample`, and does nothing, if a load factor is
-//   not finite or beyond Condensed::most_factor, otherwise as Tracker::advance(). A reading that is not
-//   finite, more than the cable can carry, or contradicts is no error: it is left out, with an alarm.
-//   alarms() are those of the last row.
+//   Parameters, or other instruments more than Further, otherwise as Tracker::start(). advance() fails with
+//   `bad_sample`, and does nothing, if a load factor is not finite or beyond Condensed::most_factor,
+//   otherwise as Tracker::advance(). A reading that is not finite, more than the cable can carry, or
+//   contradicts is no error: it is left out, with an alarm. alarms() are those of the last row.
 //
 //   Intervals hold for readings with a constant gain and zero as uncertain as stated, and independent
 //   Gaussian noise, at least as stated.

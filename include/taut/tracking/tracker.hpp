@@ -200,8 +200,8 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     cables_.drop_map();
     samples_.forget(cables_);
   }
-  /// From here on unknown `p` is by how much further [m] the wedge of a locked end was drawn in than the model
-  /// has it, now that it is seated. Cost: that of turn().
+  /// From here on unknown `p` is by how much further [m] the wedge of a locked end was drawn in than the
+  /// model has it, now that it is seated. Cost: that of turn().
   void draw_in(int p, int cable, std::size_t end) {
     cables_.find_forces();
     cables_.freeze();
