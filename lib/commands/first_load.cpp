@@ -13,12 +13,21 @@ bool begins_under_load(const std::string& path, const LogRules& rules, const Sce
   struct Jack {
     std::optional<double> first, second;
     double largest = 0;
+
+    // From a load of its own, and not in one stage from zero.
+    bool goes_on() const { return first && *first > 0 && (!second || *second - *first < 0.8 * *first); }
   };
   std::vector<std::array<Jack, 2>> jacks(scene.cables.size());
   std::ifstream stream = open_log(path);
   LogReader log(stream, path, scene, rules);
   LogRow row = log.first_row();
-  while (log.next(row))
+  // A long log is read on only where some jack is in question.
+  const auto may_begin_so = [&] {
+    return std::any_of(jacks.begin(), jacks.end(), [](const std::array<Jack, 2>& cable) {
+      return std::any_of(cable.begin(), cable.end(), [](const Jack& jack) { return jack.goes_on(); });
+    });
+  };
+  while (log.next(row) && (row.row <= 1 || may_begin_so()))
     for (std::size_t c = 0; c < jacks.size(); ++c)
       for (std::size_t end = 0; end < 2; ++end) {
         const auto& reading = row.cables[c][end].reading;
@@ -31,10 +40,8 @@ bool begins_under_load(const std::string& path, const LogRules& rules, const Sce
         jack.largest = std::max(jack.largest, *reading);
       }
   return std::any_of(jacks.begin(), jacks.end(), [](const std::array<Jack, 2>& cable) {
-    return std::any_of(cable.begin(), cable.end(), [](const Jack& jack) {
-      return jack.first && *jack.first > 0.05 * jack.largest &&
-             (!jack.second || *jack.second - *jack.first < 0.8 * *jack.first);
-    });
+    return std::any_of(cable.begin(), cable.end(),
+                       [](const Jack& jack) { return jack.goes_on() && *jack.first > 0.05 * jack.largest; });
   });
 }
 
