@@ -56,6 +56,8 @@ class Estimator {
   /// Reversals of every jack that friction is taken to remember.
   static constexpr int remembered_reversals = 2;
   using JacksType = JackLoads<Scalar, Cap, remembered_reversals>;
+  /// Where the tracker is driven to, by jack.
+  using Drives = FixedArray<Jack<Scalar>, JacksType::capacity>;
   using FarEndsType = FarEnds<FilterType, JacksType>;
   using GaugesType = Gauges<Scalar, Further, Cap::cables>;
   using NoGauges = FixedList<LoadCell<Scalar>, 0>;
@@ -68,6 +70,8 @@ class Estimator {
     typename FilterType::State friction;
     typename FarEndsType::State far_ends;
     typename GaugesType::State gauges;
+    Drives confirmed;  ///< where the tracker is of the jacks: those that it has been driven to may be ahead
+    bool is_ahead = false;  ///< they are
   };
 
   // Beginning.
@@ -115,11 +119,9 @@ class Estimator {
   }
   /// The state between two rows. Cost: a copy of it.
   State save() const {
-    State state = {confirmed_.tracker, jacks_.save(), filter_.save(), far_ends_.save(), gauges_.save()};
-    if (is_ahead_)
-      confirmed_.put_back(state.jacks);
-    else
-      state.tracker = tracker_.save();
+    State state = {confirmed_.tracker, jacks_.save(),   filter_.save(), far_ends_.save(),
+                   gauges_.save(),     confirmed_.jack, is_ahead_};
+    if (!is_ahead_) state.tracker = tracker_.save();
     return state;
   }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `capacity_exceeded` if and
@@ -134,10 +136,11 @@ class Estimator {
     filter_.restore(state.friction);
     far_ends_.restore(state.far_ends);
     gauges_.restore(state.gauges);
-    is_ahead_ = false;
+    confirmed_ = {state.tracker, state.confirmed};
+    is_ahead_ = state.is_ahead;
     const Status restored =
         tracker_.restore(condensed, filter_.friction(condensed), state.tracker, load_errors());
-    if (restored) look_ahead();
+    if (restored && is_ahead_) return tracker_.advance(jacks_.driven(load_patterns(model()))).status;
     return restored;
   }
 
@@ -157,14 +160,14 @@ class Estimator {
     for (int i = 0; i < load_patterns(model()); ++i)
       if (!(std::fabs(readings.sample.factor[i]) <= model().most_factor[i]))
         return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
-    go_back();
     begin_row();
     Corners corners;
     const bool has_more = condition(readings, corners);
+    if (is_ahead_) follow_ahead(corners, readings.sample);
     for (int k = 0; k < jacks_.size(); ++k)
       if (!jacks_[k].at.reversed) change_branch(k);
-    Progress<Scalar> progress;
-    if (corners.any() || !try_extend(tracker_, jacks_, readings.sample)) {
+    Progress<Scalar> progress{Status::success(), Scalar(1), 0};
+    if (!is_ahead_ && (corners.any() || !try_extend(tracker_, jacks_, readings.sample))) {
       learn_waiting();
       begin_row();
       progress = drive(
@@ -358,7 +361,7 @@ class Estimator {
   /// at that place.
   void change_branch(int k) {
     auto& jack = jacks_[k];
-    if (jack.erred_up == jack.pulls || jack.locked || jack.target() == jack.turned) return;
+    if (!jack.changes_branch()) return;
     jack.erred_up = jack.pulls;
     change_errors(k);
   }
@@ -382,11 +385,15 @@ class Estimator {
   }
 
   /// Where the best estimate of a load lies beyond the present piece, the forces there follow from the events
-  /// in between: the tracker goes there, until the next row.
+  /// in between: the tracker goes there, and stays while the loads that are confirmed are on their way.
   void look_ahead() {
-    if (is_ahead_ || !is_beyond_piece()) return;
-    confirmed_.tracker = tracker_.save();
-    for (int k = 0; k < jacks_.size(); ++k) confirmed_.driven[k] = jacks_[k].driven;
+    if (is_ahead_ ? !is_best_elsewhere() : !is_beyond_piece()) return;
+    if (is_ahead_) {
+      go_back();
+    } else {
+      confirmed_.tracker = tracker_.save();
+      for (int k = 0; k < jacks_.size(); ++k) confirmed_.jack[k] = jacks_[k].driven;
+    }
     is_ahead_ = true;
     const auto to = jacks_.best(jacks_.driven(load_patterns(model())));
     const auto progress = tracker_.advance(to);
@@ -402,12 +409,57 @@ class Estimator {
         return true;
     return false;
   }
+  /// While it is ahead: whether a best estimate has left the piece there, or has come back.
+  bool is_best_elsewhere() const {
+    for (int k = 0; k < jacks_.size(); ++k) {
+      if (jacks_[k].locked) continue;
+      const bool goes_up = jacks_[k].driven.force >= confirmed_.jack[k].force;
+      const Scalar further = goes_up ? jacks_[k].beyond() : -jacks_[k].beyond();
+      if (further > 0 ? !tracker_.reaches(k, jacks_[k].at.load) : further < -jacks_[k].at.sd) return true;
+    }
+    return false;
+  }
+  /// While it is ahead: nothing is done if the loads of a row lie on the way there. If they have come as far,
+  /// it is ahead no longer, and else goes back.
+  void follow_ahead(const Corners& corners, const Sample<Scalar, Cap>& sample) {
+    bool is_on_way = !corners.any(), is_past = is_on_way;
+    for (int i = 0; i < load_patterns(model()); ++i) is_on_way &= sample.factor[i] == jacks_.factor(i);
+    for (int k = 0; k < jacks_.size(); ++k) {
+      const auto& jack = jacks_[k];
+      is_on_way &= jack.locked == jack.driven.locked && !jack.changes_branch();
+      if (jack.locked) continue;
+      const Scalar from = confirmed_.jack[k].force, to = jack.driven.force, at = jack.target();
+      is_past &= (at - to) * (to - from) >= 0;
+      is_on_way &= (at - from) * (to - from) >= 0;
+    }
+    if (!is_on_way) return go_back();
+    if (is_past) {
+      is_ahead_ = false;
+      return;
+    }
+    for (int k = 0; k < jacks_.size(); ++k) {
+      const Scalar from = confirmed_.jack[k].force, to = jacks_[k].driven.force, at = jacks_[k].target();
+      if (!jacks_[k].locked && (at - to) * (to - from) > 0) return go_back();
+    }
+  }
   void go_back() {
     if (!is_ahead_) return;
     is_ahead_ = false;
     static_cast<void>(
         tracker_.restore(model(), filter_.friction(model()), confirmed_.tracker, load_errors()).ok());
-    for (int k = 0; k < jacks_.size(); ++k) jacks_[k].driven = confirmed_.driven[k];
+    for (int k = 0; k < jacks_.size(); ++k) jacks_[k].driven = confirmed_.jack[k];
+  }
+  /// From ahead to where the loads of this row are confirmed to have come.
+  void come_to_confirmed() {
+    if (!is_ahead_) return;
+    go_back();
+    const int patterns = load_patterns(model());
+    const auto to = jacks_.target(jacks_.driven(patterns));
+    const auto progress = tracker_.advance(to);
+    if (progress.status && !(progress.fraction < 1))
+      jacks_.arrive(to, patterns);
+    else
+      jacks_.arrive(tracker_.loads(), patterns);
   }
 
   /// How far the wedges were drawn in that hold since this row is not known exactly.
@@ -429,6 +481,7 @@ class Estimator {
   /// What is read of forces cannot be compared with those of loads that may be others.
   bool loads_are_in_doubt() const { return jacks_.may_have_reversed() || jacks_.has_refused(); }
   void measure_far_ends(const ReadingsType& readings) {
+    if (is_ahead_ && may_learn(readings)) come_to_confirmed();
     const bool gathers = far_ends_.gathers(jacks_);
     for (int e = 0; e < far_ends_.ends().size(); ++e) {
       const EndType& end = far_ends_.ends()[e];
@@ -438,6 +491,14 @@ class Estimator {
                                     : far_ends_.measure(e, given.force, tracker_, filter_, jacks_);
       if (update != Update::waits) note(update, alarm_at(Alarm::Kind::sensor, end));
     }
+  }
+  /// Whether a reading of the row may be informative: its cable slides even where the tracker is ahead.
+  bool may_learn(const ReadingsType& readings) const {
+    for (int e = 0; e < far_ends_.ends().size(); ++e)
+      if (far_ends_.ends()[e].in(readings.ends).has_force &&
+          (far_ends_.has_waiting() || filter_.slides_throughout(tracker_, far_ends_.ends()[e].cable())))
+        return true;
+    return false;
   }
   void learn_waiting() {
     if (far_ends_.has_waiting())
@@ -458,7 +519,7 @@ class Estimator {
   }
   /// The tracker is where the loads are confirmed to have come, and nothing else of the row waits.
   void wait_for_none() {
-    go_back();
+    come_to_confirmed();
     // The errors of the jack that they share.
     if (!far_ends_.has_waiting()) return;
     const bool shares_row = far_ends_.has_waiting_of_row();
@@ -543,11 +604,7 @@ class Estimator {
   /// Where the loads are confirmed to have come.
   struct Confirmed {
     typename TrackerType::State tracker;
-    FixedArray<Jack<Scalar>, JacksType::capacity> driven;
-
-    void put_back(typename JacksType::State& jacks) const {
-      for (int k = 0; k < JacksType::capacity; ++k) jacks.jack[k].driven = driven[k];
-    }
+    Drives jack;
   };
 
   // What every row needs comes first: instructions reach it directly.

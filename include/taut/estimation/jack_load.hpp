@@ -165,6 +165,9 @@ struct JackLoad {
   bool has_reversed() const { return !locked && at.reversed; }
   /// Where the tracker is driven to for a row [N].
   Scalar target() const { return larger(at.confirmed, first); }
+  /// Whether the error of a cell with two branches is another one from here on: the load leaves the place of
+  /// its last turn.
+  bool changes_branch() const { return erred_up != pulls && !locked && target() != turned; }
   /// From there to the best estimate of the load [N].
   Scalar beyond() const { return locked ? Scalar(0) : at.load - driven.force; }
   /// The load as a measurement of the row sees it: the raw reading if there is one, so that errors are

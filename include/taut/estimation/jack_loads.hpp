@@ -39,6 +39,8 @@ class JackLoads {
   const State& save() const { return state_; }
   void restore(const State& state) { state_ = state; }
 
+  /// The load factor of a pattern that the tracker was driven to [-].
+  Scalar factor(int pattern) const { return state_.factor[pattern]; }
   int size() const { return ends_.size(); }
   bool empty() const { return ends_.empty(); }
   const FixedList<CableEnd<Cap>, capacity>& ends() const { return ends_; }

@@ -72,18 +72,21 @@ class SamplePath {
     return only_ >= 0 && cables.jacks[jack].input == only_ && goes_to(cables, force);
   }
   /// Whether the force of an unlocked jack can go there, all else left as it is, without a change of modes.
-  /// Cost: two comparisons where the range is known, else a pass over the joints.
+  /// Cost: two comparisons within the range that is known, else a pass over the joints.
   [[nodiscard]] bool reaches(const Cables& cables, int jack, Scalar force) const {
     const int k = cables.state.has_map ? cables.jacks[jack].input : -1;
-    if (k < 0 || !(std::fabs(force) <= cables.state.reach[k] && force >= least_[k])) return false;
+    if (k < 0 || !(force >= least_[k])) return false;
     const Scalar step = force - at_[k];
     if (step == 0) return true;
     if (!cables.map.keeps(k, step > 0) || cables.map.has_slack()) return false;
     const Scalar dx = force - anchor_[k];
-    if (only_ == k) return dx >= range_[0] && dx <= range_[1];
+    if (only_ == k && dx >= range_[0] && dx <= range_[1]) return true;
     Rounded T = cables.state.tension;
     const Rounded& column = cables.map.rounded_column(k);
-    for (int i = 0; i < cables.model->segments; ++i) T[i] += step * column[i];
+    // Limits know no scale, but margins are for forces up to the largest so far.
+    const Scalar scale =
+        static_cast<Scalar>(cables.state.peak) / larger(force, static_cast<Scalar>(cables.state.peak));
+    for (int i = 0; i < cables.model->segments; ++i) T[i] = scale * (T[i] + step * column[i]);
     return is_within_limits(cables, T);
   }
   /// Drops what is known of the range: the next sample is looked at with all limits.
