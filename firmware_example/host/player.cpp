@@ -19,6 +19,7 @@
 #include "lib/files/scene_file.hpp"
 #include "lib/files/status_text.hpp"
 #include "lib/files/text.hpp"
+#include "lib/files/verdict.hpp"
 #include "monitor/estimator_alarm.hpp"
 #include "monitor/frame.hpp"
 
@@ -63,8 +64,9 @@ class AnswerReader {
     reals(found_.deviation, segments);
     reals(found_.mu, joints);
     reals(found_.mu_deviation, joints);
-    found_.alarms = alarm_words(alarms(scene), scene);
+    read_alarms(alarms(scene), scene, found_);
   }
+  /// Without a verdict.
   const Answer& found() const { return found_; }
 
  private:
@@ -129,8 +131,9 @@ class Player {
       if (row.row == 1) alarms = Alarms(alarms.bits() & ~greeting.bits());
       if (alarms.bits() != 0)
         std::cerr << "remark: " << place << ": the device says " << in_words(alarms) << '\n';
-      output.write(result_row(scene_, row.time, AnswerReader(answer, scene_).found(), format,
-                              ResultColumns::estimate));
+      Answer found = AnswerReader(answer, scene_).found();
+      found.verdict = verdict_.take(found.alarms);
+      output.write(result_row(scene_, row.time, found, format, ResultColumns::estimate));
       before = row;
     }
     output.finish();
@@ -201,7 +204,8 @@ class Player {
   const Options& options_;
   const SceneDescription& scene_;
   Device& device_;
-  Alarms greeting;  // what is no news in the first answer
+  Alarms greeting;   // what is no news in the first answer
+  Verdict verdict_;  // the device has none
 };
 
 int play(const Options& options) {

@@ -69,7 +69,9 @@ TEST_CASE("both load cells of one ramp give mu and the forces in between") {
     CHECK(outcome.err.empty());
     const Table table(outcome.out);
     REQUIRE(table.rows.size() == 200);
-    CHECK(table.header.back() == "alarms");
+    REQUIRE(table.header.size() > 3);
+    CHECK(std::vector<std::string>(table.header.end() - 3, table.header.end()) ==
+          std::vector<std::string>{"alarms", "notices", "verdict"});
     for (const std::string name : {"C.sd1", "C.sd4", "C.mu1", "C.mu3", "C.mu_sd1"})
       CHECK(std::count(table.header.begin(), table.header.end(), name) == 1);
     CHECK(std::fabs(table.number(199, "C.mu1") - mu) < 0.01);
@@ -106,7 +108,8 @@ TEST_CASE("after a pause the load is where it is read, not where the ramp would 
         CAPTURE(i);
         CHECK(std::fabs(table.number(i, "C.T4") - 1e5) < 1500);
         CHECK(table.number(i, "C.sd4") < 600);
-        CHECK(table.rows[i].back().empty());
+        CHECK(table.at(i, "alarms").empty());
+        CHECK(table.at(i, "verdict") == "trust");
       }
     }
 }
@@ -289,6 +292,103 @@ TEST_CASE("a stroke outside of its tolerance raises an alarm in its row") {
   CHECK(Table(estimate(scratch, " --elongation-tolerance 0.25").out).at(1, "alarms").empty());
 }
 
+namespace {
+
+/// A load that stays, with strokes that are a fifth too long in rows 2 to 4 and missing from then on.
+std::string long_strokes(int rows) {
+  const double payout = 2e5 * (2 * std::hypot(2, 0.3) + 2 * std::hypot(2, 0.1)) / (1.95e11 * 8e-4);
+  std::string log = "time,C.end,C.end.stroke\n";
+  for (int i = 1; i <= rows; ++i)
+    log +=
+        std::to_string(i) + ",200000," + (i > 4 ? "" : std::to_string((i == 1 ? 1.0 : 1.2) * payout)) + '\n';
+  return log;
+}
+const std::string stroke_in_doubt = "do not trust: the stroke at C.end contradicts the model";
+
+}  // namespace
+
+TEST_CASE("three strokes that do not fit make the numbers doubtful, until thirty rows have passed") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": 0, "mu_sd": 0)", exact_jack));
+  write(scratch, "log.csv", long_strokes(40));
+  for (const std::string options : {"", " --scalar float", " --hex"}) {
+    const Outcome outcome = estimate(scratch, options);
+    REQUIRE(outcome.status == 0);
+    const Table table(outcome.out);
+    REQUIRE(table.rows.size() == 40);
+    for (std::size_t i = 0; i < 40; ++i) {
+      CAPTURE(i);
+      CHECK(table.at(i, "alarms") == (i >= 1 && i <= 3 ? "elongation:C.end" : ""));
+      // Row 2 is none of the last thirty from row 32 on.
+      CHECK(table.at(i, "verdict") == (i >= 3 && i <= 30 ? stroke_in_doubt : "trust"));
+    }
+  }
+}
+
+TEST_CASE("a doubt that a log ends with is the doubt that the next one begins with, by the state between") {
+  const Scratch scratch;
+  write(
+      scratch, "scene.json",
+      scene(R"("mu": 0, "mu_sd": 0)", exact_jack + R"(, "C.end.stroke": { "sd": 0.0001, "zero": "start" })"));
+  const std::string log = long_strokes(40), head = log.substr(0, log.find('\n') + 1),
+                    state = " --state " + scratch.quoted("state");
+  write(scratch, "log.csv", log);
+  const Outcome whole = estimate(scratch);
+  REQUIRE(whole.status == 0);
+  CHECK(Table(whole.out).at(29, "verdict") == stroke_in_doubt);
+  for (const int rows : {1, 2, 3, 4, 20, 30, 31, 39}) {
+    CAPTURE(rows);
+    std::filesystem::remove(scratch.path / "state");
+    std::size_t at = head.size();
+    for (int i = 0; i < rows; ++i) at = log.find('\n', at) + 1;
+    write(scratch, "log.csv", log.substr(0, at));
+    const Outcome first = estimate(scratch, state);
+    REQUIRE(first.status == 0);
+    write(scratch, "log.csv", head + log.substr(at));
+    const Outcome second = estimate(scratch, state);
+    REQUIRE_MESSAGE(second.status == 0, second.err);
+    CHECK(first.out + second.out.substr(second.out.find('\n') + 1) == whole.out);
+  }
+}
+
+TEST_CASE("a far-end cell that is read while joints stick is a notice, no alarm and no reason for doubt") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0.05)", both_cells));
+  // Up to 100 kN, and a little back, which no joint lets through.
+  std::string log = "time,C.start,C.end\n";
+  for (int i = 1; i <= 80; ++i) {
+    const double force = i <= 50 ? 2000.0 * i : 1e5 - 200.0 * (i - 50);
+    const int noise = i % 2 == 0 ? 300 : -300;
+    log += std::to_string(i) + ',' + std::to_string(far_end(i <= 50 ? force : 1e5, 0.2) + noise) + ',' +
+           std::to_string(force - noise) + '\n';
+  }
+  write(scratch, "log.csv", log);
+  const Outcome outcome = estimate(scratch);
+  REQUIRE(outcome.status == 0);
+  const Table table(outcome.out);
+  int noticed = 0;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    CAPTURE(i);
+    CHECK(table.at(i, "alarms").empty());
+    CHECK(table.at(i, "verdict") == "trust");
+    const std::string notice = table.at(i, "notices");
+    CHECK((notice.empty() || notice == "no-information:C.start"));
+    noticed += notice.empty() ? 0 : 1;
+  }
+  CHECK(noticed > 0);
+}
+
+TEST_CASE("only an estimate has alarms, notices and a verdict") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0.05)", both_cells));
+  write(scratch, "log.csv", "time,C.end\n1,1000\n");
+  const std::string files = scratch.quoted("scene.json") + " " + scratch.quoted("log.csv");
+  const Table simulated(run_taut(scratch, "simulate " + files).out);
+  REQUIRE(simulated.rows.size() == 1);
+  CHECK(simulated.header.back() == "C.end.payout");
+  CHECK(simulated.rows[0].size() == simulated.header.size());
+}
+
 TEST_CASE("the jack's reading at a locked end changes no number, and says when the wedge is free") {
   const Scratch scratch;
   write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0.05)", both_cells));
@@ -308,6 +408,8 @@ TEST_CASE("the jack's reading at a locked end changes no number, and says when t
   REQUIRE(with.status == 0);
   REQUIRE(without.status == 0);
   Table found(with.out), expected(without.out);
+  const auto alarms = static_cast<std::size_t>(std::find(found.header.begin(), found.header.end(), "alarms") -
+                                               found.header.begin());
   std::vector<std::size_t> free;
   for (std::size_t i = 0; i < 180; ++i) {
     if (!found.at(i, "alarms").empty()) {
@@ -315,7 +417,8 @@ TEST_CASE("the jack's reading at a locked end changes no number, and says when t
       free.push_back(i + 1);
     }
     CHECK(expected.at(i, "alarms").empty());
-    found.rows[i].back() = expected.rows[i].back();
+    // The verdict too: a free wedge makes no number doubtful.
+    found.rows[i][alarms] = expected.rows[i][alarms];
     CHECK(found.rows[i] == expected.rows[i]);
   }
   // The wedge holds 200 kN, which the jack reaches in row 170.
@@ -503,10 +606,13 @@ TEST_CASE(
         inside += std::fabs(error) <= 1.96 * table.number(i, std::string("C.sd") + segment) ? 1 : 0;
         ++all;
       }
-    CHECK(table.rows[10].back() == "unknown-past:C");
+    CHECK(table.at(10, "alarms") == "unknown-past:C");
+    CHECK(table.at(10, "verdict") ==
+          "do not trust: nobody knows how C came under load (pull on or use --state)");
     // Friction at 1e5 N holds between 8.9e4 and 1.12e5 N at the anchor.
     CHECK(table.number(10, "C.sd1") > 3000);
-    CHECK(table.rows.back().back().find("unknown-past") == std::string::npos);
+    CHECK(table.at(table.rows.size() - 1, "alarms").find("unknown-past") == std::string::npos);
+    CHECK(table.at(table.rows.size() - 1, "verdict") == "trust");
     CHECK(table.number(table.rows.size() - 1, "C.sd1") < 1000);
   }
   CHECK(inside > 0.93 * all);

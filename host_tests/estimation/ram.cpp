@@ -47,8 +47,10 @@ Load take(Jack& jack, const Cell& cell, double reading, bool* reverses = nullptr
   given.has_force = true;
   given.force = reading;
   taut::Corners corners;
-  const bool refused = jack.take(false, given, 1, cell, huge, {}, corners);
-  CHECK(refused == jack.at.refused);
+  const bool was_refused = jack.at.refused;
+  const bool is_told = jack.take(false, given, 1, cell, huge, {}, corners);
+  // An outlier is this one or the one before.
+  if (is_told) CHECK((jack.at.refused || was_refused));
   CHECK(corners.reverses == jack.at.reversed);
   if (reverses != nullptr) *reverses = corners.reverses;
   return jack.at;

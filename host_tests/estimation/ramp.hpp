@@ -16,9 +16,16 @@ namespace estimation {
 constexpr double full = 2e5;
 
 /// Parts of the full force.
+template <class Scalar, class Check>
+void ramp(Site<Scalar>& site, double from, double to, int samples, const Check& check) {
+  for (int i = 1; i <= samples; ++i) {
+    site.advance(full * (from + (to - from) * i / samples));
+    check();
+  }
+}
 template <class Scalar>
 void ramp(Site<Scalar>& site, double from, double to, int samples) {
-  for (int i = 1; i <= samples; ++i) site.advance(full * (from + (to - from) * i / samples));
+  ramp(site, from, to, samples, [] {});
 }
 
 /// How many alarms are of this kind.

@@ -118,22 +118,24 @@ TEST_CASE("without a measurement mu stays what it was, and the forces are as unc
   }
 }
 
-TEST_CASE("while joints stick, a load cell at the far end teaches nothing, and an alarm says so") {
+TEST_CASE("while joints stick, a load cell at the far end teaches nothing, and a notice says so once") {
   static Ground ground;
   make_ground(ground, false, 0.2, 0.1, 0.3);
   const auto site = std::make_unique<Site<double>>(ground, Instruments{}, full, 3);
   ramp(*site, 0, 1, 100);
   for (int i = 0; i < 100; ++i) site->advance(full);
-  ramp(*site, 1, 0.95, 20);
+  int told = 0;
+  const auto count = [&] { told += raised(site->estimator().alarms(), taut::Alarm::Kind::no_information); };
+  ramp(*site, 1, 0.95, 20, count);
   const double mu = static_cast<double>(site->estimator().mu(0)),
                deviation = static_cast<double>(site->estimator().mu_deviation(0));
-  ramp(*site, 0.95, 0.9, 20);
+  ramp(*site, 0.95, 0.9, 20, count);
   CHECK(static_cast<double>(site->estimator().mu(0)) == mu);
   CHECK(static_cast<double>(site->estimator().mu_deviation(0)) == deviation);
-  CHECK(raised(site->estimator().alarms(), taut::Alarm::Kind::no_information));
+  CHECK(told == 1);
 }
 
-TEST_CASE("outliers of the jack's load cell are refused with an alarm and leave no trace") {
+TEST_CASE("outliers of the jack's load cell leave no trace, and the next good reading tells them") {
   static Ground ground;
   make_ground(ground, true, 0.2, 0, 0.2);
   Instruments instruments;
@@ -147,9 +149,12 @@ TEST_CASE("outliers of the jack's load cell are refused with an alarm and leave 
     wrong.ends[0][1].has_force = true;
     wrong.ends[0][1].force = i % 2 == 0 ? 0 : 1.5 * full;
     REQUIRE(estimator.advance(wrong).status.ok());
-    CHECK(raised(estimator.alarms(), taut::Alarm::Kind::outlier));
+    CHECK(raised(estimator.alarms(), taut::Alarm::Kind::outlier) == 0);
     for (int k = 0; k < site->segments(); ++k)
       CHECK(std::fabs(estimator.force(k) - site->true_force(k)) < 0.01 * full);
+    wrong.ends[0][1].force = full;
+    REQUIRE(estimator.advance(wrong).status.ok());
+    CHECK(raised(estimator.alarms(), taut::Alarm::Kind::outlier) == 1);
     site->advance(full);
   }
 }

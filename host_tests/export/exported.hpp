@@ -16,6 +16,7 @@
 #include "lib/files/log_file.hpp"
 #include "lib/files/result_file.hpp"
 #include "lib/files/scene_file.hpp"
+#include "lib/files/verdict.hpp"
 #include "lib/kinds/scene_build.hpp"
 #include "lib/kinds/solver_values.hpp"
 #include "taut/condensation/condense.hpp"
@@ -158,6 +159,7 @@ std::string estimated(const std::string& name, bool fits_exactly, const Condense
   Response<Scalar, Cap> response;
   Readings<Scalar, Cap> readings;
   Answer answer;
+  Verdict verdict;
   for (double before = 0; log.next(row); before = row.time) {
     const double dt = row.row == 1 ? 1 : row.time - before;
     read_row(row, scene, dt, readings);
@@ -165,6 +167,7 @@ std::string estimated(const std::string& name, bool fits_exactly, const Condense
     estimator.respond(response, rows);
     read_response(response, scene, answer);
     read_certainty(estimator, scene, answer);
+    answer.verdict = verdict.take(answer.alarms);
     text += result_row(scene, row.time, answer, format, ResultColumns::estimate);
   }
   return text;

@@ -64,6 +64,14 @@ TEST_CASE("the header names every column in the order of the scene, payouts at j
         "strut1\n");
 }
 
+TEST_CASE("an estimate has after these the deviations and mu of every cable, alarms, notices and verdict") {
+  const std::string state = result_header(two_cables()),
+                    estimate = result_header(two_cables(), ResultColumns::estimate);
+  CHECK(estimate == state.substr(0, state.size() - 1) +
+                        ",C.sd1,C.sd2,C.mu1,C.mu_sd1,H.sd1,H.sd2,H.sd3,H.mu1,H.mu2,H.mu3,H.mu_sd1,H.mu_sd2,"
+                        "H.mu_sd3,alarms,notices,verdict\n");
+}
+
 TEST_CASE("a row holds the values under their columns") {
   Answer answer;
   answer.tension = {1, 2, 3, 4, 5};
@@ -75,6 +83,20 @@ TEST_CASE("a row holds the values under their columns") {
   answer.strut = {-99.5};
   CHECK(result_row(two_cables(), 0.25, answer, as_double) ==
         "0.25,1,2,0.1,stick,10,-1,0.5,3,4,5,0.2,0.3,0.4,forward,backward,open,20,30,40,-2,-3,-4,-99.5\n");
+  answer.deviation = {11, 12, 13, 14, 15};
+  answer.mu = {0.5, 0.25, 0.125, 0.75};
+  answer.mu_deviation = {6, 7, 8, 9};
+  answer.alarms = "mu:C sensor:C.end";
+  answer.notices = "no-information:C.end";
+  answer.verdict = "do not trust: a; b";
+  const std::string state = result_row(two_cables(), 0.25, answer, as_double);
+  const std::string numbers =
+      state.substr(0, state.size() - 1) + ",11,12,0.5,6,13,14,15,0.25,0.125,0.75,7,8,9,";
+  CHECK(result_row(two_cables(), 0.25, answer, as_double, ResultColumns::estimate) ==
+        numbers + "mu:C sensor:C.end,no-information:C.end,do not trust: a; b\n");
+  answer.alarms = answer.notices = "";
+  answer.verdict = "trust";
+  CHECK(result_row(two_cables(), 0.25, answer, as_double, ResultColumns::estimate) == numbers + ",,trust\n");
 }
 
 TEST_CASE("decimals read back to the same double and float") {

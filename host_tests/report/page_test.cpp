@@ -169,6 +169,70 @@ TEST_CASE("a prediction without an answer is left out, and the page says so") {
   CHECK(has(page, "A reading of the load cell at this jack does not belong to the others."));
 }
 
+TEST_CASE("the verdict of the last row stands at the top, with the time since when it has held") {
+  const Scratch scratch;
+  REQUIRE(report(scratch, chain, chain_log(50)).status == 0);
+  const std::string good = page_of(scratch);
+  const std::string trusted =
+      "</h1><p class=\"summary\">Verdict at the end of the log: <strong>trust</strong>, since 1 s</p>";
+  CHECK(has(good, trusted));
+  // Without any stretch in rows 11 to 13.
+  const auto log = [](int rows) {
+    std::string text = "time,C<&>.end,C<&>.end.stroke\n";
+    for (int i = 1; i <= rows; ++i)
+      text += std::to_string(i) + ',' + std::to_string(10000 * i) + (i > 10 && i <= 13 ? ",0\n" : ",\n");
+    return text;
+  };
+  REQUIRE(report(scratch, chain, log(20)).status == 0);
+  const std::string doubtful = page_of(scratch);
+  CHECK(WellFormed(doubtful)() == "");
+  CHECK(has(doubtful,
+            "</h1><p class=\"warning\">Verdict at the end of the log: <strong>do not trust: the stroke at "
+            "C&lt;&amp;&gt;.end contradicts the model</strong> (in doubt since 13 s)</p>"));
+  // The first of the three leaves the last thirty rows with row 41.
+  REQUIRE(report(scratch, chain, log(45)).status == 0);
+  CHECK(has(page_of(scratch), "<strong>trust</strong>, since 41 s</p>"));
+}
+
+TEST_CASE(
+    "a page that ends before the log says to which row its verdict belongs, and one without rows none") {
+  const Scratch scratch;
+  REQUIRE(report(scratch, two_jacks, "time,D.start,D.end\n1,20000,20000\n2,20000,20000\n3,20000,90000\n")
+              .status == 1);
+  CHECK(has(page_of(scratch), "Verdict after row 2: "));
+  REQUIRE(report(scratch, two_jacks, "time,D.start,D.end\n1,20000,90000\n").status == 1);
+  CHECK_FALSE(has(page_of(scratch), "Verdict"));
+}
+
+TEST_CASE("notices are listed apart from alarms, and are not there if there is none") {
+  const Scratch scratch;
+  REQUIRE(report(scratch, chain, chain_log(50)).status == 0);
+  const std::string without = page_of(scratch);
+  CHECK_FALSE(has(without, "<h2>Notices</h2>"));
+  CHECK_FALSE(has(without, "no-information"));
+  // Up, and a little back: joints stick.
+  std::ostringstream log;
+  log << "time,C<&>.start,C<&>.end\n";
+  for (int i = 1; i <= 80; ++i) {
+    const int noise = i % 2 == 0 ? 300 : -300;
+    log << i << ',' << (i <= 50 ? 1840 * i : 92000) + noise << ','
+        << (i <= 50 ? 2000 * i : 100000 - 200 * (i - 50)) - noise << '\n';
+  }
+  REQUIRE(report(scratch, chain, log.str()).status == 0);
+  const std::string page = page_of(scratch);
+  CHECK(WellFormed(page)() == "");
+  const std::size_t alarms = page.find("<h2>Alarms</h2>"), notices = page.find("<h2>Notices</h2>"),
+                    word = page.find("no-information");
+  REQUIRE(alarms != std::string::npos);
+  REQUIRE(notices != std::string::npos);
+  CHECK(alarms < notices);
+  CHECK(notices < word);
+  CHECK(has(page, "<strong>no alarm</strong>"));
+  CHECK(has(page, "There is none."));
+  // To do: nothing.
+  CHECK_FALSE(has(page, "What to do"));
+}
+
 TEST_CASE("unusable input gives status 2 and no page") {
   const Scratch scratch;
   CHECK(report(scratch, chain, "time,X\n1,2\n").status == 2);

@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
+#include <vector>
 
+#include "lib/files/alarm_words.hpp"
 #include "lib/report/alarm_meaning.hpp"
 #include "lib/report/alarm_record.hpp"
 #include "lib/report/axis.hpp"
@@ -12,8 +16,10 @@
 #include "lib/report/curve.hpp"
 #include "lib/report/html.hpp"
 #include "lib/report/number_text.hpp"
+#include "lib/report/run_record.hpp"
 #include "lib/report/state_strip.hpp"
 
+using taut::Alarm;
 using namespace taut::host;
 
 namespace {
@@ -25,7 +31,63 @@ LogRow row_number(std::size_t row) {
   return made;
 }
 
+SceneDescription one_cable() {
+  SceneDescription scene;
+  CableDescription cable;
+  cable.name = "C";
+  cable.path = {0, 1};
+  scene.cables = {cable};
+  return scene;
+}
+
+// The record of rows with these verdicts, row 1 at 0.5 s and so on.
+double since(const std::vector<std::string>& verdicts) {
+  const SceneDescription scene = one_cable();
+  RunRecord record(scene);
+  Answer answer;
+  answer.tension = {1};
+  answer.deviation = {0};
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    LogRow row = row_number(i + 1);
+    row.cables.resize(1);
+    answer.verdict = verdicts[i];
+    record.add(row, answer);
+  }
+  return record.verdict_since;
+}
+
 }  // namespace
+
+TEST_CASE("a verdict has held since forces were trusted or in doubt without a break, for whatever reasons") {
+  CHECK(since({"trust"}) == 0.5);
+  CHECK(since({"trust", "trust", "trust"}) == 0.5);
+  CHECK(since({"do not trust: a"}) == 0.5);
+  CHECK(since({"trust", "do not trust: a", "do not trust: b; a", "do not trust: b"}) == 1);
+  CHECK(since({"trust", "do not trust: a", "trust", "trust"}) == 1.5);
+  CHECK(since({"do not trust: a", "trust", "do not trust: a"}) == 1.5);
+}
+
+TEST_CASE("notices are kept apart from alarms, an episode once, and mark no time as one of an alarm") {
+  const SceneDescription scene = one_cable();
+  RunRecord record(scene);
+  Answer answer;
+  answer.tension = {1};
+  answer.deviation = {0};
+  for (std::size_t i = 1; i <= 9; ++i) {
+    LogRow row = row_number(i);
+    row.cables.resize(1);
+    answer.notices = i % 4 >= 2 ? "no-information:C.start" : "";
+    answer.alarms = i == 9 ? "mu:C" : "";
+    record.add(row, answer);
+  }
+  REQUIRE(record.notices.runs().size() == 2);
+  CHECK(record.notices.runs()[0].first_row == 2);
+  CHECK(record.notices.runs()[0].last_row == 3);
+  CHECK(record.notices.runs()[1].first_row == 6);
+  CHECK(record.alarms.count() == 1);
+  const auto& spans = record.alarm_spans.cells();
+  CHECK(std::count_if(spans.begin(), spans.end(), [](const AlarmSpan& span) { return span.any; }) == 1);
+}
 
 TEST_CASE("a curve of a million points keeps its ends, minima and maxima in a thousand") {
   Curve curve;
@@ -100,9 +162,18 @@ TEST_CASE("alarms beyond the longest list are counted") {
 }
 
 TEST_CASE("alarms have words") {
-  for (const char* kind : {"outlier", "sensor", "mu", "stuck", "elongation", "force-high", "force-low",
-                           "no-information", "gauge", "lift-off", "unknown-past"})
-    CHECK(alarm_meaning(std::string(kind) + ":C").means != alarm_meaning("no such alarm").means);
+  std::set<std::string> texts{alarm_meaning("no such alarm").means};
+  const SceneDescription scene = one_cable();
+  // Every kind that there is, as it is written, has its own; the gauges of struts and segments have one.
+  for (int kind = 0; kind <= static_cast<int>(Alarm::Kind::frozen); ++kind) {
+    if (static_cast<Alarm::Kind>(kind) == Alarm::Kind::segment) continue;
+    const std::string word = alarm_word(Alarm::of(static_cast<Alarm::Kind>(kind), 0, 0), scene);
+    CAPTURE(word);
+    const AlarmMeaning meaning = alarm_meaning(word);
+    CHECK(texts.insert(meaning.means).second);
+    CHECK(std::string(meaning.to_do).size() > 5);
+  }
+  CHECK(alarm_word(Alarm::of(Alarm::Kind::segment, 0, 0), scene) == "gauge:C.T1");
   CHECK(alarm_place("force-high:a:b.T3") == "a:b.T3");
 }
 

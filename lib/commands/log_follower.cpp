@@ -95,6 +95,7 @@ std::string LogFollower::follow(const RowVisitor& visit) {
   if (begun_) {
     row.factor = begun_->factor;
     row.cables = begun_->cables;
+    verdict_ = Verdict(begun_->raised);
   }
   Answer answer;
   ProgressLine progress(rows_, wants_progress(options_));
@@ -104,6 +105,7 @@ std::string LogFollower::follow(const RowVisitor& visit) {
     model_->read(answer);
     if (const std::string number = impossible_number(scene_, answer); !number.empty())
       return place(row) + ": " + number + "; " + remedy_of_impossible_numbers;
+    if (options_.method == Method::estimate) answer.verdict = verdict_.take(answer.alarms);
     visit(row, answer);
     progress.reach(row.row);
   }
@@ -124,6 +126,7 @@ void LogFollower::keep_state() const {
   state.time = last_.time;
   state.factor = last_.factor;
   state.cables = last_.cables;
+  state.raised = verdict_.memory();
   state.bytes = model_->save();
   OutputFile file(options_.state);
   file.write(state_text(state, read_text(options_.scene, most_bytes)));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lib/files/state_file.hpp"
+#include "lib/files/verdict.hpp"
 #include "lib/kinds/make_model.hpp"
 
 namespace taut::host {
@@ -59,6 +60,7 @@ class LogFollower {
   LogRules rules_;
   std::size_t rows_ = 0;
   std::optional<SavedState> begun_;  // with the log before
+  Verdict verdict_;
   LogRow last_;
   std::vector<std::string> remarks_;
 };

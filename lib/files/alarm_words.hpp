@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <string>
 
+#include "lib/files/answer.hpp"
 #include "lib/files/scene_description.hpp"
 #include "taut/estimation/alarms.hpp"
 
 namespace taut::host {
 
 /// `outlier:C.end`, `sensor:C.start`, `mu:C`, `mu:C.3`, `stuck:C.3`, `elongation:C.end`, `force-high:C.T3`,
-/// `force-low:C.T3`, `no-information:C.start`, `gauge:strut3`, `gauge:C.T3`, `lift-off:C.end`
-/// or `unknown-past:C`; joints, segments and
+/// `force-low:C.T3`, `no-information:C.start`, `gauge:strut3`, `gauge:C.T3`, `lift-off:C.end`,
+/// `model-misfit:C.start`, `frozen:C.start` or `unknown-past:C`; joints, segments and
 /// struts are counted from 1, blanks in a name are `_`.
 inline std::string alarm_word(const Alarm& alarm, const SceneDescription& scene) {
   const std::string number = std::to_string(alarm.place + 1);
@@ -44,18 +45,28 @@ inline std::string alarm_word(const Alarm& alarm, const SceneDescription& scene)
       return "gauge:" + cable + ".T" + number;
     case Alarm::Kind::unknown_past:
       return "unknown-past:" + cable;
+    case Alarm::Kind::misfit:
+      return "model-misfit:" + end;
+    case Alarm::Kind::frozen:
+      return "frozen:" + end;
     case Alarm::Kind::lift_off:
       return "lift-off:" + end;
   }
   return "";
 }
 
-/// All of a list, separated by blanks.
+/// Adds one to the alarms of an answer, or to its notices.
+inline void add_alarm(const Alarm& alarm, const SceneDescription& scene, Answer& answer) {
+  std::string& words = alarm.is_notice() ? answer.notices : answer.alarms;
+  words += (words.empty() ? "" : " ") + alarm_word(alarm, scene);
+}
+
+/// Puts all of a list in place of what the answer had.
 template <class Alarms>
-std::string alarm_words(const Alarms& alarms, const SceneDescription& scene) {
-  std::string words;
-  for (const Alarm& alarm : alarms) words += (words.empty() ? "" : " ") + alarm_word(alarm, scene);
-  return words;
+void read_alarms(const Alarms& alarms, const SceneDescription& scene, Answer& answer) {
+  answer.alarms.clear();
+  answer.notices.clear();
+  for (const Alarm& alarm : alarms) add_alarm(alarm, scene, answer);
 }
 
 }  // namespace taut::host

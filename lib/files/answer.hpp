@@ -18,7 +18,9 @@ struct Answer {
   std::vector<double> strut;
   std::vector<double> deviation;         ///< of the tensions [N]; of `estimate` alone, like the rest
   std::vector<double> mu, mu_deviation;  ///< of every joint
-  std::string alarms;
+  std::string alarms;                    ///< in words, separated by blanks
+  std::string notices;                   ///< of those, what needs no action: they are not among the alarms
+  std::string verdict;                   ///< whether the numbers are to be trusted
 };
 
 }  // namespace taut::host

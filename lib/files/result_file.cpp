@@ -149,7 +149,7 @@ std::string result_header(const SceneDescription& scene, ResultColumns columns) 
       line.numbered(cable.name + ".mu", cable.joints());
       line.numbered(cable.name + ".mu_sd", cable.joints());
     }
-    line.field("alarms");
+    for (const char* name : {"alarms", "notices", "verdict"}) line.field(name);
   }
   return line.finished();
 }
@@ -183,7 +183,7 @@ std::string result_row(const SceneDescription& scene, double time, const Answer&
       segment += cable.segments();
       joint += cable.joints();
     }
-    line.field(answer.alarms);
+    for (const std::string* words : {&answer.alarms, &answer.notices, &answer.verdict}) line.field(*words);
   }
   return line.finished();
 }

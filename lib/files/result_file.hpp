@@ -28,7 +28,8 @@ std::string impossible_number(const SceneDescription& scene, const Answer& answe
 /// The word for a state.
 const char* state_word(JointState state);
 
-/// The columns of a result: what every method finds, or also what `estimate` says of its certainty.
+/// The columns of a result: what every method finds, or also what `estimate` says of its certainty, with
+/// alarms, notices and verdict.
 enum class ResultColumns { state, estimate };
 
 /// Header line of a result of the scene.

@@ -1,5 +1,6 @@
 #include "lib/files/state_file.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -11,7 +12,7 @@
 namespace taut::host {
 namespace {
 
-constexpr const char* magic = "taut-state-1";
+constexpr const char* magic = "taut-state-2";
 
 // FNV-1a, 64 bits.
 std::string fingerprint(const std::string& text) {
@@ -62,6 +63,12 @@ class Head {
     const double found = number();
     if (!(found >= 0 && found <= static_cast<double>(text_.size()))) fail();
     return static_cast<std::size_t>(found);
+  }
+  /// So many bits as a number; not all of them are zero.
+  std::uint32_t bits(int most) {
+    const double found = number();
+    if (!(found >= 1 && found < std::ldexp(1, most))) fail();
+    return static_cast<std::uint32_t>(found);
   }
   std::vector<double> numbers() {
     std::vector<double> all(count());
@@ -130,7 +137,9 @@ std::string state_text(const SavedState& state, const std::string& scene_text) {
       ends.push_back(end.locked ? 1 : 0);
     }
   write(body, ends);
-  body += std::to_string(state.bytes.size()) + '\n' + state.bytes;
+  body += std::to_string(state.raised.size());
+  for (const auto& [word, rows] : state.raised) body += ' ' + word + ' ' + std::to_string(rows);
+  body += '\n' + std::to_string(state.bytes.size()) + '\n' + state.bytes;
   return std::string(magic) + ' ' + build() + ' ' + state.scalar + ' ' + fingerprint(scene_text) + ' ' +
          fingerprint(body) + '\n' + body;
 }
@@ -160,6 +169,10 @@ SavedState read_state(const std::string& path, const std::string& text, const st
     EndRow& end = state.cables[i / 4][i % 4 / 2];
     end.force = ends[i];
     end.locked = ends[i + 1] == 1;
+  }
+  for (std::size_t words = rest.count(); words > 0; --words) {
+    const std::string word = rest.word();
+    state.raised[word] = rest.bits(Verdict::rows);
   }
   const std::size_t size = rest.count();
   state.bytes = rest.rest();

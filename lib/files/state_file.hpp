@@ -7,6 +7,7 @@
 
 #include "lib/files/log_file.hpp"
 #include "lib/files/scene_description.hpp"
+#include "lib/files/verdict.hpp"
 
 namespace taut::host {
 
@@ -17,6 +18,7 @@ struct SavedState {
   double time = 0;                            ///< of the last row [s]
   std::vector<double> factor;                 ///< of every load pattern
   std::vector<std::array<EndRow, 2>> cables;  ///< forces and wedges at both ends
+  Verdict::Memory raised;                     ///< what the verdict remembers of the last rows
   std::string bytes;                          ///< of the model
 };
 

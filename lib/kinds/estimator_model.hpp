@@ -85,8 +85,7 @@ class EstimatorModel : public Model {
           static_cast<double>(past_->estimate(*estimator_, i).deviation);
     for (int c = 0; c < condensed_->cables.size(); ++c)
       if (!past_->is_wiped_out(*estimator_, condensed_->cables[c]))
-        answer.alarms += (answer.alarms.empty() ? "" : " ") +
-                         alarm_word(Alarm::of(Alarm::Kind::unknown_past, c, 0), scene_);
+        add_alarm(Alarm::of(Alarm::Kind::unknown_past, c, 0), scene_, answer);
   }
 
  private:

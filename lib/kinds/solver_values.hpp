@@ -89,7 +89,7 @@ void read_certainty(const EstimatorType& estimator, const SceneDescription& scen
   copy(answer.deviation, answer.tension.size(), [&](int i) { return estimator.deviation(i); });
   copy(answer.mu, answer.slip.size(), [&](int j) { return estimator.mu(j); });
   copy(answer.mu_deviation, answer.slip.size(), [&](int j) { return estimator.mu_deviation(j); });
-  answer.alarms = alarm_words(estimator.alarms(), scene);
+  read_alarms(estimator.alarms(), scene, answer);
 }
 
 }  // namespace taut::host

@@ -6,7 +6,7 @@
 namespace taut::host {
 namespace {
 
-constexpr std::array<std::pair<const char*, AlarmMeaning>, 11> meanings = {{
+constexpr std::array<std::pair<const char*, AlarmMeaning>, 13> meanings = {{
     {"outlier",
      {"A reading of the load cell at this jack does not belong to the others. It was left out.",
       "Nothing, if it is rare. If it comes again and again, check the cell, its cable and its sd in the "
@@ -34,14 +34,21 @@ constexpr std::array<std::pair<const char*, AlarmMeaning>, 11> meanings = {{
       "Pull on, or release and pull again to bring the force over the joints; look for a slack cable."}},
     {"no-information",
      {"The load cell at this anchored end was read, but joints between it and the jack stick: the reading "
-      "says "
-      "nothing about mu.",
-      "Nothing. Readings taken while the cable slides over all joints are worth more."}},
+      "says nothing about mu. Readings taken while the cable slides over all joints are worth more.",
+      "Nothing."}},
     {"gauge",
      {"The measured force of this strut or segment contradicts the model by more than five standard "
       "deviations.",
       "Check the gauge (zero, temperature, bending of the strut), then the scene: loads, areas, mu and its "
       "sd."}},
+    {"model-misfit",
+     {"The readings of the load cell at this anchored end are off what the model says for longer than chance "
+      "allows. The forces of this cable are in doubt.",
+      "Compare both cells under one load (gain, zero), then check the scene: angles at the joints, forgotten "
+      "joints, loads, mu and its sd."}},
+    {"frozen",
+     {"The load cell keeps one value although the load moves. What it shows since then is no measurement.",
+      "Check the cell, its cable and the logger. Leave its fields in the log empty until it reads again."}},
     {"unknown-past",
      {"The cable was under load before the first row, and nobody said how it came there. The interval holds "
       "the forces of every past.",

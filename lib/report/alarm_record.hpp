@@ -1,4 +1,4 @@
-// The alarms of a log, those of consecutive rows joined.
+// The alarms or the notices of a log, those of consecutive rows joined.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 #include "lib/report/report_page.hpp"
 
 #include "lib/files/result_file.hpp"
+#include "lib/files/verdict.hpp"
 #include "lib/report/colour_scale.hpp"
 #include "lib/report/html.hpp"
 #include "lib/report/names.hpp"
@@ -31,6 +32,8 @@ class Page {
     std::string body = header() + structure();
     if (record_.rows > 0) body += along_the_cable() + over_time() + mu_over_time() + joint_states();
     body += element("section", {}, heading("Alarms") + alarm_table(view_));
+    if (const std::string notices = notice_table(view_); !notices.empty())
+      body += element("section", {}, heading("Notices") + notices);
     if (record_.rows > 0) body += final_values();
     return "<!DOCTYPE html>\n" +
            element("html", {{"lang", "en"}},
@@ -52,7 +55,7 @@ class Page {
 
   std::string header() const {
     std::string html =
-        element("h1", {}, escaped(title())) +
+        element("h1", {}, escaped(title())) + verdict() +
         paragraph("files", "Scene " + escaped(content_.scene_file) + ", log " + escaped(content_.log_file) +
                                ". Forces and friction estimated by <code>taut report</code>; "
                                "bands hold the true value with 95 %.") +
@@ -61,6 +64,15 @@ class Page {
       html += paragraph("warning", strong("The answer ends before the log does.") + " " +
                                        escaped(content_.end) + ". What follows shows the rows before it.");
     return element("header", {}, html);
+  }
+
+  std::string verdict() const {
+    if (record_.rows == 0) return "";
+    const bool is_good = is_trust(record_.end.verdict);
+    return paragraph(is_good ? "summary" : "warning",
+                     "Verdict " + view_.at_end() + ": " + strong(record_.end.verdict) +
+                         (is_good ? ", since " : " (in doubt since ") +
+                         view_.time_text(record_.verdict_since) + (is_good ? " s" : " s)"));
   }
 
   std::string summary() const {

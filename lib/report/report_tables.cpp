@@ -37,39 +37,50 @@ std::string table(const std::string& name, const TableRow& head, const std::stri
                  element("table", {}, element("thead", {}, head.finished()) + element("tbody", {}, rows)));
 }
 
-std::string further_alarms(const ReportView& view) {
+std::string further_runs(const AlarmRecord& record) {
   std::string list;
-  for (const auto& [word, count] : view.record.alarms.further())
+  for (const auto& [word, count] : record.further())
     list += (list.empty() ? "" : ", ") + word + " " + std::to_string(count) + " times";
   return list.empty() ? "" : paragraph("note", "Later, and not listed one by one: " + escaped(list) + ".");
+}
+
+// Of alarms or notices; what to do about notices is nothing.
+std::string run_table(const ReportView& view, const AlarmRecord& record, const std::string& kind,
+                      bool tells_what_to_do) {
+  std::string rows;
+  for (const AlarmRun& run : record.runs()) {
+    const bool is_one = run.first_row == run.last_row;
+    const AlarmMeaning meaning = alarm_meaning(run.word);
+    TableRow row;
+    row.number(std::to_string(run.first_row) + (is_one ? "" : dash + std::to_string(run.last_row)))
+        .number(view.time_text(run.first_time - view.origin) +
+                (is_one ? "" : dash + view.time_text(run.last_time - view.origin)))
+        .word(run.word.substr(0, run.word.find(':')))
+        .word(alarm_place(run.word))
+        .text(meaning.means);
+    if (tells_what_to_do) row.text(meaning.to_do);
+    rows += row.finished();
+  }
+  TableRow head("th");
+  head.number("Rows")
+      .number(view.origin == 0 ? "Time [s]" : "Since " + view.time_text(view.origin) + " [s]")
+      .word(kind)
+      .word("Where")
+      .text("What it means");
+  if (tells_what_to_do) head.text("What to do");
+  return element("div", {{"class", "alarms"}}, table(kind + "s", head, rows)) + further_runs(record);
 }
 
 }  // namespace
 
 std::string alarm_table(const ReportView& view) {
-  if (view.record.alarms.count() == 0) return paragraph("note", "There is none.");
-  std::string rows;
-  for (const AlarmRun& run : view.record.alarms.runs()) {
-    const bool is_one = run.first_row == run.last_row;
-    const AlarmMeaning meaning = alarm_meaning(run.word);
-    rows += TableRow()
-                .number(std::to_string(run.first_row) + (is_one ? "" : dash + std::to_string(run.last_row)))
-                .number(view.time_text(run.first_time - view.origin) +
-                        (is_one ? "" : dash + view.time_text(run.last_time - view.origin)))
-                .word(run.word.substr(0, run.word.find(':')))
-                .word(alarm_place(run.word))
-                .text(meaning.means)
-                .text(meaning.to_do)
-                .finished();
-  }
-  TableRow head("th");
-  head.number("Rows")
-      .number(view.origin == 0 ? "Time [s]" : "Since " + view.time_text(view.origin) + " [s]")
-      .word("Alarm")
-      .word("Where")
-      .text("What it means")
-      .text("What to do");
-  return element("div", {{"class", "alarms"}}, table("Alarms", head, rows)) + further_alarms(view);
+  const AlarmRecord& alarms = view.record.alarms;
+  return alarms.count() == 0 ? paragraph("note", "There is none.") : run_table(view, alarms, "Alarm", true);
+}
+
+std::string notice_table(const ReportView& view) {
+  const AlarmRecord& notices = view.record.notices;
+  return notices.count() == 0 ? "" : run_table(view, notices, "Notice", false);
 }
 
 std::string final_table(const ReportView& view, std::size_t c) {

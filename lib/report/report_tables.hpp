@@ -11,6 +11,9 @@ namespace taut::host {
 /// What alarms there were, what they mean and what to do.
 std::string alarm_table(const ReportView& view);
 
+/// What was noticed that needs no action, and what it means, every episode once; empty if there is none.
+std::string notice_table(const ReportView& view);
+
 /// Force, friction and contact of one cable after the last row.
 std::string final_table(const ReportView& view, std::size_t cable);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "lib/files/verdict.hpp"
+
 namespace taut::host {
 namespace {
 
@@ -53,6 +55,7 @@ RunRecord::RunRecord(const SceneDescription& scene)
 
 void RunRecord::add(const LogRow& row, const Answer& answer) {
   if (rows == 0) first_time = row.time;
+  if (rows == 0 || is_trust(answer.verdict) != is_trust(end.verdict)) verdict_since = row.time;
   last_time = row.time;
   ++rows;
   end = answer;
@@ -61,6 +64,7 @@ void RunRecord::add(const LogRow& row, const Answer& answer) {
   add_mu(row, answer);
   add_states(row, answer);
   alarms.add(row, answer.alarms);
+  notices.add(row, answer.notices);
   alarm_spans.add({row.time, row.time, !answer.alarms.empty()});
   frames.add({row.time, answer.tension, answer.state});
 }

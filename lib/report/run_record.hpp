@@ -59,7 +59,8 @@ class RunRecord {
 
   std::size_t rows = 0;
   double first_time = 0, last_time = 0;
-  Answer end;  ///< the last answer
+  Answer end;                ///< the last answer
+  double verdict_since = 0;  ///< trusted, or for whatever reasons not, from this time on without a break
   LargestForce largest;
   std::vector<Curve> tension;                    ///< of every segment
   std::vector<std::array<Curve, 2>> cell;        ///< loads of jacks and readings at anchored ends
@@ -68,7 +69,7 @@ class RunRecord {
   Thinned<StateSpan> states;
   Thinned<AlarmSpan> alarm_spans;
   Thinned<Frame> frames;
-  AlarmRecord alarms;
+  AlarmRecord alarms, notices;
 
  private:
   void add_cells(const LogRow& row);

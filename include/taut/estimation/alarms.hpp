@@ -17,14 +17,19 @@ struct Alarm {
                   ///< it contradicts the model by more than five sigma
     force_high,   ///< a segment is above its limit
     force_low,    ///< a segment is below its limit
-    no_information,  ///< something that tells of mu was read, but joints stick: nothing is learned
+    no_information,  ///< a far-end cell was read, but joints stick: nothing is learned of mu
     strut,           ///< a strain gauge contradicts the model by more than five sigma: `place` is the strut
     lift_off,        ///< the jack pulls what a locked end holds: the wedge is free, the end can be unlocked
     segment,         ///< the measured force of a segment contradicts the model by more than five sigma
     unknown_past,    ///< the cable was under load before the first reading, and has not slid enough since
+    misfit,  ///< readings at an anchored end are off what the model says for longer than chance allows
+    frozen,  ///< a load cell keeps one value although the load moves
   } kind = Kind::outlier;
   std::int16_t cable = -1;  ///< -1: `place` is a strut
   std::int16_t place = -1;  ///< joint or segment of the cable; end 0 or 1
+
+  /// Whether it needs no action: it is raised once where it begins.
+  constexpr bool is_notice() const { return kind == Kind::no_information; }
 
   static constexpr Alarm of(Kind kind, int cable, int place) {
     return {kind, static_cast<std::int16_t>(cable), static_cast<std::int16_t>(place)};

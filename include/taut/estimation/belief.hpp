@@ -218,6 +218,7 @@ class Belief {
       if (p < friction_) through_friction += H[p] * sum;
     }
     const Scalar S = sd * sd + variance;
+    innovation.variance = variance;
     innovation.value = measured.reading - expected;
     if (!(innovation.value * innovation.value <= gate * larger(S, measured.scatter))) return false;
     innovation.precision = 1 / S;
@@ -238,6 +239,10 @@ class Belief {
   bool is_nonlinear() const { return innovation_.is_nonlinear; }
   /// After innovate(): the mean that would follow.
   const Values& updated_mean() const { return innovation_.updated_mean; }
+  /// After innovate(), or where that found a contradiction: how far the reading was off, and the variance of
+  /// that which is due to unknowns and jacks.
+  Scalar innovation() const { return innovation_.value; }
+  Scalar innovation_variance() const { return innovation_.variance; }
   /// After innovate(): the reading is known from here on, Eq. (23). Cost: half the square of the unknowns in
   /// use.
   void update() {
@@ -257,6 +262,7 @@ class Belief {
     Values with_unknown, updated_mean;     // P H^T; the mean after an update
     FixedArray<Scalar, Jacks> with_error;  // covariance of the predicted number with every jack's error
     Scalar precision = 0, value = 0;       // 1 / S, with S the variance of the innovation
+    Scalar variance = 0;                   // S without the noise of the reading
     bool is_nonlinear = false;
   };
   /// Errors of the jacks' readings in this row, which all its measurements share.

@@ -135,6 +135,7 @@ class Estimator {
     jacks_.restore(state.jacks);
     filter_.restore(state.friction);
     far_ends_.restore(state.far_ends);
+    misfits_ = far_ends_.misfits();
     gauges_.restore(state.gauges);
     confirmed_ = {state.tracker, state.confirmed};
     is_ahead_ = state.is_ahead;
@@ -185,6 +186,7 @@ class Estimator {
       if (given.has_force) far_ends_.follow_noise(e, given.force, readings.dt);
     }
     if (gauges_.size() > 0) follow_gauges(corners, readings.dt);
+    look_ahead();
     if (!loads_are_in_doubt()) measure_far_ends(readings);
     if (has_more) check_jacks(readings);
     look_ahead();
@@ -199,8 +201,9 @@ class Estimator {
   /// A strain gauge on a strut, read together with the last row: its axial force [N], tension positive, with
   /// the standard deviation `sd` > 0 of the reading. `rows` are those of the condensed scene; a strut has the
   /// number of the scene. After an advance() that came to its end and before save(); as often as there are
-  /// gauges. alarms() has then what is odd about it too: Alarm::Kind::strut, and nothing has changed, or
-  /// `no_information`. Cost: an update, with at most four calls of Tracker::adjust().
+  /// gauges. While joints stick that matter to it nothing is learned from it; what contradicts raises
+  /// Alarm::Kind::strut, and nothing has changed. Cost: an update, with at most four calls of
+  /// Tracker::adjust().
   void take_strut(const CondensedStruts<Scalar, Cap>& rows, int strut, Scalar reading, Scalar sd) {
     const auto predict = [&](auto& prediction) {
       predict_strut(tracker_, rows, strut, filter_.belief(), jacks_.ends(), prediction);
@@ -264,7 +267,9 @@ class Estimator {
   Scalar force(int segment) const { return estimate_force<false>(tracker_, jacks_, filter_, segment).force; }
   Scalar deviation(int segment) const { return estimate(segment).deviation; }
   ForceEstimate<Scalar> estimate(int segment) const {
-    return estimate_force<true>(tracker_, jacks_, filter_, segment);
+    auto estimate = estimate_force<true>(tracker_, jacks_, filter_, segment);
+    if (misfits_) estimate.deviation = widened(estimate.deviation, segment);
+    return estimate;
   }
   /// Friction coefficient of a joint, and its standard deviation [-].
   Scalar mu(int joint) const { return filter_.mu(joint); }
@@ -304,7 +309,7 @@ class Estimator {
                const AlarmLimits<Scalar>& limits, const Cells& gauges) {
     limits_ = limits;
     alarms_.clear();
-    is_friction_fine_ = is_ahead_ = false;
+    is_friction_fine_ = is_ahead_ = misfits_ = false;
     jacks_.start(condensed, knowledge);
     Status known = filter_.start(condensed, knowledge);
     for (std::size_t m = 0; m < remembered_reversals; ++m)
@@ -391,6 +396,7 @@ class Estimator {
     if (is_ahead_) {
       go_back();
     } else {
+      learn_waiting();
       confirmed_.tracker = tracker_.save();
       for (int k = 0; k < jacks_.size(); ++k) confirmed_.jack[k] = jacks_[k].driven;
     }
@@ -449,19 +455,6 @@ class Estimator {
         tracker_.restore(model(), filter_.friction(model()), confirmed_.tracker, load_errors()).ok());
     for (int k = 0; k < jacks_.size(); ++k) jacks_[k].driven = confirmed_.jack[k];
   }
-  /// From ahead to where the loads of this row are confirmed to have come.
-  void come_to_confirmed() {
-    if (!is_ahead_) return;
-    go_back();
-    const int patterns = load_patterns(model());
-    const auto to = jacks_.target(jacks_.driven(patterns));
-    const auto progress = tracker_.advance(to);
-    if (progress.status && !(progress.fraction < 1))
-      jacks_.arrive(to, patterns);
-    else
-      jacks_.arrive(tracker_.loads(), patterns);
-  }
-
   /// How far the wedges were drawn in that hold since this row is not known exactly.
   /// Returns whether there are any.
   bool remember_seating() {
@@ -480,25 +473,38 @@ class Estimator {
 
   /// What is read of forces cannot be compared with those of loads that may be others.
   bool loads_are_in_doubt() const { return jacks_.may_have_reversed() || jacks_.has_refused(); }
+  /// Nothing is learned where the tracker is ahead: what is read belongs to no place that is confirmed.
+  bool can_learn() const { return filter_.belief().has_friction() && !is_ahead_ && !loads_are_in_doubt(); }
   void measure_far_ends(const ReadingsType& readings) {
-    if (is_ahead_ && may_learn(readings)) come_to_confirmed();
-    const bool gathers = far_ends_.gathers(jacks_);
+    const bool gathers = !is_ahead_ && far_ends_.gathers(jacks_);
     for (int e = 0; e < far_ends_.ends().size(); ++e) {
-      const EndType& end = far_ends_.ends()[e];
-      const EndReading<Scalar>& given = end.in(readings.ends);
-      if (!given.has_force) continue;
-      const Update update = gathers ? far_ends_.gather(given.force, tracker_, filter_, jacks_)
-                                    : far_ends_.measure(e, given.force, tracker_, filter_, jacks_);
-      if (update != Update::waits) note(update, alarm_at(Alarm::Kind::sensor, end));
+      const EndReading<Scalar>& given = far_ends_.ends()[e].in(readings.ends);
+      if (given.has_force) measure_far_end(e, given.force, gathers);
     }
+    misfits_ = far_ends_.misfits();
   }
-  /// Whether a reading of the row may be informative: its cable slides even where the tracker is ahead.
-  bool may_learn(const ReadingsType& readings) const {
-    for (int e = 0; e < far_ends_.ends().size(); ++e)
-      if (far_ends_.ends()[e].in(readings.ends).has_force &&
-          (far_ends_.has_waiting() || filter_.slides_throughout(tracker_, far_ends_.ends()[e].cable())))
-        return true;
-    return false;
+  void measure_far_end(int e, Scalar reading, bool gathers) {
+    const EndType& end = far_ends_.ends()[e];
+    auto& watch = far_ends_.watch(e);
+    if (watch.stays_frozen(reading)) {
+      alarms_.add(alarm_at(Alarm::Kind::frozen, end));
+      return;
+    }
+    const Update update = is_ahead_ ? far_ends_.compare(e, reading, tracker_, filter_, jacks_)
+                          : gathers ? far_ends_.gather(reading, tracker_, filter_, jacks_)
+                                    : far_ends_.measure(e, reading, tracker_, filter_, jacks_);
+    if (watch.fit.misfit() > 0) alarms_.add(alarm_at(Alarm::Kind::misfit, end));
+    // Once, as long as it lasts.
+    const bool is_told = update == Update::no_information && watch.is_told;
+    watch.is_told = update == Update::no_information;
+    if (update != Update::waits && !is_told) note(update, alarm_at(Alarm::Kind::sensor, end));
+  }
+  /// The deviation of a force in a cable whose cells are off the model.
+  Scalar widened(Scalar deviation, int segment) const {
+    int c = 0;
+    while (segment >= model().cables[c].first_segment + model().cables[c].segments()) ++c;
+    const Scalar misfit = far_ends_.misfit(c);
+    return std::sqrt(deviation * deviation + misfit * misfit);
   }
   void learn_waiting() {
     if (far_ends_.has_waiting())
@@ -507,19 +513,16 @@ class Estimator {
   /// Of something else than a load cell.
   template <class Predict>
   void take_measurement(const Predict& predict, Scalar reading, Scalar sd, const Alarm& contradiction) {
-    if (!(sd > 0) || !filter_.belief().has_friction() || loads_are_in_doubt()) return;
+    if (!(sd > 0) || !can_learn()) return;
     wait_for_none();
     predict(filter_.prediction());
-    if (!filter_.is_informative(tracker_, contradiction.cable, sd))
-      note(Update::no_information, contradiction);
-    else
+    if (filter_.is_informative(tracker_, contradiction.cable, sd))
       note(filter_.update(tracker_, predict, jacks_.readings(filter_.prior()), {reading, sd, Scalar(0)}),
            contradiction);
     look_ahead();
   }
-  /// The tracker is where the loads are confirmed to have come, and nothing else of the row waits.
+  /// Nothing else of the row waits.
   void wait_for_none() {
-    come_to_confirmed();
     // The errors of the jack that they share.
     if (!far_ends_.has_waiting()) return;
     const bool shares_row = far_ends_.has_waiting_of_row();
@@ -546,7 +549,7 @@ class Estimator {
   void take_gauge(const Predict& predict, Scalar reading, Gauge gauge, const Alarm& contradiction) {
     if (!gauges_.has(gauge) || !std::isfinite(reading)) return;
     gauges_.follow_noise(gauge, reading);
-    if (!filter_.belief().has_friction() || loads_are_in_doubt() || !gauges_.is_due(gauge)) return;
+    if (!can_learn() || !gauges_.is_due(gauge)) return;
     const auto predict_reading = [&](auto& prediction) {
       predict(prediction);
       gauges_.depend(gauge, prediction);
@@ -618,6 +621,7 @@ class Estimator {
   Alarms alarms_;
   Confirmed confirmed_;    // while it looks ahead
   bool is_ahead_ = false;  // of what is confirmed
+  bool misfits_ = false;   // some load cell at an anchored end is off the model
 };
 
 }  // namespace taut

@@ -6,9 +6,9 @@
 #include <cstdint>
 
 #include "taut/estimation/cable_end.hpp"
+#include "taut/estimation/cell_watch.hpp"
 #include "taut/estimation/friction_filter.hpp"
 #include "taut/estimation/gathered.hpp"
-#include "taut/estimation/noise_level.hpp"
 #include "taut/scene/fixed_list.hpp"
 #include "taut/scene/scene.hpp"
 
@@ -29,8 +29,8 @@ class FarEnds {
   /// What has been gathered so far.
   struct State {
     Gathered<Scalar> gathered;
-    std::uint8_t learned = 0;                               ///< readings since something has happened
-    FixedArray<NoiseLevel<Scalar>, 2 * Cap::cables> noise;  ///< of the cells in the order of ends()
+    std::uint8_t learned = 0;                              ///< readings since something has happened
+    FixedArray<CellWatch<Scalar>, 2 * Cap::cables> watch;  ///< over the cells in the order of ends()
   };
 
   /// Finds the ends; after FilterType::start() and Jacks::start().
@@ -40,7 +40,7 @@ class FarEnds {
     for (int c = 0; c < model.cables.size() && filter.belief().has_friction(); ++c)
       for (std::size_t end = 0; end < 2 && !model.cables[c].closed; ++end)
         if (model.cables[c].ends[end] == End::anchored && filter.prior().cell[c][end].sd > 0)
-          state_.noise[ends_.add(EndType::of(c, end))].start(filter.prior().cell[c][end].sd);
+          state_.watch[ends_.add(EndType::of(c, end))].start(filter.prior().cell[c][end].sd);
     can_gather_ = ends_.size() == 1 && jacks.size() == 1;
     state_.gathered = {};
     state_.learned = 0;
@@ -63,25 +63,61 @@ class FarEnds {
   }
 
   /// A reading [N] of cell `e` of ends(), `dt` after the one before, tells how much its readings scatter.
-  void follow_noise(int e, Scalar reading, Scalar dt) { state_.noise[e].take(reading, dt); }
+  void follow_noise(int e, Scalar reading, Scalar dt) { state_.watch[e].noise.take(reading, dt); }
+  CellWatch<Scalar>& watch(int e) { return state_.watch[e]; }
+  /// Whether some cell is off the model by more than chance allows.
+  bool misfits() const {
+    for (int e = 0; e < ends_.size(); ++e)
+      if (state_.watch[e].fit.misfit() > 0) return true;
+    return false;
+  }
+  /// By how much the cells of a cable are off the model, where that is more than chance allows [N].
+  Scalar misfit(int cable) const {
+    Scalar largest = 0;
+    for (int e = 0; e < ends_.size(); ++e)
+      if (ends_[e].cable() == cable) largest = larger(largest, state_.watch[e].fit.misfit());
+    return largest;
+  }
   /// Takes a reading [N] of cell `e` into account at once. Cost: that of FilterType::update().
   [[nodiscard]] Update measure(int e, Scalar reading, TrackerType& tracker, FilterType& filter,
                                const Jacks& jacks) {
     const EndType& end = ends_[e];
-    const Scalar sd = state_.noise[e].sd();
+    const Scalar sd = state_.watch[e].noise.sd();
     const auto predict = [&](auto& prediction) { predict_at(end, tracker, filter, jacks, prediction); };
     predict(filter.prediction());
-    if (!filter.is_informative(tracker, end.cable(), sd)) return Update::no_information;
+    if (!filter.is_informative(tracker, end.cable(), sd)) return compare(e, reading, tracker, filter, jacks);
     count_learned(1);
-    return filter.update(tracker, predict, jacks.readings(filter.prior()), {reading, sd, Scalar(0)});
+    const Update update =
+        filter.update(tracker, predict, jacks.readings(filter.prior()), {reading, sd, Scalar(0)});
+    const auto& belief = filter.belief();
+    state_.watch[e].take(reading, reading - belief.innovation(), belief.innovation_variance(), sd * sd);
+    return update;
+  }
+  /// Compares a reading [N] of cell `e` with what is expected, and learns nothing from it: joints of its
+  /// cable stick, and which ones do depends on friction; what friction holds is as uncertain as that. Cost:
+  /// that of Belief::expect().
+  [[nodiscard]] Update compare(int e, Scalar reading, const TrackerType& tracker, FilterType& filter,
+                               const Jacks& jacks) {
+    const EndType& end = ends_[e];
+    const auto& cable = tracker.model().cables[end.cable()];
+    const Scalar sd = state_.watch[e].noise.sd(),
+                 held = tracker.tension(cable.end_segment(0)) - tracker.tension(cable.end_segment(1)),
+                 in_doubt = held * filter.relative_deviation(tracker, end.cable());
+    predict_at(end, tracker, filter, jacks, filter.prediction());
+    const Expected<Scalar> force =
+        filter.belief().expect(filter.prediction(), jacks.readings(filter.prior()), Scalar(0));
+    state_.watch[e].take(reading, force.value, force.variance + in_doubt * in_doubt, sd * sd);
+    return Update::no_information;
   }
   /// Where gathers(): gathers a reading [N] of the only cell. Cost: a few operations; that of update() with
   /// the last one for which there is room.
   [[nodiscard]] Update gather(Scalar reading, TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
     Gathered<Scalar>& gathered = state_.gathered;
-    const Scalar driven = jacks[0].driven.force, load = jacks[0].locked ? driven : jacks[0].raw;
-    if (gathered.size == 0 && !begin_gathering(driven, tracker, filter, jacks)) return Update::no_information;
+    const Scalar driven = jacks[0].driven.force, load = jacks[0].seen(jacks.in(filter.prior().cell, 0));
+    if (gathered.size == 0 && !begin_gathering(driven, tracker, filter, jacks))
+      return compare(0, reading, tracker, filter, jacks);
     const Scalar off = gathered.off_line(load, reading);
+    state_.watch[0].take(reading, reading - off, gathered.of_model, gathered.spread - gathered.of_model);
     if (!(off * off <= FilterType::BeliefType::gate * gathered.spread)) return Update::contradiction;
     gathered.add(load, driven, off);
     has_gathered_ = true;
@@ -105,7 +141,7 @@ class FarEnds {
     predict(filter.prediction());
     typename FilterType::JackReadings readings;
     readings.add({all.jack() - driven, all.jack_variance * all.share()});
-    const Scalar sd = state_.noise[0].sd();
+    const Scalar sd = state_.watch[0].noise.sd();
     return filter.update(tracker, predict, readings,
                          {all.reading(), sd * std::sqrt(all.share()), all.spread});
   }
@@ -135,7 +171,7 @@ class FarEnds {
   bool begin_gathering(Scalar driven, const TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
     const auto& belief = filter.belief();
     auto& prediction = filter.prediction();
-    const Scalar sd = state_.noise[0].sd();
+    const Scalar sd = state_.watch[0].noise.sd();
     const auto jack = jacks[0].reading(jacks.in(filter.prior().cell, 0));
     predict_at(ends_[0], tracker, filter, jacks, prediction);
     if (!filter.is_informative(tracker, ends_[0].cable(), sd)) return false;
@@ -153,7 +189,8 @@ class FarEnds {
     const int gain = filter.instruments().at(ends_[0].cable(), ends_[0].end).gain;
     if (gain >= 0) gathered.slope += by_jack * belief.mean(gain);
     gathered.jack_variance = jack.variance;
-    gathered.spread = sd * sd + by_jack * by_jack * jack.variance + belief.variance_of_reading(prediction.H);
+    gathered.of_model = belief.variance_of_reading(prediction.H);
+    gathered.spread = sd * sd + by_jack * by_jack * jack.variance + gathered.of_model;
     return true;
   }
 

@@ -19,6 +19,7 @@ struct Gathered {
   Scalar jack_from = 0, driven_from = 0;  ///< the loads of the first reading [N]
   Scalar level = 0, slope = 0;  ///< what the cell should read there [N], and its change with the load [-]
   Scalar spread = 0;            ///< variance of a reading about the line [N^2]
+  Scalar of_model = 0;          ///< the part of it that they have in common [N^2]
   Scalar jack_variance = 0;     ///< of a reading of the jack [N^2]
   // Sums.
   Scalar jack_further = 0, driven_further = 0;  ///< loads beyond the first one [N]

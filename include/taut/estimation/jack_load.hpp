@@ -48,6 +48,8 @@ struct JackLoad {
   Scalar first = 0;      ///< the least load once there is one [N]: which way things slide shows from then on
   Scalar sd_before = 0;  ///< standard deviation of the load a sample ago [N]
   bool is_new = false;   ///< `raw` is of this row, and was believed
+  Scalar believed = 0, refused = 0;  ///< the last reading that was believed, and that was not [N]
+  std::uint8_t refusals = 0;         ///< in a row
   bool locks_now = false, locked = false;
   Scalar most_payout = 0;  ///< that it should have had so far [m]
   std::uint8_t below = 0;  ///< locked: readings in a row that were confirmed to be below what the wedge holds
@@ -112,9 +114,28 @@ struct JackLoad {
     if ((sd > Scalar(1.3) * used || used > Scalar(1.3) * sd) && !filter.has_waiting()) filter.change_sd(sd);
   }
 
+  /// A reading was refused, or not. Returns whether one was surely wrong: it cannot be a force at all, it is
+  /// not the only one, or the next one shows that the load did not go there. A single one at the end of a
+  /// steep ramp lies between its neighbours.
+  [[nodiscard]] bool finds_outlier(Scalar reading, bool can_be) {
+    constexpr std::uint8_t many = 2;
+    if (at.refused) {
+      const bool is_surely = refusals > 0 || !can_be;
+      refusals = is_surely ? many : 1;
+      refused = reading;
+      return is_surely;
+    }
+    const Scalar near = 5 * filter.sd(), least = -larger(-believed, -reading) - near,
+                 most = larger(believed, reading) + near;
+    const bool was_wrong = refusals == 1 && !(refused >= least && refused <= most);
+    refusals = 0;
+    believed = reading;
+    return was_wrong;
+  }
+
   /// Takes what a row says of the jack: whether it is locked, a reading of its load cell, and the time since
-  /// the row before. `held` is the force of a locked end. Returns true if and only if the reading was refused
-  /// as an outlier. Cost: that of LoadFilter::take().
+  /// the row before. `held` is the force of a locked end. Returns true if and only if a reading is now known
+  /// to have been an outlier: this one or the one before. Cost: that of LoadFilter::take().
   [[nodiscard]] bool take(bool locks, const EndReading<Scalar>& given, Scalar dt,
                           const LoadCell<Scalar>& cell, Scalar most, const ForceEstimate<Scalar>& held,
                           Corners& corners) {
@@ -160,7 +181,7 @@ struct JackLoad {
     since = 0;
     is_new = !at.refused;
     corners.reverses |= at.reversed;
-    return at.refused;
+    return finds_outlier(given.force, std::isfinite(possible(given.force, most)));
   }
   bool has_reversed() const { return !locked && at.reversed; }
   /// Where the tracker is driven to for a row [N].
@@ -174,10 +195,16 @@ struct JackLoad {
   /// independent from row to row.
   JackReading<Scalar> reading(const LoadCell<Scalar>& cell) const {
     if (locked) return {};
-    // Between the branches the reading says nothing.
-    const bool is_read = is_new && !(cell.has_branches() && at.load == turned);
-    const Scalar sd = is_read ? filter.sd() / branch(cell) : at.sd;
-    return {(is_read ? raw : at.load) - driven.force, sd * sd};
+    const Scalar sd = says_load(cell) ? filter.sd() / branch(cell) : at.sd;
+    return {seen(cell) - driven.force, sd * sd};
+  }
+  /// The same load itself [N].
+  Scalar seen(const LoadCell<Scalar>& cell) const {
+    return locked ? driven.force : says_load(cell) ? raw : at.load;
+  }
+  /// Whether there is a reading in this row that says something of the load: between branches none does.
+  bool says_load(const LoadCell<Scalar>& cell) const {
+    return is_new && !(cell.has_branches() && at.load == turned);
   }
 
   /// While the end is locked, its load cell is that of a jack put back on it, which pulls. Returns true if

@@ -1,0 +1,198 @@
+// Which readings of a jack's load cell are told to be outliers, and in which row.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "support/random.hpp"
+#include "taut/estimation/jack_load.hpp"
+
+namespace {
+
+constexpr double most = 1e7;  // that the cable can carry [N]
+
+/// A jack that is read row by row.
+class Read {
+ public:
+  explicit Read(double sd) {
+    cell_.sd = sd;
+    jack_.start(cell_);
+  }
+  /// Whether the row tells an outlier.
+  bool tells(double reading, double dt = 1) {
+    taut::EndReading<double> given;
+    given.has_force = true;
+    given.force = reading;
+    taut::Corners corners;
+    return jack_.take(false, given, dt, cell_, most, {}, corners);
+  }
+  bool tells_nothing() {
+    taut::Corners corners;
+    return jack_.take(false, {}, 1, cell_, most, {}, corners);
+  }
+  bool refused() const { return jack_.at.refused; }
+  double load() const { return jack_.at.load; }
+
+ private:
+  taut::LoadCell<double> cell_;
+  taut::JackLoad<double, 2> jack_;
+};
+
+/// A ramp of a hundred rows to 1e5, and a hold, with noise of 100.
+class Jacking {
+ public:
+  explicit Jacking(std::uint64_t seed) : read(100), random_(seed) {}
+  bool tells_good() {
+    ++row_;
+    return read.tells(load() + 100 * support::gaussian(random_));
+  }
+  void go_to(int row) {
+    while (row_ < row) CHECK_FALSE(tells_good());
+  }
+  double load() const { return row_ < 100 ? 1000.0 * row_ : 1e5; }
+
+  Read read;
+
+ private:
+  support::Random random_;
+  int row_ = 0;
+};
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN(),
+                 infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+TEST_CASE("a reading that cannot be a force is told at once, and once") {
+  for (const double absurd : {9.9e37, -9.9e37, 1.001 * most, no_number, infinity, -infinity})
+    for (const int row : {50, 180}) {
+      CAPTURE(absurd);
+      CAPTURE(row);
+      Jacking jacking(1);
+      jacking.go_to(row);
+      CHECK(jacking.read.tells(absurd));
+      CHECK(jacking.read.refused());
+      jacking.go_to(row + 40);
+    }
+}
+
+TEST_CASE("the very first reading can be one") {
+  for (const double absurd : {9.9e37, no_number}) {
+    CAPTURE(absurd);
+    Read read(100);
+    CHECK(read.tells(absurd));
+    for (int i = 0; i < 20; ++i) CHECK_FALSE(read.tells(1000 * i));
+  }
+}
+
+TEST_CASE("a reading far off is told in the next row, and only there") {
+  for (const double off : {-0.5, 0.5})
+    for (const int row : {50, 90, 180}) {
+      CAPTURE(off);
+      CAPTURE(row);
+      for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        CAPTURE(seed);
+        Jacking jacking(seed);
+        jacking.go_to(row);
+        CHECK_FALSE(jacking.read.tells(jacking.load() * (1 + off)));
+        REQUIRE(jacking.read.refused());
+        CHECK(jacking.tells_good());
+        CHECK_FALSE(jacking.read.refused());
+        jacking.go_to(row + 40);
+      }
+    }
+}
+
+TEST_CASE("a row without a reading in between changes nothing of that") {
+  Jacking jacking(1);
+  jacking.go_to(180);
+  CHECK_FALSE(jacking.read.tells(5e4));
+  REQUIRE(jacking.read.refused());
+  CHECK_FALSE(jacking.read.tells_nothing());
+  CHECK(jacking.tells_good());
+}
+
+TEST_CASE("of several refused in a row each is told from the second on, and the next good one is none") {
+  for (const double second : {5.1e4, 1.5e5, no_number}) {
+    CAPTURE(second);
+    Jacking jacking(1);
+    jacking.go_to(180);
+    CHECK_FALSE(jacking.read.tells(5e4));
+    REQUIRE(jacking.read.refused());
+    CHECK(jacking.read.tells(second));
+    REQUIRE(jacking.read.refused());
+    CHECK(jacking.read.tells(5e4));
+    REQUIRE(jacking.read.refused());
+    CHECK_FALSE(jacking.tells_good());
+    CHECK_FALSE(jacking.read.refused());
+    jacking.go_to(220);
+  }
+}
+
+TEST_CASE("after an absurd reading one far off is the second in a row") {
+  Jacking jacking(1);
+  jacking.go_to(180);
+  CHECK(jacking.read.tells(no_number));
+  CHECK(jacking.read.tells(5e4));
+  REQUIRE(jacking.read.refused());
+  CHECK_FALSE(jacking.tells_good());
+}
+
+TEST_CASE("one outlier after the other, with good readings in between, is told each time") {
+  Jacking jacking(1);
+  jacking.go_to(180);
+  for (int i = 0; i < 10; ++i) {
+    CAPTURE(i);
+    CHECK_FALSE(jacking.read.tells(i % 2 == 0 ? 5e4 : 1.6e5));
+    REQUIRE(jacking.read.refused());
+    CHECK(jacking.tells_good());
+    for (int k = 0; k < 5; ++k) CHECK_FALSE(jacking.tells_good());
+  }
+}
+
+TEST_CASE("the first reading after a steep ramp, refused in a longer step, is no outlier") {
+  // Of a real log: steps, their time apart, the last loads of the ramp, and what was read 1.46 s apart then.
+  struct Log {
+    double dt, from, to, step;
+    std::vector<double> then;
+  };
+  const std::vector<Log> logs = {{0.82, 603321, 779570, 20000, {775412, 779713, 778499, 778675}},
+                                 {0.52, 687184, 772038, 10000, {771993, 771390, 775146}}};
+  for (const Log& log : logs) {
+    CAPTURE(log.dt);
+    Read read(1589);
+    const int rows = static_cast<int>(std::lround((log.to - log.from) / log.step)),
+              before = static_cast<int>(log.from / log.step);
+    const double step = (log.to - log.from) / rows;
+    for (int i = -before; i <= rows; ++i) CHECK_FALSE(read.tells(log.from + step * i, log.dt));
+    int refused = 0;
+    for (const double reading : log.then) {
+      CAPTURE(reading);
+      CHECK_FALSE(read.tells(reading, 1.46));
+      refused += read.refused() ? 1 : 0;
+    }
+    // Else nothing was tested.
+    CHECK(refused == 1);
+    CHECK(std::fabs(read.load() - log.then.back()) < 3 * 1589);
+  }
+}
+
+TEST_CASE("a refused reading that the next one does not pass by is an outlier, however steep the ramp was") {
+  // As above; the load ends where it was, or goes on, and the reading lay beyond both by so many deviations.
+  for (const double off : {-100.0, 100.0})
+    for (const double next : {0.0, 1.0}) {
+      CAPTURE(off);
+      CAPTURE(next);
+      Read read(1589);
+      double last = 0;
+      for (int i = 0; i <= 39; ++i) CHECK_FALSE(read.tells(last = 20000 * i, 0.82));
+      const double then = last + next * 1e4, wrong = (off < 0 ? last : then) + off * 1589;
+      CHECK_FALSE(read.tells(wrong, 1.46));
+      REQUIRE(read.refused());
+      CHECK(read.tells(then, 1.46));
+    }
+}

@@ -1,0 +1,56 @@
+// What is noticed of a load cell beside its readings: its noise, whether it fits the model, whether it lives.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "taut/estimation/consistency.hpp"
+#include "taut/estimation/noise_level.hpp"
+#include "taut/numerics/larger.hpp"
+
+namespace taut {
+
+/// Of the load cell at an anchored end. A plain value.
+template <class Scalar>
+struct CellWatch {
+  /// A cell that reads the very same while the force should have gone by so many deviations of its noise, and
+  /// by this part of itself, does not live: a display that is coarser than that must say so (`resolution`).
+  static constexpr Scalar far = 10, part = Scalar(0.02);
+  static constexpr std::uint8_t often = 3;
+
+  NoiseLevel<Scalar> noise;
+  Consistency<Scalar> fit;
+  Scalar last = 0;         ///< reading [N]
+  Scalar expected = 0;     ///< of the force when it was first read [N]
+  std::uint8_t same = 0;   ///< readings in a row that were no other
+  bool is_frozen = false;  ///< it keeps `last` although the force has gone on
+  bool is_told = false;    ///< that nothing is learned from it at present
+
+  void start(Scalar sd) {
+    *this = CellWatch();
+    noise.start(sd);
+  }
+  /// Whether it goes on being frozen with this reading [N].
+  bool stays_frozen(Scalar reading) const { return is_frozen && reading == last; }
+  /// A reading of what should be `force` [N], with the variances of that and of the noise.
+  void take(Scalar reading, Scalar force, Scalar of_model, Scalar of_noise) {
+    fit.take(reading - force, of_model, of_noise);
+    follow(reading, force);
+  }
+  void follow(Scalar reading, Scalar force) {
+    if (reading != last || same == 0) {
+      last = reading;
+      expected = force;
+      same = 1;
+      // Those that it should not have read say nothing of it.
+      if (is_frozen) fit = {};
+      is_frozen = false;
+      return;
+    }
+    if (same < often) ++same;
+    const Scalar gone = std::fabs(force - expected);
+    is_frozen = same == often && gone > far * noise.sd() && gone > part * std::fabs(force);
+  }
+};
+
+}  // namespace taut
