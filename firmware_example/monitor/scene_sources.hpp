@@ -64,6 +64,7 @@ constexpr taut::UnknownCounts most_unknowns(const SceneType& scene) {
     known.mu_sd[c] = static_cast<float>(scene.cables[c].mu_sd);
     known.shared[c] = scene.cables[c].shared_mu;
     known.seating_sd[c] = static_cast<float>(scene.cables[c].seating_sd);
+    known.drift_sd[c] = static_cast<float>(taut::drift_sd(scene.cables[c]));
     for (std::size_t end = 0; end < 2; ++end)
       known.cell[c][end] = taut::LoadCell<float>::of(scene.cables[c].cell[end]);
   }
@@ -127,6 +128,7 @@ std::uint32_t fingerprint(const taut::Condensed<float, Capacity>& model,
     add(model.rho);
     add(knowledge.mu);
     add(knowledge.grip);
+    add(knowledge.length);
   }
   for (int c = 0; c < model.cables.size(); ++c) {
     add(knowledge.capstan[c]);
@@ -134,6 +136,7 @@ std::uint32_t fingerprint(const taut::Condensed<float, Capacity>& model,
     add(knowledge.shared[c]);
     add(knowledge.scatter[c]);
     add(knowledge.seating_sd[c]);
+    add(knowledge.drift_sd[c]);
     add(knowledge.cell[c]);
   }
   return crc.value();

@@ -169,6 +169,9 @@ TEST_CASE("what the estimator finds odd is in the answer, by cable and place") {
   for (int row = 1; row <= 30; ++row) answer = device.ask(sample_of(++number, pulling(noise, row)));
   CHECK(findings(answer).empty());
   answer = device.ask(sample_of(++number, {none, 150000.0F, none}));
+  CHECK(findings(answer).empty());
+  // That it was an outlier shows in the next reading.
+  answer = device.ask(sample_of(++number, {none, 62000.0F, none}));
   REQUIRE(findings(answer).size() == 1);
   CHECK(findings(answer)[0].kind == taut::Alarm::Kind::outlier);
   CHECK(findings(answer)[0].cable == 0);

@@ -188,6 +188,48 @@ std::vector<Deed> ramps(int samples) {
 
 }  // namespace
 
+TEST_CASE("beside a cable that nobody has pulled yet it learns as beside none") {
+  taut::Cable<double> cable = support::steel_cable(0.2);
+  cable.mu_sd = 0.06;
+  cable.shared_mu = true;
+  cable.cell[0].sd = cable.cell[1].sd = 0.002 * full;
+  const auto learned = [&](bool elastic, bool has_second) {
+    static Plane scene;
+    static taut::Condensation<double, Plane> condensation;
+    static Model model;
+    static taut::Knowledge<double, PlaneCapacity> known;
+    if (elastic)
+      support::truss_string(scene, cable, 6);
+    else
+      support::rigid_saddles(scene, cable, support::chain_points(6));
+    const int below[] = {0, 14, 15, 16, 17, 18, 12}, over[] = {0, 1, 2, 3, 4, 5, 6};
+    if (has_second) REQUIRE(scene.add_cable(cable, elastic ? below : over, 7) == 1);
+    REQUIRE(condensation.run(scene, model).ok());
+    taut::find_knowledge(scene, known);
+    taut::Tracker<Model> truth;
+    REQUIRE(truth.start(model).status.ok());
+    const auto estimator = std::make_unique<taut::Estimator<Model, PlaneCapacity::joints + 8>>();
+    REQUIRE(estimator->start(model, known).status.ok());
+    Random random(1);
+    for (int i = 1; i <= 100; ++i) {
+      Row row;
+      row.jack[0][1].force = full * i / 100;
+      REQUIRE(truth.advance(row).status.ok());
+      taut::Readings<double, PlaneCapacity> readings;
+      readings.ends[0][1] = {true, false, full * i / 100 + 0.002 * full * gaussian(random), 0};
+      readings.ends[0][0] = {true, false, truth.tension(0) + 0.002 * full * gaussian(random), 0};
+      REQUIRE(estimator->advance(readings).status.ok());
+    }
+    return estimator->mu_deviation(0);
+  };
+  for (const bool elastic : {false, true}) {
+    CAPTURE(elastic);
+    const double alone = learned(elastic, false), beside = learned(elastic, true);
+    CHECK(alone < 0.005);
+    CHECK(beside < 1.2 * alone);
+  }
+}
+
 TEST_CASE(
     "with mu known its forces are those of a tracker driven straight to the best estimate of the load") {
   static Ground ground;

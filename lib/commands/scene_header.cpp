@@ -222,7 +222,8 @@ class Constants {
            "  return {/*mu*/ " + numbers(k.mu, 10) + ",\n" + field("grip", numbers(k.grip, 10)) +
            field("capstan", truths(k.capstan)) + field("mu_sd", scalars(k.mu_sd, 10)) +
            field("shared", truths(k.shared)) + field("scatter", scalars(k.scatter, 10)) +
-           field("seating_sd", scalars(k.seating_sd, 10)) + "          /*cell*/ " + cells(k.cell) + "};\n}\n";
+           field("seating_sd", scalars(k.seating_sd, 10)) + field("drift_sd", scalars(k.drift_sd, 10)) +
+           field("length", scalars(k.length, 10)) + "          /*cell*/ " + cells(k.cell) + "};\n}\n";
   }
 
  private:

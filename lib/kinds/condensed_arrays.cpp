@@ -87,14 +87,19 @@ KnowledgeArrays knowledge_arrays(const SceneDescription& scene) {
   const auto knowledge = std::make_unique<Knowledge<Scalar, Cap>>();
   know_scene<Scalar, Dimension, Cap>(scene, *knowledge);
   const auto cables = static_cast<int>(scene.cables.size());
-  std::size_t joints = 0;
-  for (const CableDescription& cable : scene.cables) joints += cable.joints();
+  std::size_t joints = 0, segments = 0;
+  for (const CableDescription& cable : scene.cables) {
+    joints += cable.joints();
+    segments += cable.segments();
+  }
   KnowledgeArrays arrays;
   arrays.mu = row_of(knowledge->mu, static_cast<int>(joints));
   arrays.grip = row_of(knowledge->grip, static_cast<int>(joints));
   arrays.mu_sd = row_of(knowledge->mu_sd, cables);
   arrays.seating_sd = row_of(knowledge->seating_sd, cables);
   arrays.scatter = row_of(knowledge->scatter, cables);
+  arrays.drift_sd = row_of(knowledge->drift_sd, cables);
+  arrays.length = row_of(knowledge->length, static_cast<int>(segments));
   for (int c = 0; c < cables; ++c) {
     arrays.capstan.push_back(knowledge->capstan[c]);
     arrays.shared.push_back(knowledge->shared[c]);

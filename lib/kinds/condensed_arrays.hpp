@@ -36,7 +36,7 @@ struct KnowledgeArrays {
   std::vector<bool> capstan;
   CondensedArrays::Row mu_sd;
   std::vector<bool> shared;
-  std::vector<double> scatter, seating_sd;
+  std::vector<double> scatter, seating_sd, drift_sd, length;
   std::vector<std::array<LoadCell<double>, 2>> cell;
 };
 

@@ -55,6 +55,7 @@ void build_cable(const CableDescription& described, SceneType& scene) {
   // A cable that is stiffer than thought loses more.
   cable.seating_sd =
       std::hypot(described.seating_sd.value_or(described.seating / 4), described.E_sd * described.seating);
+  cable.temperature_sd = described.temperature_sd;
   cable.seating = described.seating;
   for (std::size_t end = 0; end < 2; ++end)
     cable.cell[end] = load_cell(described.cell[end], described.is_jacked(end));

@@ -98,6 +98,8 @@ class Belief {
     for (int q = 0; q < size_; ++q) state_.covariance[p][q] = state_.covariance[q][p] = 0;
     state_.covariance[p][p] = sd * sd;
   }
+  /// Unknown `p` may have changed since the last row: its variance grows by so much.
+  void diffuse(int p, Scalar variance) { state_.covariance[p][p] += variance; }
   /// The model is linearized at `values` from here on. Returns by how much each unknown in use moves.
   Values linearize_at(const Values& values) {
     Values change;
@@ -254,6 +256,21 @@ class Belief {
       P[p][p] -= gain * innovation_.with_unknown[p];
     }
     has_news_ = true;
+  }
+
+  /// After innovate(): the same for some unknowns alone, those with is_of(p); what the reading says of the
+  /// others is left aside, but not that they are uncertain (Schmidt, Application of state-space methods to
+  /// navigation problems, 1966). Cost: the square of the unknowns in use.
+  template <class IsOf>
+  void update_alone(const IsOf& is_of) {
+    for (int p = 0; p < in_use_; ++p) {
+      if (!is_of(p)) continue;
+      state_.mean[p] = innovation_.updated_mean[p];
+      const Scalar gain = innovation_.with_unknown[p] * innovation_.precision;
+      auto& P = state_.covariance;
+      for (int q = 0; q < in_use_; ++q)
+        if (q <= p || !is_of(q)) P[q][p] = P[p][q] = P[p][q] - gain * innovation_.with_unknown[q];
+    }
   }
 
  private:

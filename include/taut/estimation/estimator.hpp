@@ -179,6 +179,7 @@ class Estimator {
       if (!progress.status || progress.fraction < 1) return progress;
       if (corners.locks && remember_seating())
         progress = join(progress, tracker_.advance(jacks_.target(readings.sample), event_budget));
+      if (progress.status && corners.locks) progress.status = remember_drift();
       if (!progress.status) return progress;
     }
     for (int e = 0; e < far_ends_.ends().size(); ++e) {
@@ -187,6 +188,8 @@ class Estimator {
     }
     if (gauges_.size() > 0) follow_gauges(corners, readings.dt);
     look_ahead();
+    for (int c = 0; c < model().cables.size(); ++c)
+      if (drifts(c)) filter_.diffuse(drift_[c], c, readings.dt);
     if (!loads_are_in_doubt()) measure_far_ends(readings);
     if (has_more) check_jacks(readings);
     look_ahead();
@@ -284,6 +287,10 @@ class Estimator {
     for (int k = 0; k < jacks_.size(); ++k) {
       Scalar& payout = jacks_.in(response.payout, k);
       payout = estimate_payout(tracker_, jacks_, filter_.belief(), k, payout);
+      // A strain is none.
+      const int c = jacks_.end(k).cable(), p = drift_[c];
+      if (p >= 0 && jacks_[k].locked && filter_.belief().mean(p) != 0)
+        payout -= tracker_.payout_sensitivity(p, c, jacks_.end(k).end) * filter_.belief().mean(p);
     }
   }
   /// What is odd about the last row.
@@ -317,6 +324,8 @@ class Estimator {
         const bool has_noise = jacks_.in(knowledge.cell, k).sd > 0;
         jacks_[k].memory[m] = static_cast<std::int16_t>(has_noise ? filter_.add_load_error() : -1);
       }
+    for (int c = 0; c < condensed.cables.size(); ++c)
+      drift_[c] = static_cast<std::int16_t>(knowledge.drift_sd[c] > 0 ? filter_.add_load_error() : -1);
     for (int k = 0; k < jacks_.size(); ++k) {
       const bool is_uncertain = knowledge.seating_sd[jacks_.end(k).cable()] > 0;
       jacks_[k].seating = static_cast<std::int16_t>(is_uncertain ? filter_.add_load_error() : -1);
@@ -468,6 +477,23 @@ class Estimator {
     }
     return any;
   }
+  /// Cables that are held since this row drift from here on.
+  Status remember_drift() {
+    Status status = Status::success();
+    for (int k = 0; k < jacks_.size() && status; ++k) {
+      const EndType& at = jacks_.end(k);
+      if (jacks_[k].locks_now && drifts(at.cable()))
+        status = filter_.remember_drift(tracker_, drift_[at.cable()], at.cable(), at.end);
+    }
+    return status;
+  }
+  /// Whether all jacks of a cable are locked whose strain drifts then.
+  bool drifts(int c) const {
+    if (drift_[c] < 0) return false;
+    for (int k = 0; k < jacks_.size(); ++k)
+      if (jacks_.end(k).cable() == c && !jacks_[k].locked) return false;
+    return true;
+  }
 
   // Measuring.
 
@@ -490,14 +516,28 @@ class Estimator {
       alarms_.add(alarm_at(Alarm::Kind::frozen, end));
       return;
     }
-    const Update update = is_ahead_ ? far_ends_.compare(e, reading, tracker_, filter_, jacks_)
-                          : gathers ? far_ends_.gather(reading, tracker_, filter_, jacks_)
-                                    : far_ends_.measure(e, reading, tracker_, filter_, jacks_);
+    const Update update = drifts(end.cable()) ? correct_drift(e, reading)
+                          : is_ahead_         ? far_ends_.compare(e, reading, tracker_, filter_, jacks_)
+                          : gathers           ? far_ends_.gather(reading, tracker_, filter_, jacks_)
+                                              : far_ends_.measure(e, reading, tracker_, filter_, jacks_);
     if (watch.fit.misfit() > 0) alarms_.add(alarm_at(Alarm::Kind::misfit, end));
     // Once, as long as it lasts.
     const bool is_told = update == Update::no_information && watch.is_told;
     watch.is_told = update == Update::no_information;
     if (update != Update::waits && !is_told) note(update, alarm_at(Alarm::Kind::sensor, end));
+  }
+  /// The cell at the far end of a cable that is locked tells how far its wedge was drawn in, and what has
+  /// strained it since.
+  Update correct_drift(int e, Scalar reading) {
+    const int c = far_ends_.ends()[e].cable();
+    int k = 0;
+    while (jacks_.end(k).cable() != c) ++k;
+    const auto is_corrected = [&](int p) { return p == drift_[c] || p == jacks_[k].seating; };
+    const Update update = far_ends_.correct(e, reading, tracker_, filter_, jacks_, is_corrected);
+    // A failure shows in the next row.
+    if (update == Update::updated && filter_.moved(is_corrected) > far_ends_.watch(e).noise.sd())
+      static_cast<void>(filter_.follow_drift(tracker_, drift_[c], c, jacks_.end(k).end));
+    return update;
   }
   /// The deviation of a force in a cable whose cells are off the model.
   Scalar widened(Scalar deviation, int segment) const {
@@ -614,6 +654,7 @@ class Estimator {
   AlarmLimits<Scalar> limits_;
   bool is_friction_fine_ = false;  // nothing is odd about what is believed of it
   FarEndsType far_ends_;
+  FixedArray<std::int16_t, Cap::cables> drift_;  // unknown strains of cables, or -1
   JacksType jacks_;
   TrackerType tracker_;
   FilterType filter_;

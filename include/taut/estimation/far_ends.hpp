@@ -109,6 +109,20 @@ class FarEnds {
     state_.watch[e].take(reading, force.value, force.variance + in_doubt * in_doubt, sd * sd);
     return Update::no_information;
   }
+  /// A reading [N] of cell `e` of a cable that is locked corrects what drifts there, the unknowns with
+  /// is_of(p), through the elastic response; of friction nothing is learned. Cost: that of
+  /// FilterType::update_alone().
+  template <class IsOf>
+  [[nodiscard]] Update correct(int e, Scalar reading, const TrackerType& tracker, FilterType& filter,
+                               const Jacks& jacks, const IsOf& is_of) {
+    const Scalar sd = state_.watch[e].noise.sd();
+    predict_at(ends_[e], tracker, filter, jacks, filter.prediction());
+    const Update update =
+        filter.update_alone(is_of, jacks.readings(filter.prior()), {reading, sd, Scalar(0)});
+    const auto& belief = filter.belief();
+    state_.watch[e].take(reading, reading - belief.innovation(), belief.innovation_variance(), sd * sd);
+    return update;
+  }
   /// Where gathers(): gathers a reading [N] of the only cell. Cost: a few operations; that of update() with
   /// the last one for which there is room.
   [[nodiscard]] Update gather(Scalar reading, TrackerType& tracker, FilterType& filter, const Jacks& jacks) {

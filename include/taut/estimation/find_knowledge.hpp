@@ -6,6 +6,13 @@
 
 namespace taut {
 
+/// Standard deviation of the strain that a cable takes on by itself once its jacks are locked [-].
+template <class Real>
+constexpr Real drift_sd(const Cable<Real>& cable) {
+  const bool has_jack = cable.ends[0] == End::jacked || cable.ends[1] == End::jacked;
+  return has_jack && !cable.closed ? cable.alpha * cable.temperature_sd : Real(0);
+}
+
 /// Fills `knowledge` from a valid scene.
 template <class Scalar, class SceneType>
 void find_knowledge(const SceneType& scene, Knowledge<Scalar, typename SceneType::Capacity>& knowledge) {
@@ -18,6 +25,12 @@ void find_knowledge(const SceneType& scene, Knowledge<Scalar, typename SceneType
     knowledge.mu_sd[c] = static_cast<Scalar>(cable.mu_sd);
     knowledge.shared[c] = cable.shared_mu;
     knowledge.seating_sd[c] = static_cast<Scalar>(cable.seating_sd);
+    knowledge.drift_sd[c] = static_cast<Scalar>(drift_sd(cable));
+    for (int i = 0; knowledge.drift_sd[c] > 0 && i < cable.segments(); ++i) {
+      const auto at = scene.segment_nodes(cable, i);
+      knowledge.length[cable.first_segment + i] = static_cast<Scalar>(
+          Line<Real, SceneType::dimension>::between(scene.nodes[at[0]], scene.nodes[at[1]]).length);
+    }
     knowledge.scatter[c] = static_cast<Scalar>(cable.scatter);
     for (std::size_t end = 0; end < 2; ++end) knowledge.cell[c][end] = LoadCell<Scalar>::of(cable.cell[end]);
     for (int k = 0; k < cable.joints(); ++k) {

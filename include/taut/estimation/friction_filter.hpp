@@ -196,6 +196,45 @@ class FrictionFilter {
     tracker.draw_in(p, cable, end);
     belief_.renew(p, sd);
   }
+  /// A cable is held from this end on now: from here on unknown `p` is the strain that it takes on by itself,
+  /// with the standard deviation of Knowledge::drift_sd. Cost: that of remember_reversal().
+  Status remember_drift(TrackerType& tracker, int p, int cable, std::size_t end) {
+    if (belief_.mean(p) != belief_.linearized_at(p)) static_cast<void>(relinearize(tracker, belief_.mean()));
+    belief_.renew(p, prior_->drift_sd[cable]);
+    return tracker.strain(p, cable, end, prior_->length);
+  }
+  /// That strain goes on changing: within an hour, or 900 rows if those take less, to anything that it can
+  /// be, Eq. (39). Cost: a few operations.
+  void diffuse(int p, int cable, Scalar dt) {
+    constexpr Scalar hour = 3600, rows = 900;
+    const Scalar most = prior_->drift_sd[cable] * prior_->drift_sd[cable], room = most - belief_.variance(p),
+                 grown = larger(most / rows, most * dt / hour);
+    if (room > 0) belief_.diffuse(p, grown < room ? grown : room);
+  }
+  /// Takes a reading into account that prediction() foretells, for the unknowns with is_of(p) alone. Returns
+  /// `contradiction` if and only if the innovation is outside of the gate. Cost: that of Belief::innovate().
+  template <class IsOf>
+  [[nodiscard]] Update update_alone(const IsOf& is_of, const JackReadings& jacks,
+                                    const Measured<Scalar>& measured) {
+    if (!belief_.innovate(prediction_, jacks, measured)) return Update::contradiction;
+    belief_.update_alone(is_of);
+    return Update::updated;
+  }
+  /// After update_alone(): by how much the reading moves by what these unknowns were found to be since the
+  /// tracker was there.
+  template <class IsOf>
+  Scalar moved(const IsOf& is_of) const {
+    Scalar moved = 0;
+    for (int p = 0; p < belief_.carried(); ++p)
+      if (is_of(p)) moved += prediction_.H[p] * (belief_.mean(p) - belief_.linearized_at(p));
+    return std::fabs(moved);
+  }
+  /// Brings the tracker to the strain that unknown `p` was found to be: of a cable that this end holds. Cost:
+  /// that of Tracker::strain() and Tracker::adjust().
+  Status follow_drift(TrackerType& tracker, int p, int cable, std::size_t end) {
+    const Status status = tracker.strain(p, cable, end, prior_->length);
+    return status ? tracker.adjust(friction(tracker.model()), belief_.linearize_at(belief_.mean())) : status;
+  }
   /// The jack at this end reverses now or is locked: from here on unknown `p` is the error of its load, with
   /// the standard deviation `sd` [N]. Cost: that of Tracker::turn(), and at worst of Tracker::adjust().
   void remember_reversal(TrackerType& tracker, int p, int cable, std::size_t end, Scalar sd) {

@@ -69,6 +69,7 @@ constexpr UnknownCounts count_unknowns(const Cables& cables, const IsLocked& is_
   for (const auto& cable : cables) {
     int free = 0;
     for (int j = 0; j < cable.joints(); ++j) free += is_locked(cable.first_joint + j) ? 0 : 1;
+    if (known.drift_sd[c] > 0) ++count.carried;
     if (known.mu_sd[c] > 0) count.carried += known.shared[c] && free > 1 ? 1 : free;
     for (std::size_t end = 0; end < 2 && !cable.closed; ++end) {
       const auto& cell = known.cell[c][end];

@@ -25,6 +25,10 @@ struct Knowledge {
   FixedArray<bool, Cap::cables> shared;     ///< one unknown a cable: a common factor on the nominal values
   FixedArray<Scalar, Cap::cables> scatter;  ///< of mu from joint to joint about that, relative
   FixedArray<Scalar, Cap::cables> seating_sd;  ///< standard deviation of the wedges' draw-in [m]
+  /// Standard deviation of the strain that a cable takes on by itself once it is locked: alpha times that of
+  /// the temperature that nobody logs [-]; 0: none.
+  FixedArray<Scalar, Cap::cables> drift_sd;
+  FixedArray<Scalar, Cap::segments> length;                       ///< [m], of cables that drift; else zero
   FixedArray<std::array<LoadCell<Scalar>, 2>, Cap::cables> cell;  ///< at both ends
 
   /// rho = T_small / T_big at which a joint of cable `c` slides, and its derivative with respect to mu:

@@ -77,14 +77,15 @@ struct Cable : CableLayout<Scalar> {
   Scalar E = 0;  ///< Young's modulus [N/m2]
   Scalar A = 0;  ///< cross-section [m2]
   FrictionLaw law = FrictionLaw::point;
-  Scalar mu = 0;           ///< friction coefficient [-] that add_cable() gives to every joint
-  Scalar wobble = 0;       ///< unintended angle a length, k [rad/m], capstan only
-  Scalar mu_sd = 0;        ///< standard deviation of what is known of mu beforehand [-]
-  bool shared_mu = false;  ///< one mu holds for all joints
-  Scalar scatter = 0;      ///< standard deviation of mu from joint to joint about that, relative [-]
-  Scalar seating_sd = 0;   ///< standard deviation of the wedges' draw-in [m]
-  Scalar prestrain = 0;    ///< given to every segment: unstressed length is (1 - prestrain) x distance
-  Scalar alpha = 0;        ///< thermal expansion [1/K]
+  Scalar mu = 0;              ///< friction coefficient [-] that add_cable() gives to every joint
+  Scalar wobble = 0;          ///< unintended angle a length, k [rad/m], capstan only
+  Scalar mu_sd = 0;           ///< standard deviation of what is known of mu beforehand [-]
+  bool shared_mu = false;     ///< one mu holds for all joints
+  Scalar scatter = 0;         ///< standard deviation of mu from joint to joint about that, relative [-]
+  Scalar seating_sd = 0;      ///< standard deviation of the wedges' draw-in [m]
+  Scalar temperature_sd = 0;  ///< of the temperature that no load pattern knows of once it is locked [K]
+  Scalar prestrain = 0;       ///< given to every segment: unstressed length is (1 - prestrain) x distance
+  Scalar alpha = 0;           ///< thermal expansion [1/K]
   std::array<LoadCell<Scalar>, 2> cell{};  ///< at start and end
   int first_path = 0;                      ///< of its nodes in Scene::path
 };

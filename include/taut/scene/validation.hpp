@@ -122,7 +122,8 @@ class SceneCheck {
     if (cable.nodes < (cable.closed ? 3 : 2))
       return Status::at(Code::path_too_short, Place::cable, c, cable.nodes);
     Code code = first_failure(positive(cable.E), positive(cable.A));
-    for (const Real x : {cable.wobble, cable.mu_sd, cable.scatter, cable.seating, cable.seating_sd})
+    for (const Real x :
+         {cable.wobble, cable.mu_sd, cable.scatter, cable.seating, cable.seating_sd, cable.temperature_sd})
       code = first_failure(code, not_negative(x));
     for (const LoadCell<Real>& cell : cable.cell) {
       for (const Real x : {cell.sd, cell.gain_sd, cell.zero_sd, cell.hysteresis_sd})

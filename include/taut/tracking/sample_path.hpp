@@ -71,14 +71,20 @@ class SamplePath {
   [[nodiscard]] bool goes_along(Cables& cables, int jack, Scalar force) {
     return only_ >= 0 && cables.jacks[jack].input == only_ && goes_to(cables, force);
   }
-  /// Whether the force of an unlocked jack can go there, all else left as it is, without a change of modes.
-  /// Cost: two comparisons within the range that is known, else a pass over the joints.
+  /// Whether the force of an unlocked jack can go there, all else left as it is, without a change of modes; a
+  /// cable that is wholly at zero is taken to stay there. Cost: two comparisons within the range that is
+  /// known, else a pass over the joints.
   [[nodiscard]] bool reaches(const Cables& cables, int jack, Scalar force) const {
     const int k = cables.state.has_map ? cables.jacks[jack].input : -1;
-    if (k < 0 || !(force >= least_[k])) return false;
+    if (k < 0 || !(force >= 0)) return false;
     const Scalar step = force - at_[k];
     if (step == 0) return true;
-    if (!cables.map.keeps(k, step > 0) || cables.map.has_slack()) return false;
+    if (!cables.map.keeps(k, step > 0)) return false;
+    if (cables.map.has_slack()) {
+      Given x = at_;
+      x[k] = force;
+      if (!goes_on(cables, x)) return false;
+    }
     const Scalar dx = force - anchor_[k];
     if (only_ == k && dx >= range_[0] && dx <= range_[1]) return true;
     Rounded T = cables.state.tension;
@@ -87,7 +93,7 @@ class SamplePath {
     const Scalar scale =
         static_cast<Scalar>(cables.state.peak) / larger(force, static_cast<Scalar>(cables.state.peak));
     for (int i = 0; i < cables.model->segments; ++i) T[i] = scale * (T[i] + step * column[i]);
-    return is_within_limits(cables, T);
+    return are_joints_within(cables, T) && are_taut(cables, T, true);
   }
   /// Drops what is known of the range: the next sample is looked at with all limits.
   void forget(Cables& cables) {
@@ -287,15 +293,22 @@ class SamplePath {
   /// The friction cones, and T >= 0: with something to slip_margin where a joint sticks or a run is taut,
   /// give or take rounding where a law holds them at the limit.
   bool is_within_limits(const Cables& cables, const Rounded& T) const {
-    if constexpr (Cap::joints > 0) {
-      for (const auto& cable : cables.model->cables)
-        if (!are_joints_within(cable, T)) return false;
-    }
+    return are_joints_within(cables, T) && are_taut(cables, T, false);
+  }
+  bool are_taut(const Cables& cables, const Rounded& T, bool may_rest) const {
     for (int r = 0; r < cables.runs.size(); ++r)
-      if (!(T[cables.state.representative[r]] >= least_tension(r))) return false;
+      if (!(T[cables.state.representative[r]] >= least_tension(r)) && !(may_rest && cables.state.rests[r]))
+        return false;
     return true;
   }
-  bool are_joints_within(const CableLayout<Scalar>& cable, const Rounded& T) const {
+  bool are_joints_within(const Cables& cables, const Rounded& T) const {
+    if constexpr (Cap::joints > 0) {
+      for (const auto& cable : cables.model->cables)
+        if (!are_joints_of_within(cable, T)) return false;
+    }
+    return true;
+  }
+  bool are_joints_of_within(const CableLayout<Scalar>& cable, const Rounded& T) const {
     const int n = cable.segments();
     const Scalar* const t = T.items.data() + cable.first_segment;
     // The joint after segment i is joint i of an open cable, joint i + 1 of a hoop.

@@ -143,6 +143,26 @@ class Sensitivity {
     frozen_.derivative[p] = {};
     frozen_.derivative[p].payout[jack / 2][static_cast<std::size_t>(jack % 2)] = -1;
   }
+  /// From here on parameter `p` is the strain that a cable takes on by itself while the end `jack` of it,
+  /// 2 x cable + end, is locked: to forces it is what slips and a payout would be that take as much of every
+  /// segment, Eq. (38). `length` are those of the segments [m].
+  template <class CableLayout, class Lengths>
+  void strain(int p, const CableLayout& cable, const Lengths& length, int jack) {
+    use(p);
+    frozen_.derivative[p] = {};
+    auto& moved = frozen_.derivative[p];
+    const int n = cable.segments();
+    const bool from_start = jack % 2 == 1;
+    Scalar beyond = 0;
+    for (int k = 0; k < n; ++k) {
+      const int i = from_start ? k : n - 1 - k;
+      beyond += length[cable.first_segment + i];
+      if (k + 1 == n)
+        moved.payout[jack / 2][static_cast<std::size_t>(jack % 2)] = -beyond;
+      else
+        moved.slip[cable.first_joint + (from_start ? i : i - 1)] = from_start ? -beyond : beyond;
+    }
+  }
   /// What comes next is not at an event.
   void pass() { event_shift_.fill(Real(0)); }
 

@@ -176,12 +176,8 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     if (!cables_.state.has_map) return Status::success();
     cables_.freeze();
     cables_.derivatives.for_each([&](const auto& derivative, int p) { shift(derivative, change[p]); });
-    cables_.drop_set();
-    Constraints<Cables> constraints(cables_);
     for (int count = 0; count <= cables_.joints(); ++count) {
-      if (!constraints.set_up()) return cables_.at_joint(Code::mechanism, -1);
-      constraints.make_map();
-      cables_.find_forces();
+      if (!make_map_anew()) return cables_.at_joint(Code::mechanism, -1);
       if (!put_on_edge()) break;
     }
     for (int i = 0; i < cables_.model->segments; ++i)
@@ -208,6 +204,22 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     cables_.derivatives.draw_in(p, 2 * cable + static_cast<int>(end));
     cables_.drop_map();
     samples_.forget(cables_);
+  }
+  /// From here on unknown `p` is the strain [-] that a cable takes on by itself, whose end is locked now:
+  /// by warming, or as it relaxes, Eq. (38). Nobody knows which way, so none of its joints slides until
+  /// adjust() puts it on the edge. `length` are those of all segments [m]. Fails with `mechanism`; then only
+  /// start() may follow. Cost: that of one event.
+  template <class Lengths>
+  Status strain(int p, int cable, std::size_t end, const Lengths& length) {
+    const auto& held = cables_.model->cables[cable];
+    cables_.find_forces();
+    cables_.freeze();
+    for (int j = held.first_joint; j < held.first_joint + held.joints(); ++j)
+      if (cables_.can_slide(j)) cables_.stop(j);
+    cables_.derivatives.strain(p, held, length, 2 * cable + static_cast<int>(end));
+    if (!make_map_anew()) return cables_.at_joint(Code::mechanism, -1);
+    samples_.refresh(cables_);
+    return Status::success();
   }
   /// From here on the force of a jack depends on an unknown by another error. Cost: that of turn().
   void change_load_error(const JackError<Scalar>& error) {
@@ -402,6 +414,15 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     }
   }
   /// Whether any joint had to be.
+  /// Other joints slide from here on, or moves have changed: the forces follow.
+  bool make_map_anew() {
+    cables_.drop_set();
+    Constraints<Cables> constraints(cables_);
+    if (!constraints.set_up()) return false;
+    constraints.make_map();
+    cables_.find_forces();
+    return true;
+  }
   bool put_on_edge() {
     bool any = false;
     for (int j = 0; j < cables_.joints(); ++j) {
