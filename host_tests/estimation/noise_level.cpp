@@ -9,6 +9,7 @@
 #include <initializer_list>
 
 #include "support/random.hpp"
+#include "taut/estimation/jack_load.hpp"
 
 using taut::NoiseLevel;
 
@@ -197,4 +198,29 @@ TEST_CASE("a ramp stays no noise where its readings become rare, or pause") {
     REQUIRE(held.sd() == ramped.sd());
   }
   CHECK(held.sd() > 0.5);
+}
+
+TEST_CASE("a path of short pieces is no noise: ramps and holds of thirty readings") {
+  int wrong = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    support::Random random(seed);
+    taut::LoadCell<double> cell;
+    cell.sd = 500;
+    taut::JackLoad<double, 2> jack;
+    jack.start(cell);
+    double load = 1e5;
+    for (const double rate : {0.0, 1000.0, 0.0, 3000.0, 0.0, -3000.0, 0.0, 2000.0, 0.0})
+      for (int i = 0; i < 30; ++i) {
+        load += rate;
+        taut::EndReading<double> given;
+        given.has_force = true;
+        given.force = load + cell.sd * support::gaussian(random);
+        taut::Corners corners;
+        static_cast<void>(jack.take(false, given, 1, cell, 1e7, {}, corners));
+        wrong += jack.noise.sd() > 1.5 * cell.sd ? 1 : 0;
+        ++all;
+      }
+  }
+  // A few readings in a row are off by chance.
+  CHECK(wrong < 0.01 * all);
 }

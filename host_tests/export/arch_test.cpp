@@ -23,9 +23,9 @@ TEST_CASE("a joint that is locked by friction is exported as locked") {
 }
 
 TEST_CASE(
-    "unknowns: one mu for all joints of a cable, none of a locked joint, two memories of a noisy jack, a "
-    "draw-in of every wedge") {
-  static_assert(arch::unknowns == 1 + 2 + 2);
+    "unknowns: one mu for all joints of a cable, none of a locked joint, three memories of a noisy jack "
+    "beside other loads, a draw-in of every wedge") {
+  static_assert(arch::unknowns == 1 + 3 + 2);
 }
 
 TEST_CASE("deviations of mu and of load cells are those of the scene; without one a jack is exact") {

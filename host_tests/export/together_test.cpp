@@ -56,7 +56,7 @@ TEST_CASE("the capacity holds the most that any scene has of something") {
   CHECK(wire::strut_count == 0);
   CHECK_FALSE(taut::has_rigid_saddles<Cap>);
   static_assert(wire::unknowns == arch::unknowns && arch::unknowns == saddles::unknowns);
-  CHECK(wire::unknowns == 5);
+  CHECK(wire::unknowns == 6);
 }
 
 TEST_CASE("names are those of each scene") {

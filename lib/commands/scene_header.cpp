@@ -307,7 +307,7 @@ UnknownCounts unknowns(const ExportedArrays& arrays) {
   using AnyEstimator = Estimator<Condensed<double, Capacity>, 1>;
   const auto is_locked = [&](int j) { return !(arrays.condensed.rho[static_cast<std::size_t>(j)] > 0); };
   return count_unknowns(arrays.condensed.cables, is_locked, arrays.knowledge,
-                        AnyEstimator::remembered_reversals);
+                        AnyEstimator::remembered_corners(static_cast<int>(arrays.condensed.load.size())));
 }
 
 std::string space_of(const ExportedScene& scene) { return identifier(scene.description.name); }

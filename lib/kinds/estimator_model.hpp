@@ -93,9 +93,9 @@ class EstimatorModel : public Model {
   using StrutRows = CondensedStruts<Scalar, Cap>;
   using KnowledgeType = Knowledge<Scalar, Cap>;
   static constexpr int cells = 2 * Cap::cables < most_unknown_cells ? 2 * Cap::cables : most_unknown_cells;
-  // Gain, zero and hysteresis of a jack, its wedge's draw-in, two turning points and what its cable drifts
-  // by; gain and zero of another cell, and of a gauge a segment and a stroke a cable.
-  using EstimatorType = Estimator<CondensedType, Cap::joints + 7 * cells, 2 * cells + 2 * most_gauges<Cap>>;
+  // Gain, zero and hysteresis of a jack, its wedge's draw-in, three remembered loads and what its cable
+  // drifts by; gain and zero of another cell, and of a gauge a segment and a stroke a cable.
+  using EstimatorType = Estimator<CondensedType, Cap::joints + 8 * cells, 2 * cells + 2 * most_gauges<Cap>>;
   using ReadingsType = Readings<Scalar, Cap>;
   using PastType = UnknownPast<EstimatorType>;
   using State = typename EstimatorType::State;

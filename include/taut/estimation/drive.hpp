@@ -83,13 +83,16 @@ Progress<typename TrackerType::Scalar> drive_straight(TrackerType& tracker, cons
   return progress;
 }
 
-/// Drives the tracker to the loads that ends had when they were locked, then to where loads have reversed.
-/// remember(k) is called where jack `k` was locked or reversed. Fails as Tracker::advance() does. Cost: that
-/// of drive_straight() twice.
-template <class TrackerType, class Jacks, class Remember, class Uncertainty>
+/// Drives the tracker to the loads that ends had when they were locked, then to where loads have reversed,
+/// then to the jacks' loads without the other loads of the row. remember(k) is called where jack `k` was
+/// locked or reversed, remember_load(k) at last. Fails as Tracker::advance() does. Cost: that of
+/// drive_straight() three times.
+template <class TrackerType, class Jacks, class Remember, class RememberLoad, class Uncertainty>
 Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks& jacks,
                                                      const Corners& corners, int event_budget,
-                                                     const Remember& remember, const Uncertainty& mu_sd) {
+                                                     const Remember& remember,
+                                                     const RememberLoad& remember_load,
+                                                     const Uncertainty& mu_sd) {
   auto corner = jacks.driven(load_patterns(tracker.model()));
   Progress<typename TrackerType::Scalar> progress;
   if (corners.locks) {
@@ -106,20 +109,26 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
     for (int k = 0; k < jacks.size(); ++k)
       if (progress.status && jacks[k].has_reversed()) remember(k);
   }
+  if (corners.loads && progress.status) {
+    corner = jacks.target(corner);
+    progress = join(progress, drive_straight(tracker, jacks, corner, event_budget, mu_sd));
+    for (int k = 0; k < jacks.size(); ++k)
+      if (progress.status) remember_load(k);
+  }
   return progress;
 }
 
 /// Drives the tracker through the corners to `target`, where more happens than that a load changes. Fails as
-/// Tracker::advance() does; the jacks are then where the path ended. Cost: that of drive_straight() three
+/// Tracker::advance() does; the jacks are then where the path ended. Cost: that of drive_straight() four
 /// times.
-template <class TrackerType, class Jacks, class SampleType, class Remember, class Uncertainty>
-[[gnu::noinline]] Progress<typename TrackerType::Scalar> drive(TrackerType& tracker, Jacks& jacks,
-                                                               const Corners& corners,
-                                                               const SampleType& target, int event_budget,
-                                                               const Remember& remember,
-                                                               const Uncertainty& mu_sd) {
+template <class TrackerType, class Jacks, class SampleType, class Remember, class RememberLoad,
+          class Uncertainty>
+[[gnu::noinline]] Progress<typename TrackerType::Scalar> drive(
+    TrackerType& tracker, Jacks& jacks, const Corners& corners, const SampleType& target, int event_budget,
+    const Remember& remember, const RememberLoad& remember_load, const Uncertainty& mu_sd) {
   Progress<typename TrackerType::Scalar> progress;
-  if (corners.any()) progress = drive_through(tracker, jacks, corners, event_budget, remember, mu_sd);
+  if (corners.any())
+    progress = drive_through(tracker, jacks, corners, event_budget, remember, remember_load, mu_sd);
   SampleType to = target;
   if (progress.status) progress = join(progress, drive_straight(tracker, jacks, to, event_budget, mu_sd));
   const int patterns = load_patterns(tracker.model());

@@ -37,9 +37,10 @@ namespace taut {
 ///
 /// `Parameters` bounds the number of unknowns that forces depend on: one a cable with a shared mu, one a
 /// joint otherwise; gain, zero and hysteresis of a jack's load cell where they are not known;
-/// `remembered_reversals` of every jack whose load cell has noise; and the draw-in of its wedge. If there is
-/// no room for the last two, reversals and draw-ins are taken for exact. `Further` bounds those that readings
-/// alone depend on: gain and zero of cells at anchored ends, and of gauges. See count_unknowns().
+/// `remembered_corners` of every jack whose load cell has noise; the draw-in of its wedge; and the strain
+/// that a locked cable takes on by itself. If there is no room for the last three, they are taken for exact.
+/// `Further` bounds those that readings alone depend on: gain and zero of cells at anchored ends, and of
+/// gauges. See count_unknowns().
 ///
 /// Nothing here may be called from an interrupt while another call is under way; two estimators share
 /// nothing.
@@ -53,9 +54,10 @@ class Estimator {
   using KnowledgeType = Knowledge<Scalar, Cap>;
   using ReadingsType = Readings<Scalar, Cap>;
   using FilterType = FrictionFilter<CondensedType, Parameters, Further>;
-  /// Reversals of every jack that friction is taken to remember.
-  static constexpr int remembered_reversals = 2;
-  using JacksType = JackLoads<Scalar, Cap, remembered_reversals>;
+  /// Loads of a jack that friction is taken to remember: where it reversed, was locked, or rested while one
+  /// of so many load patterns changed.
+  static constexpr int remembered_corners(int load_patterns) { return load_patterns > 0 ? 3 : 2; }
+  using JacksType = JackLoads<Scalar, Cap, remembered_corners(Cap::loads)>;
   /// Where the tracker is driven to, by jack.
   using Drives = FixedArray<Jack<Scalar>, JacksType::capacity>;
   using FarEndsType = FarEnds<FilterType, JacksType>;
@@ -153,7 +155,7 @@ class Estimator {
   /// more than the cable can carry, is refused with an alarm.
   ///
   /// Cost: without an event that of a reading in LoadFilter a jack, and of gathering a reading of the far
-  /// end. At worst 3 (1 + cables) paths of `event_budget` events each; for every far end, and once for what
+  /// end. At worst 4 (1 + cables) paths of `event_budget` events each; for every far end, and once for what
   /// was gathered, an update with four calls of Tracker::adjust(); one such call for every jack that
   /// reversed.
   Progress<Scalar> advance(const ReadingsType& readings, int event_budget = TrackerType::default_budget) {
@@ -164,6 +166,7 @@ class Estimator {
     begin_row();
     Corners corners;
     const bool has_more = condition(readings, corners);
+    follow_other_loads(readings.sample, corners);
     if (is_ahead_) follow_ahead(corners, readings.sample);
     for (int k = 0; k < jacks_.size(); ++k)
       if (!jacks_[k].at.reversed) change_branch(k);
@@ -173,7 +176,7 @@ class Estimator {
       begin_row();
       progress = drive(
           tracker_, jacks_, corners, jacks_.target(readings.sample), event_budget,
-          [this](int k) { remember_reversal(k); },
+          [this](int k) { remember_reversal(k); }, [&](int k) { remember_load(k, readings.sample); },
           [this](int c) { return filter_.relative_deviation(tracker_, c); });
       if (corners.any() || progress.events > 0) far_ends_.restart();
       if (!progress.status || progress.fraction < 1) return progress;
@@ -181,6 +184,10 @@ class Estimator {
         progress = join(progress, tracker_.advance(jacks_.target(readings.sample), event_budget));
       if (progress.status && corners.locks) progress.status = remember_drift();
       if (!progress.status) return progress;
+    }
+    if (corners.bends) {
+      far_ends_.bend();
+      gauges_.bend();
     }
     for (int e = 0; e < far_ends_.ends().size(); ++e) {
       const EndReading<Scalar>& given = far_ends_.ends()[e].in(readings.ends);
@@ -319,7 +326,8 @@ class Estimator {
     is_friction_fine_ = is_ahead_ = misfits_ = false;
     jacks_.start(condensed, knowledge);
     Status known = filter_.start(condensed, knowledge);
-    for (std::size_t m = 0; m < remembered_reversals; ++m)
+    const auto corners = static_cast<std::size_t>(remembered_corners(load_patterns(condensed)));
+    for (std::size_t m = 0; m < corners; ++m)
       for (int k = 0; k < jacks_.size(); ++k) {
         const bool has_noise = jacks_.in(knowledge.cell, k).sd > 0;
         jacks_[k].memory[m] = static_cast<std::int16_t>(has_noise ? filter_.add_load_error() : -1);
@@ -335,8 +343,8 @@ class Estimator {
     return known;
   }
   /// The unknowns that forces of jacks depend on.
-  FixedList<JackError<Scalar>, 3 * JacksType::capacity> load_errors() const {
-    FixedList<JackError<Scalar>, 3 * JacksType::capacity> errors;
+  FixedList<JackError<Scalar>, 4 * JacksType::capacity> load_errors() const {
+    FixedList<JackError<Scalar>, 4 * JacksType::capacity> errors;
     for (int k = 0; k < jacks_.size(); ++k)
       for_each_load_error(k, [&](const JackError<Scalar>& error) { errors.add(error); });
     return errors;
@@ -348,6 +356,7 @@ class Estimator {
         .at(at.cable(), at.end)
         .for_each_error(jacks_.in(filter_.prior().cell, k), 2 * at.cable() + static_cast<int>(at.end),
                         jacks_[k].erred_up, visit);
+    if (jacks_[k].frozen >= 0) visit(frozen_error(k));
   }
   void begin_row() {
     filter_.begin_row();
@@ -391,11 +400,59 @@ class Estimator {
   void remember_reversal(int k) {
     auto& jack = jacks_[k];
     change_branch(k);
-    const int p = jack.memory[static_cast<std::size_t>(jack.oldest)];
+    const bool loads_change = jack.frozen >= 0;
+    forget_other_loads(k);
+    const int p = next_memory(k);
     if (p < 0) return;
-    jack.oldest = (jack.oldest + 1) % remembered_reversals;
     filter_.remember_reversal(tracker_, p, jacks_.end(k).cable(), jacks_.end(k).end, jack.sd_before);
     is_friction_fine_ = false;
+    if (!loads_change || jack.locked) return;
+    jack.frozen = static_cast<std::int16_t>(p);
+    tracker_.change_load_error(frozen_error(k));
+  }
+  int next_memory(int k) {
+    auto& jack = jacks_[k];
+    const int p = jack.memory[static_cast<std::size_t>(jack.oldest)];
+    if (p >= 0) jack.oldest = (jack.oldest + 1) % remembered_corners(load_patterns(model()));
+    return p;
+  }
+  bool changes_factors(const Sample<Scalar, Cap>& sample) const {
+    for (int i = 0; i < load_patterns(model()); ++i)
+      if (sample.factor[i] != jacks_.factor(i)) return true;
+    return false;
+  }
+  /// While other loads change, friction comes to rest at the loads that jacks have then, known or not.
+  void follow_other_loads(const Sample<Scalar, Cap>& sample, Corners& corners) {
+    if (load_patterns(model()) == 0) return;
+    const bool changes = changes_factors(sample);
+    for (int k = 0; k < jacks_.size(); ++k) {
+      auto& jack = jacks_[k];
+      if (jack.locked || jack.memory[0] < 0) continue;
+      if (changes) jack.come_to_best(jacks_.in(filter_.prior().cell, k));
+      if (changes && jack.frozen >= 0) filter_.widen(jack.frozen, jack.come_sd);
+      corners.loads |= changes != (jack.frozen >= 0);
+    }
+  }
+  void remember_load(int k, const Sample<Scalar, Cap>& sample) {
+    auto& jack = jacks_[k];
+    const bool changes = changes_factors(sample);
+    if (jack.locked || jack.memory[0] < 0 || changes == (jack.frozen >= 0)) return;
+    if (!changes) return forget_other_loads(k);
+    jack.frozen = static_cast<std::int16_t>(next_memory(k));
+    filter_.remember_load(tracker_, frozen_error(k), jack.come_sd);
+    is_friction_fine_ = false;
+  }
+  /// Other loads change no longer: what friction remembers stays as it is.
+  void forget_other_loads(int k) {
+    if (jacks_[k].frozen < 0) return;
+    // A failure shows on the way on.
+    static_cast<void>(tracker_.end_load_error(jacks_[k].frozen));
+    jacks_[k].frozen = -1;
+  }
+  JackError<Scalar> frozen_error(int k) const {
+    const EndType& at = jacks_.end(k);
+    return {jacks_[k].frozen, static_cast<std::int16_t>(2 * at.cable() + static_cast<int>(at.end)), Scalar(1),
+            Scalar(0)};
   }
 
   /// Where the best estimate of a load lies beyond the present piece, the forces there follow from the events

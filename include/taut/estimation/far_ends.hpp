@@ -62,6 +62,10 @@ class FarEnds {
     return (has_waiting() || (can_gather_ && room() > 1)) && (jacks[0].is_new || jacks[0].locked);
   }
 
+  /// The load of a jack has left the line that it was on.
+  void bend() {
+    for (int e = 0; e < ends_.size(); ++e) state_.watch[e].noise.bend();
+  }
   /// A reading [N] of cell `e` of ends(), `dt` after the one before, tells how much its readings scatter.
   void follow_noise(int e, Scalar reading, Scalar dt) { state_.watch[e].noise.take(reading, dt); }
   CellWatch<Scalar>& watch(int e) { return state_.watch[e]; }

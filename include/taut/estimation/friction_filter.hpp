@@ -235,6 +235,19 @@ class FrictionFilter {
     const Status status = tracker.strain(p, cable, end, prior_->length);
     return status ? tracker.adjust(friction(tracker.model()), belief_.linearize_at(belief_.mean())) : status;
   }
+  /// Other loads than that of a jack begin to change: from here on its unknown error, with the standard
+  /// deviation `sd` [N], is remembered wherever friction comes to rest. Cost: that of remember_reversal().
+  void remember_load(TrackerType& tracker, const JackError<Scalar>& error, Scalar sd) {
+    const int p = error.parameter;
+    if (belief_.mean(p) != belief_.linearized_at(p)) static_cast<void>(relinearize(tracker, belief_.mean()));
+    tracker.begin_load_error(error);
+    belief_.renew(p, sd);
+  }
+  /// Unknown `p` is not known better than to `sd`.
+  void widen(int p, Scalar sd) {
+    const Scalar missing = sd * sd - belief_.variance(p);
+    if (missing > 0) belief_.diffuse(p, missing);
+  }
   /// The jack at this end reverses now or is locked: from here on unknown `p` is the error of its load, with
   /// the standard deviation `sd` [N]. Cost: that of Tracker::turn(), and at worst of Tracker::adjust().
   void remember_reversal(TrackerType& tracker, int p, int cable, std::size_t end, Scalar sd) {

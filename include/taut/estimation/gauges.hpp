@@ -117,6 +117,10 @@ class Gauges {
   void forget_marks() {
     for (int g = 0; g < size(); ++g) state_.one[g].is_marked = state_.one[g].is_taken = false;
   }
+  /// The load of a jack has left the line that it was on.
+  void bend() {
+    for (int g = 0; g < size(); ++g) state_.one[g].noise.bend();
+  }
   /// A reading tells how much readings scatter.
   void follow_noise(Gauge gauge, Scalar reading) {
     auto& one = state_.one[gauge.number];

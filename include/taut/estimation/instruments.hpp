@@ -63,7 +63,7 @@ struct UnknownCounts {
 };
 template <class Cables, class IsLocked, class KnowledgeType>
 constexpr UnknownCounts count_unknowns(const Cables& cables, const IsLocked& is_locked,
-                                       const KnowledgeType& known, int remembered_reversals) {
+                                       const KnowledgeType& known, int remembered_corners) {
   UnknownCounts count;
   int c = 0;
   for (const auto& cable : cables) {
@@ -75,7 +75,7 @@ constexpr UnknownCounts count_unknowns(const Cables& cables, const IsLocked& is_
       const auto& cell = known.cell[c][end];
       if (cable.ends[end] == End::jacked)
         count.carried +=
-            cell.unknowns() + (cell.sd > 0 ? remembered_reversals : 0) + (known.seating_sd[c] > 0 ? 1 : 0);
+            cell.unknowns() + (cell.sd > 0 ? remembered_corners : 0) + (known.seating_sd[c] > 0 ? 1 : 0);
       else if (cell.sd > 0)
         count.further += cell.unknowns();
     }

@@ -23,7 +23,9 @@ namespace taut {
 /// Where the path to a row has corners: a jack is locked, or its load has reversed since the row before.
 struct Corners {
   bool locks = false, reverses = false;
-  bool any() const { return locks || reverses; }
+  bool loads = false;  ///< other loads begin to change, or cease to
+  bool bends = false;  ///< no corner: a load goes on at another rate since a while
+  bool any() const { return locks || reverses || loads; }
 };
 
 /// A load cell's conditioned load, with the wedge of its end. A plain value: it can be saved and read back
@@ -53,10 +55,13 @@ struct JackLoad {
   bool locks_now = false, locked = false;
   Scalar most_payout = 0;  ///< that it should have had so far [m]
   std::uint8_t below = 0;  ///< locked: readings in a row that were confirmed to be below what the wedge holds
-  /// Unknown errors of its load where it last reversed or was locked, or -1; the oldest is forgotten next.
+  /// Unknown errors of its load where it last reversed, was locked or rested, or -1; the oldest is forgotten
+  /// next.
   std::array<std::int16_t, static_cast<std::size_t>(Reversals)> memory{};
   int oldest = 0;
   std::int16_t seating = -1;  ///< the unknown of its wedge's draw-in, or -1
+  Scalar come_sd = 0;         ///< standard deviation of the load where come_to_best() was [N]
+  std::int16_t frozen = -1;   ///< the one of `memory` that its error is while other loads change, or -1
 
   /// A reading, or none if it is more than the cable can carry, `most` [N].
   static Scalar possible(Scalar reading, Scalar most) {
@@ -170,7 +175,12 @@ struct JackLoad {
     if (is_released) guard.start(reading);
     if (cell.sd > 0 && std::isfinite(reading) && guard.holds(reading, since, filter.sd()))
       reading = std::numeric_limits<Scalar>::quiet_NaN();
+    const int run_length = filter.run_length();
     new (&at) ConditionedLoad<Scalar>(filter.take(reading, since));
+    if (filter.run_length() < run_length) {
+      noise.bend();
+      corners.bends = true;
+    }
     follow_noise(given.force, cell);
     raw = given.force;
     if (cell.has_branches()) {
@@ -182,6 +192,21 @@ struct JackLoad {
     is_new = !at.refused;
     corners.reverses |= at.reversed;
     return finds_outlier(given.force, std::isfinite(possible(given.force, most)));
+  }
+  /// Other loads change: where friction comes to rest, it remembers the load as it is, not as far as it is
+  /// confirmed to have come.
+  void come_to_best(const LoadCell<Scalar>& cell) {
+    come_sd = at.behind ? larger(at.sd, std::fabs(at.load - at.confirmed)) : at.sd;
+    if (!is_new || at.behind) return;
+    // Where a ramp ends, the estimate overshoots at first.
+    const bool rises = at.load > at.confirmed;
+    const Scalar noise_sd = filter.sd() / branch(cell), most = rises ? raw + noise_sd : raw - noise_sd;
+    const bool overshoots = rises ? at.load > most : at.load < most;
+    const Scalar to = overshoots ? most : at.load, further = rises ? to - at.confirmed : at.confirmed - to;
+    if (overshoots) come_sd = larger(at.sd, noise_sd);
+    if (!(further > (frozen < 0 ? Scalar(0) : at.sd))) return;
+    filter.come_to(to * branch(cell));
+    at.confirmed = to;
   }
   bool has_reversed() const { return !locked && at.reversed; }
   /// Where the tracker is driven to for a row [N].

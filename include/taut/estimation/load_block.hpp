@@ -18,7 +18,8 @@ struct LineState {
 /// straight line their mean says nearly all that they say one by one: it is a reading in the middle of them,
 /// with the variance 1 / size. One line follows them meanwhile, with the gains that it had for the first:
 /// they are few beside those that it has taken before. How far it drifts off shows in the sum of its
-/// innovations, where older ones fade. The readings are kept themselves too, for the case that some do not
+/// innovations, where older ones fade; readings that do not wait are followed in it too. The readings are
+/// kept themselves as well, for the case that some do not
 /// agree.
 template <class Force, class Scalar, int Capacity>
 struct LoadBlock {
@@ -31,7 +32,7 @@ struct LoadBlock {
   Scalar level = 0, slope = 0;  ///< of the line that follows them, at the last reading
   Scalar level_gain = 0, slope_gain = 0;
   Scalar spread = 1;          ///< variance of an innovation
-  Scalar drift = 0;           ///< sum of the innovations
+  Scalar drift = 0;           ///< sum of the innovations of the line
   Scalar drift_variance = 0;  ///< of the sum after many
   Scalar sum = 0;             ///< of the readings, as levels of the line
   Scalar times = 0;           ///< sum of their times since the line was last fitted
@@ -49,7 +50,7 @@ struct LoadBlock {
     slope = line.slope;
     level_gain = P / spread;
     slope_gain = C / spread;
-    drift = sum = times = span = 0;
+    sum = times = span = 0;
     size = 0;
     most = static_cast<std::int8_t>(up_to < capacity ? up_to : capacity);
   }
@@ -67,9 +68,11 @@ struct LoadBlock {
     const Scalar expected = level + dt * slope, innovation = y - expected;
     level = expected + level_gain * innovation;
     slope += slope_gain * innovation;
-    drift = fade * drift + innovation;
+    follow(innovation);
     return innovation;
   }
+  /// An innovation of the line, also of a reading that does not wait.
+  void follow(Scalar innovation) { drift = fade * drift + innovation; }
   /// No more of them than these wait from now on; level_of() is that of a reading. What follows them is not
   /// put back.
   template <class LevelOf>

@@ -96,9 +96,17 @@ class LoadFilter : LoadFilterTuning {
       for (Level& each : *lanes) each *= f * f;
     off_best_ *= f;
     beside_best_ *= f * f;
+    of_drift_ *= f * f;
     set_confirmed(confirmed_);
   }
   bool has_waiting() const { return block_.has_room(); }
+  /// Readings since the likeliest line began, but those that wait.
+  int run_length() const { return sd_ > 0 && hypotheses_.size > 0 ? at(hypotheses_.run_length, best_) : 0; }
+  /// Something else will remember the load as it is now: it is taken to have come as far as this best
+  /// estimate of it [N], which is further than what is confirmed. Until it is confirmed to have turned.
+  void come_to(Scalar load) {
+    if (ahead(confirmed_, load) > 0) set_confirmed(load);
+  }
 
   /// Takes the next reading [N], `dt` > 0 after the one before, in any unit of time; for the first it does
   /// not matter. What is not finite is refused, and may be anything else. Cost: while readings wait a few
@@ -135,9 +143,17 @@ class LoadFilter : LoadFilterTuning {
     calm_ = static_cast<std::int8_t>(surprises ? 0 : calm_ < calm_enough ? calm_ + 1 : calm_);
     // Where nothing surprises, it does not matter where exactly a line begins.
     if (since_birth_ >= pause || surprises) begin_line({surprises, has_no_slope}, step, step, y, Level(1));
+    const int before = best_;
+    const Level innovation =
+        (y - at(hypotheses_.level, best_)) / std::sqrt(at(hypotheses_.level_variance, best_) + 1);
     hypotheses_.update(y, 1);
     const Level total = find_best();
-    return conclude(at(hypotheses_.outliers_in_a_row, best_) == 0, total, y, told);
+    const bool accepted = at(hypotheses_.outliers_in_a_row, best_) == 0;
+    if (best_ != before)
+      block_.drift = 0;
+    else if (accepted)
+      block_.follow(innovation);
+    return conclude(accepted, total, y, told);
   }
   /// The time since the last reading that was one; zero if it is not known.
   Level time_of(Level dt) const {
@@ -166,7 +182,8 @@ class LoadFilter : LoadFilterTuning {
     Level level, variance;
   };
   Told last_told() const {
-    return {at(hypotheses_.level, best_) + off_best_, at(hypotheses_.level_variance, best_) + beside_best_};
+    return {at(hypotheses_.level, best_) + off_best_,
+            at(hypotheses_.level_variance, best_) + beside_best_ + of_drift_};
   }
   /// A piece of the path goes on for about as long as it has lasted.
   Level lasts() const { return static_cast<Level>(at(hypotheses_.run_length, best_)) * usual_; }
@@ -213,6 +230,7 @@ class LoadFilter : LoadFilterTuning {
     at(hypotheses_.corner, born) = come;
     at(hypotheses_.outliers_in_a_row, born) = at(hypotheses_.known, born) = 0;
     since_birth_ = calm_ = 0;
+    block_.drift = 0;
     hypotheses_.update(y, 1);
     const Level total = find_best();
     return conclude(at(hypotheses_.outliers_in_a_row, best_) == 0, total, y, told);
@@ -235,7 +253,6 @@ class LoadFilter : LoadFilterTuning {
     // While half of them have been taken.
     const Level variance = block_.variance() * taken / (taken + half);
     waits_sd_ = std::sqrt(larger(variance + beside_best_, Level(0)));
-    waits_bent_ = run_length < young ? perhaps_bent : Level(0);
     return true;
   }
   ConditionedLoad<Scalar> wait(Scalar reading, Level dt) {
@@ -256,7 +273,7 @@ class LoadFilter : LoadFilterTuning {
       return larger(way * y - confirm_mean, way * (block_.sum * share) - confirm_mean * std::sqrt(share));
     });
     ConditionedLoad<Scalar> now;
-    say(now, {estimate.level, waits_sd_ + waits_bent_ * std::fabs(block_.drift)}, further);
+    say(now, widened(estimate), further);
     return now;
   }
   /// The readings that wait, and their mean as one; the last of them is `y`.
@@ -399,7 +416,9 @@ class LoadFilter : LoadFilterTuning {
     const Level square = (y - level) * (y - level), variance = level_variance + noise;
     const bool is_jump = why.has_no_slope || square > farthest_bend * (variance + steep_bend * steep_bend);
     const Level jump = larger(square, least_jump * least_jump);
-    const Level bend = square > gentle * variance ? steep_bend : gentle_bend, change = bend / dt;
+    // A ramp often ends in a hold: such a bend is as large as its slope.
+    const Level least = larger(gentle_bend, std::fabs(slope) * dt),
+                change = (square > gentle * variance ? steep_bend : least) / dt;
     const Level bent = change * since;
     at(hypotheses_.level, born) = level;
     at(hypotheses_.slope, born) = is_jump ? Level(0) : slope;
@@ -470,10 +489,24 @@ class LoadFilter : LoadFilterTuning {
       if (has_reversed(estimate, beyond_confirmed(estimate))) reverse(now);
       confirm(estimate, beyond_confirmed(estimate), [&](Level way) { return least_mean(estimate, way, y); });
     }
-    say(now, estimate, beyond_confirmed(estimate));
+    say(now, accepted ? widened(estimate) : estimate, beyond_confirmed(estimate));
     now.refused = !accepted;
     move_base();
     return now;
+  }
+  /// Readings that drift off the best line may be the first of a new piece: then the line tells no more than
+  /// about a single one of them. One that is young does not claim to tell more.
+  Estimate widened(const Estimate& estimate) {
+    const std::int32_t run_length = at(hypotheses_.run_length, best_);
+    const Level far = std::fabs(block_.drift) - by_chance;
+    of_drift_ = 0;
+    if (!(far > 0) || run_length < Hypotheses::established) return estimate;
+    const Level part =
+                    run_length < young ? perhaps_bent : perhaps_bent * young / static_cast<Level>(run_length),
+                most = larger(estimate.sd, widest);
+    const Level sd = -larger(-most, -(estimate.sd + part * far));
+    of_drift_ = sd * sd - estimate.sd * estimate.sd;
+    return {estimate.level, sd};
   }
   void say(ConditionedLoad<Scalar>& now, const Estimate& estimate, Level further) const {
     now.load = force(estimate.level);
@@ -541,8 +574,8 @@ class LoadFilter : LoadFilterTuning {
   Level confirmed_level_ = 0;
   // The estimate less the level of the best line, its variance less that of this line.
   Level off_best_ = 0, beside_best_ = 0;
+  Level of_drift_ = 0;           // of what was told, for readings that drift off
   Level waits_sd_ = 0;           // standard deviation of the estimate while readings wait
-  Level waits_bent_ = 0;         // and its growth with their drift
   Level step_ = 0, usual_ = 0;   // the last one; what they usually are
   Level missed_ = 0;             // time since the last reading that was one
   Level way_ = 1;                // that the load goes: up or down

@@ -21,7 +21,8 @@ struct LoadFilterTuning {
   static constexpr Level least_length = 15;
   /// Of the changes so many are bends, and so many jumps.
   static constexpr Level bends = Level(0.8), jumps = Level(0.002);
-  /// Changes of slope to be expected, per sample; in between the better of the two will do.
+  /// Changes of slope to be expected, per sample: the slope itself, but at least the first, or the second
+  /// where a reading is that far off.
   static constexpr Level gentle_bend = Level(0.15), steep_bend = 3;
   /// Standard deviation of the slope after a jump, per sample: nothing is known of it.
   static constexpr Level slope_after_jump = 10;
@@ -72,10 +73,12 @@ struct LoadFilterTuning {
   /// chance.
   static constexpr Level by_far = Level(0.8);
   static constexpr int long_ago = 32;
-  /// One of those that wait may be the first of a new piece: up to this run length, so much of how far they
-  /// drift off counts as deviation too.
+  // Readings that drift off may be the first of a new piece.
+
+  /// How far they drift off beyond what is by chance counts as deviation too, by this part, but not beyond
+  /// the widest one; of a line older than `young` by less, in proportion.
+  static constexpr Level by_chance = 2, perhaps_bent = Level(0.8), widest = Level(1.2);
   static constexpr int young = 150;
-  static constexpr Level perhaps_bent = Level(0.06);
 
   // Times without readings.
 

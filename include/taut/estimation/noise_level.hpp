@@ -16,8 +16,9 @@ namespace taut {
 /// Second differences of what lies on a line are zero; their median, which is not moved by corners and
 /// outliers, is followed in steps that shrink to a hundredth. After n of them, at most 99, the level is known
 /// to about 1.2 / sqrt(n) of itself; it counts where it exceeds what was said by 4 / sqrt(n + 1), so that
-/// noise of 1.4 times what was said is found at last. Readings must be about equally far apart in time. A
-/// plain value. Cost: a few operations a reading.
+/// noise of 1.4 times what was said is found at last. Readings must be about equally far apart in time. Means
+/// are long beside the pieces of a path: only those count between which it does not bend. A plain value.
+/// Cost: a few operations a reading.
 template <class Scalar>
 class NoiseLevel {
  public:
@@ -29,6 +30,11 @@ class NoiseLevel {
   /// The standard deviation of white noise that averages out as slowly as this noise, and scatters no less.
   Scalar sd() const { return larger(neighbours_.beyond(said_), means_.beyond(said_)); }
 
+  /// The readings have left the line that they were on.
+  void bend() {
+    means_.count = 0;
+    in_mean_ = 0;
+  }
   /// The next reading, `dt` [s] after the one before.
   void take(Scalar reading, Scalar dt) {
     const bool is_even = std::fabs(dt - dt_) <= Scalar(0.25) * dt_;

@@ -212,10 +212,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   template <class Lengths>
   Status strain(int p, int cable, std::size_t end, const Lengths& length) {
     const auto& held = cables_.model->cables[cable];
-    cables_.find_forces();
-    cables_.freeze();
-    for (int j = held.first_joint; j < held.first_joint + held.joints(); ++j)
-      if (cables_.can_slide(j)) cables_.stop(j);
+    come_to_rest(held);
     cables_.derivatives.strain(p, held, length, 2 * cable + static_cast<int>(end));
     if (!make_map_anew()) return cables_.at_joint(Code::mechanism, -1);
     samples_.refresh(cables_);
@@ -228,6 +225,21 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     cables_.derivatives.depend_on_load(error);
     cables_.drop_map();
     samples_.forget(cables_);
+  }
+  /// The same for an unknown that meant something else until now, of a jack that came here by itself.
+  void begin_load_error(const JackError<Scalar>& error) {
+    turn(error.parameter, error.jack / 2, static_cast<std::size_t>(error.jack % 2));
+    cables_.derivatives.depend_on_load(error);
+  }
+  /// The force of the jack does not depend on unknown `p` any more, but friction has come to rest at what it
+  /// was: which way the cables slide next is open. Fails with `mechanism`; then only start() may follow.
+  /// Cost: that of one event.
+  Status end_load_error(int p) {
+    for (const auto& cable : cables_.model->cables) come_to_rest(cable);
+    cables_.derivatives.depend_on_load({static_cast<std::int16_t>(p), -1, Scalar(0), Scalar(0)});
+    if (!make_map_anew()) return cables_.at_joint(Code::mechanism, -1);
+    samples_.refresh(cables_);
+    return Status::success();
   }
   /// Derivative of a tension with respect to unknown `p` [N], at the loads reached.
   Scalar sensitivity(int p, int segment) const {
@@ -414,6 +426,14 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     }
   }
   /// Whether any joint had to be.
+  /// No joint of a cable slides from here on.
+  void come_to_rest(const CableLayout<Scalar>& cable) {
+    cables_.find_forces();
+    cables_.freeze();
+    cables_.drop_map();
+    for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
+      if (cables_.can_slide(j)) cables_.stop(j);
+  }
   /// Other joints slide from here on, or moves have changed: the forces follow.
   bool make_map_anew() {
     cables_.drop_set();
