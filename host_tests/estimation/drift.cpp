@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "estimation/followers.hpp"
 #include "estimation/ramp.hpp"
 
 using namespace estimation;
@@ -30,7 +31,6 @@ void make_scene(Plane& scene, const taut::Cable<double>& cable, bool elastic, bo
 
 using Model = taut::Condensed<double, PlaneCapacity>;
 using Known = taut::Knowledge<double, PlaneCapacity>;
-using Follower = taut::Tracker<Model, 3>;
 using Row = taut::Sample<double, PlaneCapacity>;
 
 /// A row, after which an unknown is the strain of the cable; from the next one on it is warmer or colder.
@@ -91,15 +91,7 @@ TEST_CASE("derivatives by the strain of a locked cable are those of trackers wit
       REQUIRE(condensation.run(scene, model).ok());
       taut::find_knowledge(scene, known);
       CHECK(known.drift_sd[0] == alpha * 10);
-      const auto trackers = std::make_unique<std::array<Follower, 3>>();
-      for (Follower& tracker : *trackers)
-        REQUIRE(tracker
-                    .start(model,
-                           [&](int j) {
-                             const auto limit = known.limit(0, j, known.mu[j]);
-                             return taut::JointFriction<double>{limit.rho, 0, limit.slope};
-                           })
-                    .status.ok());
+      const auto trackers = three_followers(model, known);
       const double kelvin = 1e-4;
       int row = 0;
       for (const Warmed& warmed : two_visits(end)) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "estimation/followers.hpp"
 #include "estimation/ramp.hpp"
 
 using namespace estimation;
@@ -17,7 +18,6 @@ namespace {
 
 using Model = taut::Condensed<double, PlaneCapacity>;
 using Known = taut::Knowledge<double, PlaneCapacity>;
-using Follower = taut::Tracker<Model, 3>;
 using Row = taut::Sample<double, PlaneCapacity>;
 
 /// A row of a log; whether the jack's force is off in it.
@@ -61,15 +61,7 @@ TEST_CASE("derivatives by the load that friction came to rest at are those of tr
         CAPTURE(during);
         CAPTURE(after);
         CAPTURE(sign);
-        const auto trackers = std::make_unique<std::array<Follower, 3>>();
-        for (Follower& tracker : *trackers)
-          REQUIRE(tracker
-                      .start(model,
-                             [&](int j) {
-                               const auto limit = known.limit(0, j, known.mu[j]);
-                               return taut::JointFriction<double>{limit.rho, 0, limit.slope};
-                             })
-                      .status.ok());
+        const auto trackers = three_followers(model, known);
         auto& [less, at, more] = *trackers;
         const double h = 1e-4;
         bool was_off = false;

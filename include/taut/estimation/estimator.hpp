@@ -253,8 +253,7 @@ class Estimator {
     take_gauge(predict, reading, gauge, alarm_at(Alarm::Kind::elongation, jacks_.end(k)));
   }
   void take_segment(int segment, Scalar reading, Gauge gauge) {
-    int c = 0;
-    while (segment >= model().cables[c].first_segment + model().cables[c].segments()) ++c;
+    const int c = cable_of(segment);
     const auto predict = [&](auto& prediction) {
       predict_tension(tracker_, segment, filter_.belief(), jacks_.ends(), prediction);
     };
@@ -314,6 +313,11 @@ class Estimator {
   using EndType = CableEnd<Cap>;
 
   const CondensedType& model() const { return tracker_.model(); }
+  int cable_of(int segment) const {
+    int c = 0;
+    while (segment >= model().cables[c].first_segment + model().cables[c].segments()) ++c;
+    return c;
+  }
   static Alarm alarm_at(Alarm::Kind kind, const EndType& at) {
     return Alarm::of(kind, at.cable(), static_cast<int>(at.end));
   }
@@ -598,9 +602,7 @@ class Estimator {
   }
   /// The deviation of a force in a cable whose cells are off the model.
   Scalar widened(Scalar deviation, int segment) const {
-    int c = 0;
-    while (segment >= model().cables[c].first_segment + model().cables[c].segments()) ++c;
-    const Scalar misfit = far_ends_.misfit(c);
+    const Scalar misfit = far_ends_.misfit(cable_of(segment));
     return std::sqrt(deviation * deviation + misfit * misfit);
   }
   void learn_waiting() {

@@ -192,14 +192,14 @@ class FrictionFilter {
   /// The wedge at this end has been seated: from here on unknown `p` is by how much further it was drawn in
   /// than the model has it, with the standard deviation `sd` [m]. Cost: that of remember_reversal().
   void remember_seating(TrackerType& tracker, int p, int cable, std::size_t end, Scalar sd) {
-    if (belief_.mean(p) != belief_.linearized_at(p)) static_cast<void>(relinearize(tracker, belief_.mean()));
+    keep_what_is_known(tracker, p);
     tracker.draw_in(p, cable, end);
     belief_.renew(p, sd);
   }
   /// A cable is held from this end on now: from here on unknown `p` is the strain that it takes on by itself,
   /// with the standard deviation of Knowledge::drift_sd. Cost: that of remember_reversal().
   Status remember_drift(TrackerType& tracker, int p, int cable, std::size_t end) {
-    if (belief_.mean(p) != belief_.linearized_at(p)) static_cast<void>(relinearize(tracker, belief_.mean()));
+    keep_what_is_known(tracker, p);
     belief_.renew(p, prior_->drift_sd[cable]);
     return tracker.strain(p, cable, end, prior_->length);
   }
@@ -239,7 +239,7 @@ class FrictionFilter {
   /// deviation `sd` [N], is remembered wherever friction comes to rest. Cost: that of remember_reversal().
   void remember_load(TrackerType& tracker, const JackError<Scalar>& error, Scalar sd) {
     const int p = error.parameter;
-    if (belief_.mean(p) != belief_.linearized_at(p)) static_cast<void>(relinearize(tracker, belief_.mean()));
+    keep_what_is_known(tracker, p);
     tracker.begin_load_error(error);
     belief_.renew(p, sd);
   }
@@ -251,7 +251,7 @@ class FrictionFilter {
   /// The jack at this end reverses now or is locked: from here on unknown `p` is the error of its load, with
   /// the standard deviation `sd` [N]. Cost: that of Tracker::turn(), and at worst of Tracker::adjust().
   void remember_reversal(TrackerType& tracker, int p, int cable, std::size_t end, Scalar sd) {
-    if (belief_.mean(p) != belief_.linearized_at(p)) static_cast<void>(relinearize(tracker, belief_.mean()));
+    keep_what_is_known(tracker, p);
     tracker.turn(p, cable, end);
     belief_.renew(p, sd);
   }
@@ -299,6 +299,10 @@ class FrictionFilter {
     const auto weight = static_cast<Real>(weight_[j]);
     const auto limit = prior_->limit(c, j, prior_->mu[j] + weight * static_cast<Real>(at));
     return {at == 0 ? model.rho[j] : limit.rho, p, weight * limit.slope};
+  }
+  /// Unknown `p` will mean something else: what is known of it goes into the tracker.
+  void keep_what_is_known(TrackerType& tracker, int p) {
+    if (belief_.mean(p) != belief_.linearized_at(p)) static_cast<void>(relinearize(tracker, belief_.mean()));
   }
   /// Brings the tracker to these values of the unknowns.
   bool relinearize(TrackerType& tracker, const Values& values) {
