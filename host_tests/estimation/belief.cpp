@@ -153,3 +153,44 @@ TEST_CASE("a mean stays within its bounds") {
   belief.update();
   CHECK(belief.mean(0) == 0.2);
 }
+
+TEST_CASE("readings that scatter more than they were taken to have taught as much less") {
+  // Of one unknown: as if they had been taken with the larger deviation, where the prior says little.
+  for (const double times : {1.7, 4.0, 30.0}) {
+    CAPTURE(times);
+    support::Random random(5);
+    const Vector prior = Vector::Constant(unknowns, 1e4);
+    Belief belief;
+    begin(belief, prior);
+    LeastSquares expected(prior);
+    for (int i = 0; i < 40; ++i) {
+      const Vector H = random_vector(random, unknowns);
+      const double measured = support::gaussian(random);
+      belief.begin_row();
+      REQUIRE(belief.innovate(prediction_of(0, H, Vector::Zero(jacks)), {}, {measured, 1, 0}));
+      belief.update();
+      expected.add(H, measured, std::sqrt(times));
+    }
+    belief.loosen(times);
+    const Eigen::MatrixXd covariance = expected.covariance();
+    for (int p = 0; p < unknowns; ++p)
+      for (int q = 0; q < unknowns; ++q)
+        CHECK(std::fabs(belief.save().covariance[p][q] - covariance(p, q)) <
+              1e-6 * std::sqrt(covariance(p, p) * covariance(q, q)));
+  }
+}
+
+TEST_CASE("what was never measured stays as well known as it was beforehand") {
+  const Vector prior = Vector::LinSpaced(unknowns, 1, 2);
+  Belief belief;
+  begin(belief, prior);
+  Vector H = Vector::Zero(unknowns);
+  H[0] = H[1] = 1;
+  REQUIRE(belief.innovate(prediction_of(0, H, Vector::Zero(jacks)), {}, {0.3, 0.5, 0}));
+  belief.update();
+  belief.loosen(100);
+  for (int p = 0; p < unknowns; ++p)
+    CHECK(belief.variance(p) == doctest::Approx(prior[p] * prior[p]).epsilon(1e-12));
+  // Together they are still known better.
+  CHECK(belief.save().covariance[0][1] < 0);
+}

@@ -21,9 +21,9 @@ taut::CellWatch<Scalar> watch_of(double sd) {
 template <class Scalar>
 void take(taut::CellWatch<Scalar>& watch, double reading, double force, double of_model = 0) {
   const auto given = static_cast<Scalar>(reading);
-  watch.noise.take(given, 1);
+  static_cast<void>(watch.follow_noise(given, 1));
   if (watch.stays_frozen(given)) return;
-  const Scalar sd = watch.noise.sd();
+  const Scalar sd = watch.sd;
   watch.take(given, static_cast<Scalar>(force), static_cast<Scalar>(of_model), sd * sd);
 }
 
@@ -125,6 +125,8 @@ TEST_CASE("a new value ends it, and what it read while it was frozen is no misfi
   };
   freeze();
   CHECK(watch.fit.misfit() > 5);
+  // Where the force goes on at another rate.
+  watch.noise.bend();
   take(watch, 1050, 1050);
   CHECK_FALSE(watch.is_frozen);
   CHECK_FALSE(watch.stays_frozen(1050));
@@ -196,7 +198,7 @@ TEST_CASE("a start forgets everything") {
   CHECK_FALSE(watch.is_frozen);
   CHECK_FALSE(watch.is_told);
   CHECK(watch.fit.misfit() == 0);
-  CHECK(watch.noise.sd() == 2);
+  CHECK(watch.sd == 2);
   take(watch, 1000, 5000);
   take(watch, 1000, 1000);
   CHECK_FALSE(watch.is_frozen);

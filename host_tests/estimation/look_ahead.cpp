@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "estimation/ramp.hpp"
+#include "support/routes_taken.hpp"
 
 using namespace estimation;
 
@@ -280,4 +281,53 @@ TEST_CASE(
   // Else nothing was tested.
   CHECK(compared > 6000);
   CHECK(ahead > 200);
+}
+
+TEST_CASE("where a load lags its best estimate by many events, none is decided anew in each row") {
+  taut::Cable<double> cable = support::steel_cable(0.2);
+  cable.cell[1].sd = 0.005 * full;
+  static Plane scene;
+  static taut::Condensation<double, Plane> condensation;
+  static Model model;
+  static taut::Knowledge<double, PlaneCapacity> known;
+  support::rigid_saddles(scene, cable, support::chain_points(10));
+  REQUIRE(condensation.run(scene, model).ok());
+  taut::find_knowledge(scene, known);
+  const auto decisions = [](const auto& follow) {
+    support::RoutesTaken::counts() = {};
+    follow();
+    return support::total(support::RoutesTaken::counts());
+  };
+  // Up, and down again in strides of three rows, which no line foretells.
+  std::vector<double> loads;
+  for (int i = 1; i <= 200; ++i) loads.push_back(full * i / 200);
+  for (int i = 0; i < 120; ++i) loads.push_back(loads.back() - (i % 3 == 2 ? 0 : 0.01 * full));
+  taut::Tracker<Model> truth;
+  REQUIRE(truth.start(model).status.ok());
+  const long needed = decisions([&] {
+    for (const double load : loads) {
+      Row row;
+      row.jack[0][1].force = load;
+      REQUIRE(truth.advance(row).status.ok());
+    }
+  });
+  REQUIRE(needed > 10);
+  int ahead = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    CAPTURE(seed);
+    const auto estimator = std::make_unique<taut::Estimator<Model, PlaneCapacity::joints + 8>>();
+    REQUIRE(estimator->start(model, known).status.ok());
+    Random random(seed);
+    const long taken = decisions([&] {
+      for (const double load : loads) {
+        taut::Readings<double, PlaneCapacity> readings;
+        readings.ends[0][1] = {true, false, load + 0.005 * full * gaussian(random), 0};
+        REQUIRE(estimator->advance(readings).status.ok());
+        ahead += estimator->save().is_ahead ? 1 : 0;
+      }
+    });
+    CHECK(taken <= 2 * needed);
+  }
+  // Else nothing was tested.
+  CHECK(ahead > 20);
 }

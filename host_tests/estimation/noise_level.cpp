@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <initializer_list>
 
 #include "support/random.hpp"
@@ -51,13 +50,13 @@ class Remembered {
     now_ = i == 0 ? fresh : kept_ * now_ + std::sqrt(1 - kept_ * kept_) * fresh;
     return now_;
   }
-  /// Covariance of means over `count` readings, one `later` readings after the other.
-  double covariance(int count, int later) const {
-    double sum = 0;
-    for (int a = 0; a < count; ++a)
-      for (int b = 0; b < count; ++b) sum += std::pow(kept_, std::abs(later + a - b));
-    return sum / count / count;
+  /// Standard deviation of second differences of readings so many apart, over that of white noise of one.
+  double scatter(int apart) const {
+    const double a = std::pow(kept_, apart);
+    return std::sqrt((3 - 4 * a + a * a) / 3);
   }
+  /// Standard deviation of white noise whose means over a long time scatter as much.
+  double as_white() const { return std::sqrt((1 + kept_) / (1 - kept_)); }
 
  private:
   double kept_, now_ = 0;
@@ -134,26 +133,37 @@ TEST_CASE("now and then a corner or an outlier changes nothing") {
       return load(i) + wrong + truth * support::gaussian(random);
     });
     CHECK(levels.mean >= truth);
-    // Of eight readings each the means see them eight times as often: up to a sixth of their differences.
     CHECK(levels.mean < (truth > 1 ? 1.25 * truth : 1.02));
   }
 }
 
-TEST_CASE("noise that is remembered counts by the means over three seconds") {
+TEST_CASE("noise that is remembered counts as white noise that averages out as slowly") {
   for (const double dt : {0.1, 0.2, 0.5}) {
     CAPTURE(dt);
     Remembered noise(dt);
-    // At least eight readings.
-    const int count = dt < 0.4 ? static_cast<int>(std::lround(3 / dt)) : 8;
-    const double of_difference = 6 * noise.covariance(count, 0) - 8 * noise.covariance(count, count) +
-                                 2 * noise.covariance(count, 2 * count);
-    const double expected = std::sqrt(of_difference / 6 * count);
+    // Eight readings at least, a second.
+    const int apart = dt < 0.125 ? 2 * static_cast<int>(std::ceil(0.5 / dt)) : 8;
+    const double r = noise.scatter(apart) / noise.scatter(1),
+                 expected = std::pow(std::fmin(r, 4.5), 1.5) * noise.scatter(apart);
     CAPTURE(expected);
-    REQUIRE(expected > 1.5);
-    const Levels levels = levels_after<double>(static_cast<int>(600 / dt), dt, 1, expected, noise);
-    CHECK(std::fabs(levels.mean / expected - 1) < 0.1);
-    CHECK(levels.rms_error() / expected < 0.2);
+    CHECK(std::fabs(expected / noise.as_white() - 1) < 0.33);
+    // What was said is what it scatters by.
+    const Levels levels = levels_after<double>(static_cast<int>(1200 / dt), dt, 1, expected, noise);
+    CHECK(std::fabs(levels.mean / expected - 1) < 0.15);
+    CHECK(levels.rms_error() / expected < 0.35);
   }
+}
+
+TEST_CASE("noise that is remembered for very long counts at most ten times") {
+  // A load that wanders: it would average out never.
+  double at = 0;
+  const Levels levels = levels_after<double>(3000, 0.02, 0.1, 1, [&](int i, support::Random& random) {
+    at = i == 0 ? 0 : at + 0.1 * support::gaussian(random);
+    return at;
+  });
+  // Second differences of a walk scatter as all its steps between the three do, those of white noise as six.
+  const double of_distant = 0.1 * std::sqrt(2 * 50 / 6.0);
+  CHECK(std::fabs(levels.mean / (std::pow(4.5, 1.5) * of_distant) - 1) < 0.1);
 }
 
 TEST_CASE("noise that alternates counts by its scatter, although it averages out at once") {
@@ -215,7 +225,7 @@ TEST_CASE("a path of short pieces is no noise: ramps and holds of thirty reading
         taut::EndReading<double> given;
         given.has_force = true;
         given.force = load + cell.sd * support::gaussian(random);
-        taut::Corners corners;
+        taut::Corners<double> corners;
         static_cast<void>(jack.take(false, given, 1, cell, 1e7, {}, corners));
         wrong += jack.noise.sd() > 1.5 * cell.sd ? 1 : 0;
         ++all;

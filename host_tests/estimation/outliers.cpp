@@ -27,11 +27,11 @@ class Read {
     taut::EndReading<double> given;
     given.has_force = true;
     given.force = reading;
-    taut::Corners corners;
+    taut::Corners<double> corners;
     return jack_.take(false, given, dt, cell_, most, {}, corners);
   }
   bool tells_nothing() {
-    taut::Corners corners;
+    taut::Corners<double> corners;
     return jack_.take(false, {}, 1, cell_, most, {}, corners);
   }
   bool refused() const { return jack_.at.refused; }

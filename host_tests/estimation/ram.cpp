@@ -46,7 +46,7 @@ Load take(Jack& jack, const Cell& cell, double reading, bool* reverses = nullptr
   taut::EndReading<double> given;
   given.has_force = true;
   given.force = reading;
-  taut::Corners corners;
+  taut::Corners<double> corners;
   const bool was_refused = jack.at.refused;
   const bool is_told = jack.take(false, given, 1, cell, huge, {}, corners);
   // An outlier is this one or the one before.
@@ -255,7 +255,7 @@ TEST_CASE("a jack that is put back on a locked end is read on the upper branch")
   // Let out before it is locked, so that the lower branch was the last.
   take(jack, cell, down * 800);
   CHECK_FALSE(jack.pulls);
-  taut::Corners corners;
+  taut::Corners<double> corners;
   REQUIRE_FALSE(jack.take(true, {}, 1, cell, huge, {}, corners));
   CHECK(corners.locks);
   CHECK(jack.locked);
@@ -285,7 +285,7 @@ TEST_CASE("the load that a ram pulls after its end was locked is that of its rea
     jack.start(cell);
     support::Random random(2);
     for (int i = 1; i <= 100; ++i) take(jack, cell, up * 10 * i + sd * support::gaussian(random));
-    taut::Corners corners;
+    taut::Corners<double> corners;
     REQUIRE_FALSE(jack.take(true, {}, 1, cell, huge, {}, corners));
     CHECK(corners.locks);
     taut::ForceEstimate<double> held;

@@ -71,7 +71,7 @@ class Belief {
   int add(Scalar sd) {
     if (size_ == Parameters) return -1;
     const Scalar far = std::numeric_limits<Scalar>::max();
-    state_.covariance[size_][size_] = sd * sd;
+    state_.covariance[size_][size_] = most_variance_[size_] = sd * sd;
     least_[size_] = -far;
     most_[size_] = far;
     return size_++;
@@ -97,6 +97,20 @@ class Belief {
     state_.mean[p] = state_.linearized_at[p] = 0;
     for (int q = 0; q < size_; ++q) state_.covariance[p][q] = state_.covariance[q][p] = 0;
     state_.covariance[p][p] = sd * sd;
+  }
+  /// Readings scatter more than they were taken to, their variance is so many `times` larger: what they have
+  /// taught is worth as much less. Variances of what add() was given grow by that, at most to what they were
+  /// then. Cost: the square of the unknowns in use.
+  void loosen(Scalar times) {
+    Values by;
+    for (int p = 0; p < in_use_; ++p) {
+      const Scalar variance = state_.covariance[p][p];
+      by[p] = times * variance <= most_variance_[p] ? std::sqrt(times)
+              : variance < most_variance_[p]        ? std::sqrt(most_variance_[p] / variance)
+                                                    : Scalar(1);
+    }
+    for (int p = 0; p < in_use_; ++p)
+      for (int q = 0; q < in_use_; ++q) state_.covariance[p][q] *= by[p] * by[q];
   }
   /// Unknown `p` may have changed since the last row: its variance grows by so much.
   void diffuse(int p, Scalar variance) { state_.covariance[p][p] += variance; }
@@ -292,7 +306,7 @@ class Belief {
   int size_ = 0, friction_ = 0, loads_ = 0, carried_ = 0;
   int in_use_ = 0;  // the unknowns beyond have no variance yet
   State state_;
-  Values least_, most_;
+  Values least_, most_, most_variance_;
   // A member, so that what is not in use need not be cleared every time.
   Innovation innovation_;
   Errors errors_;  // once there is a second measurement

@@ -19,6 +19,7 @@ struct CellWatch {
   static constexpr std::uint8_t often = 3;
 
   NoiseLevel<Scalar> noise;
+  Scalar sd = 0;  ///< that readings are taken to scatter by [N]
   Consistency<Scalar> fit;
   Scalar last = 0;         ///< reading [N]
   Scalar expected = 0;     ///< of the force when it was first read [N]
@@ -26,9 +27,19 @@ struct CellWatch {
   bool is_frozen = false;  ///< it keeps `last` although the force has gone on
   bool is_told = false;    ///< that nothing is learned from it at present
 
-  void start(Scalar sd) {
+  void start(Scalar at_least) {
     *this = CellWatch();
-    noise.start(sd);
+    noise.start(at_least);
+    sd = at_least;
+  }
+  /// Another reading [N], `dt` [s] after the one before, tells how much they scatter. Returns by how many
+  /// times their variance is larger than it was taken to be, or one.
+  Scalar follow_noise(Scalar reading, Scalar dt) {
+    if (!noise.take(reading, dt)) return 1;
+    const Scalar found = noise.sd(), times = found / sd;
+    if (times <= NoiseLevel<Scalar>::worth_it && times * NoiseLevel<Scalar>::worth_it >= 1) return 1;
+    sd = found;
+    return larger(times * times, Scalar(1));
   }
   /// Whether it goes on being frozen with this reading [N].
   bool stays_frozen(Scalar reading) const { return is_frozen && reading == last; }
@@ -49,7 +60,7 @@ struct CellWatch {
     }
     if (same < often) ++same;
     const Scalar gone = std::fabs(force - expected);
-    is_frozen = same == often && gone > far * noise.sd() && gone > part * std::fabs(force);
+    is_frozen = same == often && gone > far * sd && gone > part * std::fabs(force);
   }
 };
 

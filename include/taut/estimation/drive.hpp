@@ -89,8 +89,8 @@ Progress<typename TrackerType::Scalar> drive_straight(TrackerType& tracker, cons
 /// drive_straight() three times.
 template <class TrackerType, class Jacks, class Remember, class RememberLoad, class Uncertainty>
 Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks& jacks,
-                                                     const Corners& corners, int event_budget,
-                                                     const Remember& remember,
+                                                     const Corners<typename TrackerType::Scalar>& corners,
+                                                     int event_budget, const Remember& remember,
                                                      const RememberLoad& remember_load,
                                                      const Uncertainty& mu_sd) {
   auto corner = jacks.driven(load_patterns(tracker.model()));
@@ -124,8 +124,9 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
 template <class TrackerType, class Jacks, class SampleType, class Remember, class RememberLoad,
           class Uncertainty>
 [[gnu::noinline]] Progress<typename TrackerType::Scalar> drive(
-    TrackerType& tracker, Jacks& jacks, const Corners& corners, const SampleType& target, int event_budget,
-    const Remember& remember, const RememberLoad& remember_load, const Uncertainty& mu_sd) {
+    TrackerType& tracker, Jacks& jacks, const Corners<typename TrackerType::Scalar>& corners,
+    const SampleType& target, int event_budget, const Remember& remember, const RememberLoad& remember_load,
+    const Uncertainty& mu_sd) {
   Progress<typename TrackerType::Scalar> progress;
   if (corners.any())
     progress = drive_through(tracker, jacks, corners, event_budget, remember, remember_load, mu_sd);

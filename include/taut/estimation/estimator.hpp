@@ -65,6 +65,11 @@ class Estimator {
   using NoGauges = FixedList<LoadCell<Scalar>, 0>;
   using Alarms = FixedList<Alarm, 8 + 4 * Cap::cables + Cap::joints + Cap::segments>;
 
+  /// Where the loads are confirmed to have come, while the tracker looks ahead.
+  struct Confirmed {
+    typename TrackerType::State tracker;
+    Drives jack;
+  };
   /// All that restore() needs to go on with the same bits, as Tracker::State: a plain value.
   struct State {
     typename TrackerType::State tracker;
@@ -72,8 +77,8 @@ class Estimator {
     typename FilterType::State friction;
     typename FarEndsType::State far_ends;
     typename GaugesType::State gauges;
-    Drives confirmed;  ///< where the tracker is of the jacks: those that it has been driven to may be ahead
-    bool is_ahead = false;  ///< they are
+    Confirmed confirmed;
+    bool is_ahead = false;  ///< of what is confirmed; else that has no meaning
   };
 
   // Beginning.
@@ -121,10 +126,8 @@ class Estimator {
   }
   /// The state between two rows. Cost: a copy of it.
   State save() const {
-    State state = {confirmed_.tracker, jacks_.save(),   filter_.save(), far_ends_.save(),
-                   gauges_.save(),     confirmed_.jack, is_ahead_};
-    if (!is_ahead_) state.tracker = tracker_.save();
-    return state;
+    return {tracker_.save(), jacks_.save(), filter_.save(), far_ends_.save(),
+            gauges_.save(),  confirmed_,    is_ahead_};
   }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `capacity_exceeded` if and
   /// only if start() would, and with `bad_sample` if the state is none of this scene; then only start() or
@@ -139,12 +142,9 @@ class Estimator {
     far_ends_.restore(state.far_ends);
     misfits_ = far_ends_.misfits();
     gauges_.restore(state.gauges);
-    confirmed_ = {state.tracker, state.confirmed};
+    confirmed_ = state.confirmed;
     is_ahead_ = state.is_ahead;
-    const Status restored =
-        tracker_.restore(condensed, filter_.friction(condensed), state.tracker, load_errors());
-    if (restored && is_ahead_) return tracker_.advance(jacks_.driven(load_patterns(model()))).status;
-    return restored;
+    return tracker_.restore(condensed, filter_.friction(condensed), state.tracker, load_errors());
   }
 
   // A row of readings.
@@ -164,7 +164,7 @@ class Estimator {
       if (!(std::fabs(readings.sample.factor[i]) <= model().most_factor[i]))
         return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
     begin_row();
-    Corners corners;
+    Corners<Scalar> corners;
     const bool has_more = condition(readings, corners);
     follow_other_loads(readings.sample, corners);
     if (is_ahead_) follow_ahead(corners, readings.sample);
@@ -191,15 +191,17 @@ class Estimator {
     }
     for (int e = 0; e < far_ends_.ends().size(); ++e) {
       const EndReading<Scalar>& given = far_ends_.ends()[e].in(readings.ends);
-      if (given.has_force) far_ends_.follow_noise(e, given.force, readings.dt);
+      if (given.has_force)
+        corners.times_noise =
+            larger(corners.times_noise, far_ends_.watch(e).follow_noise(given.force, readings.dt));
     }
+    if (corners.times_noise > 1) filter_.loosen(corners.times_noise);
     if (gauges_.size() > 0) follow_gauges(corners, readings.dt);
     look_ahead();
     for (int c = 0; c < model().cables.size(); ++c)
       if (drifts(c)) filter_.diffuse(drift_[c], c, readings.dt);
-    if (!loads_are_in_doubt()) measure_far_ends(readings);
+    if (!loads_are_in_doubt() && measure_far_ends(readings)) look_ahead();
     if (has_more) check_jacks(readings);
-    look_ahead();
     if (!is_friction_fine_ && filter_.belief().has_friction())
       is_friction_fine_ = check_friction(model().cables, filter_, alarms_);
     if (limits_.has_force())
@@ -370,7 +372,7 @@ class Estimator {
   // Driving.
 
   /// Conditions the loads of a row. Returns whether there is something to check of a jack, too.
-  [[gnu::always_inline]] bool condition(const ReadingsType& readings, Corners& corners) {
+  [[gnu::always_inline]] bool condition(const ReadingsType& readings, Corners<Scalar>& corners) {
     bool has_more = false;
     for (int k = 0; k < jacks_.size(); ++k) {
       const EndReading<Scalar>& given = jacks_.in(readings.ends, k);
@@ -426,7 +428,7 @@ class Estimator {
     return false;
   }
   /// While other loads change, friction comes to rest at the loads that jacks have then, known or not.
-  void follow_other_loads(const Sample<Scalar, Cap>& sample, Corners& corners) {
+  void follow_other_loads(const Sample<Scalar, Cap>& sample, Corners<Scalar>& corners) {
     if (load_patterns(model()) == 0) return;
     const bool changes = changes_factors(sample);
     for (int k = 0; k < jacks_.size(); ++k) {
@@ -463,14 +465,13 @@ class Estimator {
   /// in between: the tracker goes there, and stays while the loads that are confirmed are on their way.
   void look_ahead() {
     if (is_ahead_ ? !is_best_elsewhere() : !is_beyond_piece()) return;
-    if (is_ahead_) {
-      go_back();
-    } else {
+    if (is_ahead_ && !is_best_further()) go_back();
+    if (!is_ahead_) {
       learn_waiting();
       confirmed_.tracker = tracker_.save();
       for (int k = 0; k < jacks_.size(); ++k) confirmed_.jack[k] = jacks_[k].driven;
+      is_ahead_ = true;
     }
-    is_ahead_ = true;
     const auto to = jacks_.best(jacks_.driven(load_patterns(model())));
     const auto progress = tracker_.advance(to);
     if (progress.status && !(progress.fraction < 1))
@@ -495,9 +496,15 @@ class Estimator {
     }
     return false;
   }
+  /// While it is ahead: whether all best estimates have gone on the way that it came there.
+  bool is_best_further() const {
+    for (int k = 0; k < jacks_.size(); ++k)
+      if (jacks_[k].beyond() * (jacks_[k].driven.force - confirmed_.jack[k].force) < 0) return false;
+    return true;
+  }
   /// While it is ahead: nothing is done if the loads of a row lie on the way there. If they have come as far,
   /// it is ahead no longer, and else goes back.
-  void follow_ahead(const Corners& corners, const Sample<Scalar, Cap>& sample) {
+  void follow_ahead(const Corners<Scalar>& corners, const Sample<Scalar, Cap>& sample) {
     bool is_on_way = !corners.any(), is_past = is_on_way;
     for (int i = 0; i < load_patterns(model()); ++i) is_on_way &= sample.factor[i] == jacks_.factor(i);
     for (int k = 0; k < jacks_.size(); ++k) {
@@ -562,30 +569,37 @@ class Estimator {
   bool loads_are_in_doubt() const { return jacks_.may_have_reversed() || jacks_.has_refused(); }
   /// Nothing is learned where the tracker is ahead: what is read belongs to no place that is confirmed.
   bool can_learn() const { return filter_.belief().has_friction() && !is_ahead_ && !loads_are_in_doubt(); }
-  void measure_far_ends(const ReadingsType& readings) {
+  /// Returns whether anything was learned.
+  bool measure_far_ends(const ReadingsType& readings) {
     const bool gathers = !is_ahead_ && far_ends_.gathers(jacks_);
+    bool learns = false;
+    misfits_ = false;
     for (int e = 0; e < far_ends_.ends().size(); ++e) {
-      const EndReading<Scalar>& given = far_ends_.ends()[e].in(readings.ends);
-      if (given.has_force) measure_far_end(e, given.force, gathers);
+      const EndType& end = far_ends_.ends()[e];
+      const EndReading<Scalar>& given = end.in(readings.ends);
+      if (given.has_force) learns |= measure_far_end(e, given.force, gathers);
+      if (!(far_ends_.watch(e).fit.misfit() > 0)) continue;
+      misfits_ = true;
+      if (given.has_force && !far_ends_.watch(e).is_frozen) alarms_.add(alarm_at(Alarm::Kind::misfit, end));
     }
-    misfits_ = far_ends_.misfits();
+    return learns;
   }
-  void measure_far_end(int e, Scalar reading, bool gathers) {
+  bool measure_far_end(int e, Scalar reading, bool gathers) {
     const EndType& end = far_ends_.ends()[e];
     auto& watch = far_ends_.watch(e);
     if (watch.stays_frozen(reading)) {
       alarms_.add(alarm_at(Alarm::Kind::frozen, end));
-      return;
+      return false;
     }
     const Update update = drifts(end.cable()) ? correct_drift(e, reading)
                           : is_ahead_         ? far_ends_.compare(e, reading, tracker_, filter_, jacks_)
                           : gathers           ? far_ends_.gather(reading, tracker_, filter_, jacks_)
                                               : far_ends_.measure(e, reading, tracker_, filter_, jacks_);
-    if (watch.fit.misfit() > 0) alarms_.add(alarm_at(Alarm::Kind::misfit, end));
     // Once, as long as it lasts.
     const bool is_told = update == Update::no_information && watch.is_told;
     watch.is_told = update == Update::no_information;
     if (update != Update::waits && !is_told) note(update, alarm_at(Alarm::Kind::sensor, end));
+    return update == Update::updated;
   }
   /// The cell at the far end of a cable that is locked tells how far its wedge was drawn in, and what has
   /// strained it since.
@@ -596,7 +610,7 @@ class Estimator {
     const auto is_corrected = [&](int p) { return p == drift_[c] || p == jacks_[k].seating; };
     const Update update = far_ends_.correct(e, reading, tracker_, filter_, jacks_, is_corrected);
     // A failure shows in the next row.
-    if (update == Update::updated && filter_.moved(is_corrected) > far_ends_.watch(e).noise.sd())
+    if (update == Update::updated && filter_.moved(is_corrected) > far_ends_.watch(e).sd)
       static_cast<void>(filter_.follow_drift(tracker_, drift_[c], c, jacks_.end(k).end));
     return update;
   }
@@ -628,7 +642,7 @@ class Estimator {
     learn_waiting();
     if (!shares_row) begin_row();
   }
-  void follow_gauges(const Corners& corners, Scalar dt) {
+  void follow_gauges(const Corners<Scalar>& corners, Scalar dt) {
     Scalar load = 0;
     for (int k = 0; k < jacks_.size(); ++k) load += jacks_[k].driven.force;
     if (corners.locks) gauges_.forget_marks();
@@ -703,12 +717,6 @@ class Estimator {
       alarms_.add(alarm_at(Alarm::Kind::lift_off, at));
   }
 
-  /// Where the loads are confirmed to have come.
-  struct Confirmed {
-    typename TrackerType::State tracker;
-    Drives jack;
-  };
-
   // What every row needs comes first: instructions reach it directly.
   AlarmLimits<Scalar> limits_;
   bool is_friction_fine_ = false;  // nothing is odd about what is believed of it
@@ -719,7 +727,7 @@ class Estimator {
   FilterType filter_;
   GaugesType gauges_;
   Alarms alarms_;
-  Confirmed confirmed_;    // while it looks ahead
+  Confirmed confirmed_;
   bool is_ahead_ = false;  // of what is confirmed
   bool misfits_ = false;   // some load cell at an anchored end is off the model
 };

@@ -66,8 +66,6 @@ class FarEnds {
   void bend() {
     for (int e = 0; e < ends_.size(); ++e) state_.watch[e].noise.bend();
   }
-  /// A reading [N] of cell `e` of ends(), `dt` after the one before, tells how much its readings scatter.
-  void follow_noise(int e, Scalar reading, Scalar dt) { state_.watch[e].noise.take(reading, dt); }
   CellWatch<Scalar>& watch(int e) { return state_.watch[e]; }
   /// Whether some cell is off the model by more than chance allows.
   bool misfits() const {
@@ -86,7 +84,7 @@ class FarEnds {
   [[nodiscard]] Update measure(int e, Scalar reading, TrackerType& tracker, FilterType& filter,
                                const Jacks& jacks) {
     const EndType& end = ends_[e];
-    const Scalar sd = state_.watch[e].noise.sd();
+    const Scalar sd = state_.watch[e].sd;
     const auto predict = [&](auto& prediction) { predict_at(end, tracker, filter, jacks, prediction); };
     predict(filter.prediction());
     if (!filter.is_informative(tracker, end.cable(), sd)) return compare(e, reading, tracker, filter, jacks);
@@ -104,7 +102,7 @@ class FarEnds {
                                const Jacks& jacks) {
     const EndType& end = ends_[e];
     const auto& cable = tracker.model().cables[end.cable()];
-    const Scalar sd = state_.watch[e].noise.sd(),
+    const Scalar sd = state_.watch[e].sd,
                  held = tracker.tension(cable.end_segment(0)) - tracker.tension(cable.end_segment(1)),
                  in_doubt = held * filter.relative_deviation(tracker, end.cable());
     predict_at(end, tracker, filter, jacks, filter.prediction());
@@ -119,7 +117,7 @@ class FarEnds {
   template <class IsOf>
   [[nodiscard]] Update correct(int e, Scalar reading, const TrackerType& tracker, FilterType& filter,
                                const Jacks& jacks, const IsOf& is_of) {
-    const Scalar sd = state_.watch[e].noise.sd();
+    const Scalar sd = state_.watch[e].sd;
     predict_at(ends_[e], tracker, filter, jacks, filter.prediction());
     const Update update =
         filter.update_alone(is_of, jacks.readings(filter.prior()), {reading, sd, Scalar(0)});
@@ -159,7 +157,7 @@ class FarEnds {
     predict(filter.prediction());
     typename FilterType::JackReadings readings;
     readings.add({all.jack() - driven, all.jack_variance * all.share()});
-    const Scalar sd = state_.watch[0].noise.sd();
+    const Scalar sd = state_.watch[0].sd;
     return filter.update(tracker, predict, readings,
                          {all.reading(), sd * std::sqrt(all.share()), all.spread});
   }
@@ -189,7 +187,7 @@ class FarEnds {
   bool begin_gathering(Scalar driven, const TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
     const auto& belief = filter.belief();
     auto& prediction = filter.prediction();
-    const Scalar sd = state_.watch[0].noise.sd();
+    const Scalar sd = state_.watch[0].sd;
     const auto jack = jacks[0].reading(jacks.in(filter.prior().cell, 0));
     predict_at(ends_[0], tracker, filter, jacks, prediction);
     if (!filter.is_informative(tracker, ends_[0].cable(), sd)) return false;

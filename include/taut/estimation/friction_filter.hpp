@@ -145,6 +145,8 @@ class FrictionFilter {
 
   /// What is known of unknown `p` gives way to what is new, with this standard deviation.
   void renew(int p, Scalar sd) { belief_.renew(p, sd); }
+  /// Readings scatter more than they were taken to, see Belief::loosen().
+  void loosen(Scalar times) { belief_.loosen(times); }
   /// Begins a row: its measurements share the errors of the jacks' readings.
   void begin_row() { belief_.begin_row(); }
   /// Whether prediction() has a derivative to go by: all of `cable` must slide (-1: no cable does in

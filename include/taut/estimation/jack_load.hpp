@@ -21,10 +21,12 @@
 namespace taut {
 
 /// Where the path to a row has corners: a jack is locked, or its load has reversed since the row before.
+template <class Scalar>
 struct Corners {
   bool locks = false, reverses = false;
-  bool loads = false;  ///< other loads begin to change, or cease to
-  bool bends = false;  ///< no corner: a load goes on at another rate since a while
+  bool loads = false;      ///< other loads begin to change, or cease to
+  bool bends = false;      ///< no corner: a load goes on at another rate since a while
+  Scalar times_noise = 1;  ///< by so many times the variance of readings is larger than it was taken to be
   bool any() const { return locks || reverses || loads; }
 };
 
@@ -111,12 +113,14 @@ struct JackLoad {
     pulls = erred_up = false;
     first = Scalar(1e-3) * cell.sd;
   }
-  /// The filter goes by the scatter that there is, not only by what was said.
-  void follow_noise(Scalar reading, const LoadCell<Scalar>& cell) {
-    if (!(cell.sd > 0) || at.refused) return;
-    noise.take(reading, since);
-    const Scalar sd = noise.sd(), used = filter.sd();
-    if ((sd > Scalar(1.3) * used || used > Scalar(1.3) * sd) && !filter.has_waiting()) filter.change_sd(sd);
+  /// The filter goes by the scatter that there is, not only by what was said. Returns by how many times the
+  /// variance is larger than it was taken to be, or one.
+  Scalar follow_noise(Scalar reading, const LoadCell<Scalar>& cell) {
+    if (!(cell.sd > 0) || at.refused || !noise.take(reading, since)) return 1;
+    const Scalar sd = noise.sd(), times = sd / filter.sd(), worth_it = NoiseLevel<Scalar>::worth_it;
+    if ((times <= worth_it && times * worth_it >= 1) || filter.has_waiting()) return 1;
+    filter.change_sd(sd);
+    return larger(times * times, Scalar(1));
   }
 
   /// A reading was refused, or not. Returns whether one was surely wrong: it cannot be a force at all, it is
@@ -143,7 +147,7 @@ struct JackLoad {
   /// to have been an outlier: this one or the one before. Cost: that of LoadFilter::take().
   [[nodiscard]] bool take(bool locks, const EndReading<Scalar>& given, Scalar dt,
                           const LoadCell<Scalar>& cell, Scalar most, const ForceEstimate<Scalar>& held,
-                          Corners& corners) {
+                          Corners<Scalar>& corners) {
     is_new = locks_now = false;
     at.reversed = false;
     since += dt;
@@ -181,7 +185,7 @@ struct JackLoad {
       noise.bend();
       corners.bends = true;
     }
-    follow_noise(given.force, cell);
+    corners.times_noise = larger(corners.times_noise, follow_noise(given.force, cell));
     raw = given.force;
     if (cell.has_branches()) {
       at = behind_branches(at, cell);
