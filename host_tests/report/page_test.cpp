@@ -46,11 +46,12 @@ std::string two_jacks_log(double start_of_row_30) {
 }
 
 // Runs `taut report` on these texts; the page is page.html in the folder.
-Outcome report(const Scratch& scratch, const std::string& scene, const std::string& log) {
+Outcome report(const Scratch& scratch, const std::string& scene, const std::string& log,
+               const std::string& options = "") {
   std::ofstream(scratch.path / "scene.json") << scene;
   std::ofstream(scratch.path / "log.csv") << log;
   return run_taut(scratch, "report " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv") +
-                               " -o " + scratch.quoted("page.html"));
+                               " -o " + scratch.quoted("page.html") + options);
 }
 
 std::string page_of(const Scratch& scratch) { return text_of(scratch.path / "page.html"); }
@@ -123,6 +124,22 @@ TEST_CASE("all points lie within their charts, and long logs have no more of the
     CHECK(count >= 2);
     CHECK(count <= 2000);  // a band has two sides
   }
+}
+
+TEST_CASE("a force that hovers at its limit is one alarm, with the largest force and its time") {
+  // The jack's cell is exact, and so is the force of the segment beside it, until it leaves by 1 %.
+  std::string exact = chain;
+  const std::string sensors = R"("sensors": {)";
+  exact.replace(exact.find(sensors), std::string::npos, sensors + R"( "C<&>.end": { "exact": true } } })");
+  const std::string log =
+      "time,C<&>.end\n1,3000\n2,6000\n10,90000\n20,100100\n30,99900\n40,101230\n50,99100\n60,98900\n70,"
+      "99900\n";
+  const Scratch scratch;
+  REQUIRE(report(scratch, exact, log, " --most-force 100000").status == 0);
+  const std::string page = page_of(scratch);
+  CHECK(has(page, "<strong>1 alarm</strong>"));
+  CHECK(has(page, ">4\u20137<"));
+  CHECK(has(page, " Peak 101.2 kN in segment 3 at 40 s."));
 }
 
 TEST_CASE("the same input gives the same page") {

@@ -152,6 +152,24 @@ TEST_CASE("alarms of consecutive rows are one, those after a pause another") {
   CHECK(record.runs()[2].first_row == 5);
 }
 
+TEST_CASE("an alarm of a limit keeps how far the force went, and when, until its next episode") {
+  AlarmRecord record;
+  const std::string word = "force-high:C.T3";
+  record.add(row_number(1), "");
+  record.add(row_number(2), word, {{word, 505}});
+  record.add(row_number(3), word, {{word, 523}});
+  record.add(row_number(4), word + " mu:C", {{word, 523}});
+  record.add(row_number(5), "");
+  record.add(row_number(6), word, {{word, 501}});
+  REQUIRE(record.runs().size() == 3);
+  CHECK(record.runs()[0].has_peak);
+  CHECK(record.runs()[0].peak == 523);
+  CHECK(record.runs()[0].peak_time == 1.5);
+  CHECK_FALSE(record.runs()[1].has_peak);
+  CHECK(record.runs()[2].peak == 501);
+  CHECK(record.runs()[2].peak_time == 3);
+}
+
 TEST_CASE("alarms beyond the longest list are counted") {
   AlarmRecord record;
   const std::size_t rows = 2 * AlarmRecord::most_runs + 200;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Answer {
   std::vector<double> deviation;         ///< of the tensions [N]; of `estimate` alone, like the rest
   std::vector<double> mu, mu_deviation;  ///< of every joint
   std::string alarms;                    ///< in words, separated by blanks
+  std::map<std::string, double> peaks;   ///< by the word of an alarm: how far a force went beyond a limit [N]
   std::string notices;                   ///< of those, what needs no action: they are not among the alarms
   std::string verdict;                   ///< whether the numbers are to be trusted
 };

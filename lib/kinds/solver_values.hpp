@@ -90,6 +90,12 @@ void read_certainty(const EstimatorType& estimator, const SceneDescription& scen
   copy(answer.mu, answer.slip.size(), [&](int j) { return estimator.mu(j); });
   copy(answer.mu_deviation, answer.slip.size(), [&](int j) { return estimator.mu_deviation(j); });
   read_alarms(estimator.alarms(), scene, answer);
+  answer.peaks.clear();
+  for (const Alarm& alarm : estimator.alarms())
+    if (alarm.kind == Alarm::Kind::force_high || alarm.kind == Alarm::Kind::force_low) {
+      const int first = estimator.tracker().model().cables[alarm.cable].first_segment;
+      answer.peaks[alarm_word(alarm, scene)] = static_cast<double>(estimator.peak(first + alarm.place));
+    }
 }
 
 }  // namespace taut::host

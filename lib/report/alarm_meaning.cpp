@@ -28,9 +28,10 @@ constexpr std::array<std::pair<const char*, AlarmMeaning>, 13> meanings = {{
       "Stop and find the reason before pulling on: slipping wedges, a broken wire, slack, wrong E, A or "
       "lengths."}},
     {"force-high",
-     {"The force in this segment is above its limit.", "Stop pulling; release until it is below the limit."}},
+     {"The force in this segment is above its limit, or has not come back from there by 1 % of it.",
+      "Stop pulling; release until it is below the limit."}},
     {"force-low",
-     {"The force in this segment is below its limit.",
+     {"The force in this segment is below its limit, or has not come back from there by 1 % of it.",
       "Pull on, or release and pull again to bring the force over the joints; look for a slack cable."}},
     {"no-information",
      {"The load cell at this anchored end was read, but joints between it and the jack stick: the reading "

@@ -5,7 +5,8 @@
 
 namespace taut::host {
 
-void AlarmRecord::add(const LogRow& row, const std::string& words) {
+void AlarmRecord::add(const LogRow& row, const std::string& words,
+                      const std::map<std::string, double>& peaks) {
   const auto before = std::exchange(present_, {});
   std::istringstream stream(words);
   for (std::string word; stream >> word;) {
@@ -19,6 +20,17 @@ void AlarmRecord::add(const LogRow& row, const std::string& words) {
     runs_[same->second].last_row = row.row;
     runs_[same->second].last_time = row.time;
   }
+  for (const auto& [word, peak] : peaks) follow_peak(row, word, peak);
+}
+
+void AlarmRecord::follow_peak(const LogRow& row, const std::string& word, double peak) {
+  const auto present = present_.find(word);
+  if (present == present_.end() || present->second == not_kept) return;
+  AlarmRun& run = runs_[present->second];
+  if (run.has_peak && run.peak == peak) return;
+  run.has_peak = true;
+  run.peak = peak;
+  run.peak_time = row.time;
 }
 
 void AlarmRecord::begin_run(const LogRow& row, const std::string& word) {
@@ -29,7 +41,7 @@ void AlarmRecord::begin_run(const LogRow& row, const std::string& word) {
     return;
   }
   present_[word] = runs_.size();
-  runs_.push_back({word, row.row, row.row, row.time, row.time});
+  runs_.push_back({word, row.row, row.row, row.time, row.time, false, 0, 0});
 }
 
 }  // namespace taut::host

@@ -15,6 +15,8 @@ struct AlarmRun {
   std::string word;  ///< as in the result: kind and place
   std::size_t first_row = 0, last_row = 0;
   double first_time = 0, last_time = 0;
+  bool has_peak = false;
+  double peak = 0, peak_time = 0;  ///< how far a force went beyond a limit [N], and when
 };
 
 /// Takes the alarms of a log row by row. What a table could not show is counted.
@@ -22,8 +24,8 @@ class AlarmRecord {
  public:
   static constexpr std::size_t most_runs = 500;
 
-  /// The next row, with the words of its alarms separated by blanks.
-  void add(const LogRow& row, const std::string& words);
+  /// The next row, with the words of its alarms separated by blanks, and what they are the peaks of.
+  void add(const LogRow& row, const std::string& words, const std::map<std::string, double>& peaks = {});
 
   /// In the order in which they began; the first `most_runs` of them.
   const std::vector<AlarmRun>& runs() const { return runs_; }
@@ -34,6 +36,7 @@ class AlarmRecord {
 
  private:
   void begin_run(const LogRow& row, const std::string& word);
+  void follow_peak(const LogRow& row, const std::string& word, double peak);
 
   static constexpr std::size_t not_kept = static_cast<std::size_t>(-1);
 

@@ -44,6 +44,14 @@ std::string further_runs(const AlarmRecord& record) {
   return list.empty() ? "" : paragraph("note", "Later, and not listed one by one: " + escaped(list) + ".");
 }
 
+// How far a force went beyond its limit; empty for other alarms.
+std::string peak_text(const ReportView& view, const AlarmRun& run) {
+  if (!run.has_peak) return "";
+  const bool is_high = run.word.rfind("force-high", 0) == 0;
+  return std::string(is_high ? " Peak " : " Lowest ") + view.unit.text(run.peak) + " in segment " +
+         run.word.substr(run.word.rfind('T') + 1) + " at " + view.time_text(run.peak_time) + " s.";
+}
+
 // Of alarms or notices; what to do about notices is nothing.
 std::string run_table(const ReportView& view, const AlarmRecord& record, const std::string& kind,
                       bool tells_what_to_do) {
@@ -57,7 +65,7 @@ std::string run_table(const ReportView& view, const AlarmRecord& record, const s
                 (is_one ? "" : dash + view.time_text(run.last_time - view.origin)))
         .word(run.word.substr(0, run.word.find(':')))
         .word(alarm_place(run.word))
-        .text(meaning.means);
+        .text(meaning.means + peak_text(view, run));
     if (tells_what_to_do) row.text(meaning.to_do);
     rows += row.finished();
   }

@@ -63,7 +63,7 @@ void RunRecord::add(const LogRow& row, const Answer& answer) {
   add_tensions(row, answer);
   add_mu(row, answer);
   add_states(row, answer);
-  alarms.add(row, answer.alarms);
+  alarms.add(row, answer.alarms, answer.peaks);
   notices.add(row, answer.notices);
   alarm_spans.add({row.time, row.time, !answer.alarms.empty()});
   frames.add({row.time, answer.tension, answer.state});

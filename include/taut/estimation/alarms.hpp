@@ -15,8 +15,8 @@ struct Alarm {
     stuck_joint,  ///< a joint holds back more than its mu allows: it does not slide though it should
     elongation,   ///< the measured payout is outside of the tolerance on the predicted one; as a measurement,
                   ///< it contradicts the model by more than five sigma
-    force_high,   ///< a segment is above its limit
-    force_low,    ///< a segment is below its limit
+    force_high,   ///< a segment is above its limit, or has not come back from there by AlarmLimits::band
+    force_low,    ///< a segment is below its limit, or likewise; see ForceWatch for when that counts
     no_information,  ///< a far-end cell was read, but joints stick: nothing is learned of mu
     strut,           ///< a strain gauge contradicts the model by more than five sigma: `place` is the strut
     lift_off,        ///< the jack pulls what a locked end holds: the wedge is free, the end can be unlocked
@@ -44,13 +44,15 @@ struct AlarmLimits {
   Scalar elongation =
       Scalar(0.05);  ///< part of the largest payout; EN 13670 allows 0.05 for all tendons together
   Scalar least_elongation = Scalar(1e-3);  ///< [m]: differences below this are reading errors
+  Scalar band = Scalar(0.01);  ///< part of a limit by which a force has to come back for its alarm to end
 
   constexpr bool has_force() const { return most_force >= 0 || least_force >= 0; }
 
   template <class Other>
   static constexpr AlarmLimits of(const AlarmLimits<Other>& other) {
     return {static_cast<Scalar>(other.least_force), static_cast<Scalar>(other.most_force),
-            static_cast<Scalar>(other.elongation), static_cast<Scalar>(other.least_elongation)};
+            static_cast<Scalar>(other.elongation), static_cast<Scalar>(other.least_elongation),
+            static_cast<Scalar>(other.band)};
   }
 };
 

@@ -9,6 +9,7 @@
 #include "taut/estimation/drive.hpp"
 #include "taut/estimation/far_ends.hpp"
 #include "taut/estimation/force_estimate.hpp"
+#include "taut/estimation/force_watch.hpp"
 #include "taut/estimation/friction_filter.hpp"
 #include "taut/estimation/gauges.hpp"
 #include "taut/estimation/jack_loads.hpp"
@@ -62,6 +63,7 @@ class Estimator {
   using Drives = FixedArray<Jack<Scalar>, JacksType::capacity>;
   using FarEndsType = FarEnds<FilterType, JacksType>;
   using GaugesType = Gauges<Scalar, Further, Cap::cables>;
+  using ForceWatchType = ForceWatch<Scalar, Cap::segments>;
   using NoGauges = FixedList<LoadCell<Scalar>, 0>;
   using Alarms = FixedList<Alarm, 8 + 4 * Cap::cables + Cap::joints + Cap::segments>;
 
@@ -79,6 +81,7 @@ class Estimator {
     typename GaugesType::State gauges;
     Confirmed confirmed;
     bool is_ahead = false;  ///< of what is confirmed; else that has no meaning
+    typename ForceWatchType::State forces;
   };
 
   // Beginning.
@@ -127,7 +130,7 @@ class Estimator {
   /// The state between two rows. Cost: a copy of it.
   State save() const {
     return {tracker_.save(), jacks_.save(), filter_.save(), far_ends_.save(),
-            gauges_.save(),  confirmed_,    is_ahead_};
+            gauges_.save(),  confirmed_,    is_ahead_,      forces_.save()};
   }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `capacity_exceeded` if and
   /// only if start() would, and with `bad_sample` if the state is none of this scene; then only start() or
@@ -142,6 +145,7 @@ class Estimator {
     far_ends_.restore(state.far_ends);
     misfits_ = far_ends_.misfits();
     gauges_.restore(state.gauges);
+    forces_.restore(state.forces);
     confirmed_ = state.confirmed;
     is_ahead_ = state.is_ahead;
     return tracker_.restore(condensed, filter_.friction(condensed), state.tracker, load_errors());
@@ -206,7 +210,8 @@ class Estimator {
       is_friction_fine_ = check_friction(model().cables, filter_, alarms_);
     if (limits_.has_force())
       check_forces(
-          model().cables, [this](int i) { return force(i); }, limits_, alarms_);
+          model().cables, [this](int i) { return force(i); }, [this](int c) { return is_held(c); }, forces_,
+          limits_, alarms_);
     return progress;
   }
 
@@ -303,6 +308,9 @@ class Estimator {
   }
   /// What is odd about the last row.
   const Alarms& alarms() const { return alarms_; }
+  /// The force that a segment has reached at most (at least) beyond a limit [N] while Alarm::Kind::force_high
+  /// (force_low) has been raised for it without a break; zero while neither is.
+  Scalar peak(int segment) const { return forces_.peak(segment); }
   /// The load of a jack as it was conditioned; zero where there is none.
   ConditionedLoad<Scalar> load(int cable, std::size_t end) const {
     const int k = jacks_.find(cable, end);
@@ -330,6 +338,7 @@ class Estimator {
     limits_ = limits;
     alarms_.clear();
     is_friction_fine_ = is_ahead_ = misfits_ = false;
+    forces_.start();
     jacks_.start(condensed, knowledge);
     Status known = filter_.start(condensed, knowledge);
     const auto corners = static_cast<std::size_t>(remembered_corners(load_patterns(condensed)));
@@ -555,9 +564,10 @@ class Estimator {
     }
     return status;
   }
-  /// Whether all jacks of a cable are locked whose strain drifts then.
-  bool drifts(int c) const {
-    if (drift_[c] < 0) return false;
+  /// Whether a cable drifts: its strain does where wedges hold it.
+  bool drifts(int c) const { return drift_[c] >= 0 && is_held(c); }
+  /// Whether all jacks of a cable are locked, if there are any.
+  bool is_held(int c) const {
     for (int k = 0; k < jacks_.size(); ++k)
       if (jacks_.end(k).cable() == c && !jacks_[k].locked) return false;
     return true;
@@ -726,6 +736,7 @@ class Estimator {
   TrackerType tracker_;
   FilterType filter_;
   GaugesType gauges_;
+  ForceWatchType forces_;
   Alarms alarms_;
   Confirmed confirmed_;
   bool is_ahead_ = false;  // of what is confirmed

@@ -33,18 +33,19 @@ template <class Cables, class FilterType, class Alarms>
   return is_fine;
 }
 
-/// Raises an alarm for every segment whose force(segment) [N] is beyond a limit. Cost: one force a segment.
-template <class Cables, class Force, class Scalar, class Alarms>
-void check_forces(const Cables& cables, const Force& force, const AlarmLimits<Scalar>& limits,
-                  Alarms& alarms) {
+/// Raises an alarm for every segment whose force(segment) [N] is beyond a limit, as `watch`, a ForceWatch,
+/// has it. is_held(cable) is whether wedges hold it, or nothing can pull it. Cost: one force a segment.
+template <class Cables, class Force, class IsHeld, class Watch, class Scalar, class Alarms>
+void check_forces(const Cables& cables, const Force& force, const IsHeld& is_held, Watch& watch,
+                  const AlarmLimits<Scalar>& limits, Alarms& alarms) {
   for (int c = 0; c < cables.size(); ++c) {
     const auto& cable = cables[c];
+    const bool held = is_held(c);
     for (int i = 0; i < cable.segments(); ++i) {
-      const Scalar T = force(cable.first_segment + i);
-      if (limits.most_force >= 0 && T > limits.most_force)
-        alarms.add(Alarm::of(Alarm::Kind::force_high, c, i));
-      if (limits.least_force >= 0 && T < limits.least_force)
-        alarms.add(Alarm::of(Alarm::Kind::force_low, c, i));
+      const int segment = cable.first_segment + i;
+      const auto side = watch.take(segment, force(segment), held, limits);
+      if (side == Watch::Side::above) alarms.add(Alarm::of(Alarm::Kind::force_high, c, i));
+      if (side == Watch::Side::below) alarms.add(Alarm::of(Alarm::Kind::force_low, c, i));
     }
   }
 }
