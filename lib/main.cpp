@@ -115,7 +115,9 @@ class CommandLine {
     add("--least-force", limits.least_force, "Alarm when the force of a segment is below this [N]");
     add("--most-force", limits.most_force, "Alarm when the force of a segment is above this [N]");
     add("--elongation-tolerance", limits.elongation,
-        "Alarm when a stroke is off by this part of the largest payout")
+        "Alarm when a stroke grows by this part more or less than expected")
+        ->capture_default_str();
+    add("--initial-strain", limits.initial_strain, "Strokes count from this strain of the cable on")
         ->capture_default_str();
   }
 

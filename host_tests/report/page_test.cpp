@@ -193,11 +193,14 @@ TEST_CASE("the verdict of the last row stands at the top, with the time since wh
   const std::string trusted =
       "</h1><p class=\"summary\">Verdict at the end of the log: <strong>trust</strong>, since 1 s</p>";
   CHECK(has(good, trusted));
-  // Without any stretch in rows 11 to 13.
+  // After row 10 the stroke grows by 100 mm at once, and is read in rows 11 to 13.
   const auto log = [](int rows) {
     std::string text = "time,C<&>.end,C<&>.end.stroke\n";
     for (int i = 1; i <= rows; ++i)
-      text += std::to_string(i) + ',' + std::to_string(10000 * i) + (i > 10 && i <= 13 ? ",0\n" : ",\n");
+      text += std::to_string(i) + ',' + std::to_string(10000 * i) +
+              (i == 10             ? ",0\n"
+               : i > 10 && i <= 13 ? ",0.1\n"
+                                   : ",\n");
     return text;
   };
   REQUIRE(report(scratch, chain, log(20)).status == 0);

@@ -1,7 +1,6 @@
 // The method `estimate` as a Model.
 #pragma once
 
-#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -53,7 +52,6 @@ class EstimatorModel : public Model {
   }
   Followed advance(const LogRow& row, int) override {
     read_row(row, scene_, has_row_ && row.time > time_ ? row.time - time_ : 1, *readings_);
-    check_strokes_from_their_marks();
     time_ = row.time;
     has_row_ = true;
     if (past_) PastType::withhold(*condensed_, *readings_);
@@ -111,9 +109,7 @@ class EstimatorModel : public Model {
     const Condensing condensing = scene_.dimension == 2 ? condense<2>() : condense<3>();
     gauges_ = SceneGauges(scene_);
     cells_ = gauges_.template cells<Scalar>();
-    // Noise of both of two readings is no elongation.
-    limits_.least_elongation =
-        std::max(limits_.least_elongation, static_cast<Scalar>(5 * gauges_.stroke_sd()));
+    if (gauges_.stroke_sd() > 0) limits_.stroke_sd = static_cast<Scalar>(gauges_.stroke_sd());
     return condensing.status;
   }
   // Both estimators go on until they agree; where that has no answer neither has.
@@ -128,17 +124,6 @@ class EstimatorModel : public Model {
       is_wiped_out = is_wiped_out && past_->is_wiped_out(*estimator_, cable);
     if (is_wiped_out) past_.reset();
     return above;
-  }
-  // What was not read from the start is compared with what is expected beyond its mark.
-  void check_strokes_from_their_marks() {
-    for (std::size_t c = 0; c < scene_.cables.size(); ++c)
-      for (std::size_t end = 0; end < 2; ++end) {
-        auto& given = readings_->ends[static_cast<int>(c)][end];
-        const Gauge gauge{gauges_.of_stroke(c, end)};
-        if (!given.has_stroke || gauge.number < 0 || scene_.cables[c].stroke[end].is_assumed) continue;
-        given.has_stroke = !estimator_->gauges().lacks_mark(gauge);
-        given.stroke -= estimator_->zero(gauge);
-      }
   }
   void take_gauges(const LogRow& row) {
     for (const MeasuredForce& force : row.forces) {

@@ -44,7 +44,7 @@ class SceneGauges {
     for (const LoadCell<double>& cell : cells_) all.push_back(LoadCell<Scalar>::of(cell));
     return all;
   }
-  /// The largest standard deviation of a stroke's noise that the scene gives [m].
+  /// The largest standard deviation of a stroke's noise [m]; 0 if there is no stroke.
   double stroke_sd() const { return stroke_sd_; }
   /// Numbers of the instruments, or -1.
   int of_stroke(std::size_t cable, std::size_t end) const { return of_stroke_[cable][end]; }
@@ -61,7 +61,7 @@ class SceneGauges {
     LoadCell<double> stroke = load_cell(described, false);
     stroke.gain_sd = E_sd;
     if (described.has_free_zero) stroke.zero_sd = free_zero<double>;
-    if (!described.is_assumed) stroke_sd_ = std::max(stroke_sd_, stroke.sd);
+    stroke_sd_ = std::max(stroke_sd_, stroke.sd);
     return add(stroke);
   }
 

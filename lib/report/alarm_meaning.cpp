@@ -23,8 +23,8 @@ constexpr std::array<std::pair<const char*, AlarmMeaning>, 13> meanings = {{
      {"The joint holds back more than its friction allows: it does not slide though it should.",
       "Look whether the cable is caught or clamped there before pulling on."}},
     {"elongation",
-     {"The measured payout of the jack is off the computed one by more than the tolerance (5 % of the "
-      "largest).",
+     {"Since the jack last reversed or was locked, its stroke has grown by more or less than "
+      "computed, beyond the tolerance (5 %) and the noise of its readings.",
       "Stop and find the reason before pulling on: slipping wedges, a broken wire, slack, wrong E, A or "
       "lengths."}},
     {"force-high",

@@ -13,8 +13,8 @@ struct Alarm {
     sensor,       ///< a load cell at an anchored end contradicts the model by more than five sigma
     mu_band,      ///< mu is surely outside of what was known of it: `place` is a joint, or -1 for all
     stuck_joint,  ///< a joint holds back more than its mu allows: it does not slide though it should
-    elongation,   ///< the measured payout is outside of the tolerance on the predicted one; as a measurement,
-                  ///< it contradicts the model by more than five sigma
+    elongation,   ///< the measured payout does not grow as the expected one, see ElongationCheck; as a
+                  ///< measurement, it contradicts the model by more than five sigma
     force_high,   ///< a segment is above its limit, or has not come back from there by AlarmLimits::band
     force_low,    ///< a segment is below its limit, or likewise; see ForceWatch for when that counts
     no_information,  ///< a far-end cell was read, but joints stick: nothing is learned of mu
@@ -42,17 +42,20 @@ struct AlarmLimits {
   Scalar least_force = -1;  ///< of any segment [N]; below zero: none
   Scalar most_force = -1;   ///< of any segment [N]; below zero: none
   Scalar elongation =
-      Scalar(0.05);  ///< part of the largest payout; EN 13670 allows 0.05 for all tendons together
-  Scalar least_elongation = Scalar(1e-3);  ///< [m]: differences below this are reading errors
+      Scalar(0.05);  ///< of a stroke, part of its growth; EN 13670 allows 0.05 for all tendons together
+  Scalar stroke_sd = Scalar(1e-3);  ///< standard deviation of the reading of a stroke [m], above zero
   Scalar band = Scalar(0.01);  ///< part of a limit by which a force has to come back for its alarm to end
+  /// Of a cable at its jack: below, slack and bedding are taken out, and strokes are not compared. A tenth of
+  /// what a tendon has when it is tensioned.
+  Scalar initial_strain = Scalar(5e-4);
 
   constexpr bool has_force() const { return most_force >= 0 || least_force >= 0; }
 
   template <class Other>
   static constexpr AlarmLimits of(const AlarmLimits<Other>& other) {
     return {static_cast<Scalar>(other.least_force), static_cast<Scalar>(other.most_force),
-            static_cast<Scalar>(other.elongation), static_cast<Scalar>(other.least_elongation),
-            static_cast<Scalar>(other.band)};
+            static_cast<Scalar>(other.elongation),  static_cast<Scalar>(other.stroke_sd),
+            static_cast<Scalar>(other.band),        static_cast<Scalar>(other.initial_strain)};
   }
 };
 

@@ -136,6 +136,8 @@ class Belief {
   /// Those in use that forces depend on: the first ones.
   int carried() const { return in_use_ < carried_ ? in_use_ : carried_; }
   bool has_friction() const { return friction_ > 0; }
+  /// Those of friction: the first ones.
+  int friction() const { return friction_; }
   const Values& mean() const { return state_.mean; }
   Scalar mean(int p) const { return state_.mean[p]; }
   Scalar linearized_at(int p) const { return state_.linearized_at[p]; }

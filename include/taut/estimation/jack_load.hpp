@@ -9,6 +9,7 @@
 #include <new>
 
 #include "taut/estimation/belief.hpp"
+#include "taut/estimation/elongation_check.hpp"
 #include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/jump_guard.hpp"
 #include "taut/estimation/load_filter.hpp"
@@ -55,7 +56,7 @@ struct JackLoad {
   Scalar believed = 0, refused = 0;  ///< the last reading that was believed, and that was not [N]
   std::uint8_t refusals = 0;         ///< in a row
   bool locks_now = false, locked = false;
-  Scalar most_payout = 0;  ///< that it should have had so far [m]
+  ElongationCheck<Scalar> elongation;  ///< of the leg that it is on
   std::uint8_t below = 0;  ///< locked: readings in a row that were confirmed to be below what the wedge holds
   /// Unknown errors of its load where it last reversed, was locked or rested, or -1; the oldest is forgotten
   /// next.
@@ -157,6 +158,7 @@ struct JackLoad {
       corners.locks = locks_now = locked = true;
       at.behind = false;
       filter.start(filter.sd());
+      elongation.begin_leg();
       below = 0;
       return false;
     }
@@ -195,6 +197,7 @@ struct JackLoad {
     since = 0;
     is_new = !at.refused;
     corners.reverses |= at.reversed;
+    if (at.reversed) elongation.begin_leg();
     return finds_outlier(given.force, std::isfinite(possible(given.force, most)));
   }
   /// Other loads change: where friction comes to rest, it remembers the load as it is, not as far as it is

@@ -1,10 +1,9 @@
-// What is odd about the answers: friction outside of its prior, forces beyond limits, a stroke that is off.
+// What is odd about the answers: friction outside of its prior, forces beyond limits.
 #pragma once
 
 #include <cmath>
 
 #include "taut/estimation/alarms.hpp"
-#include "taut/numerics/larger.hpp"
 
 namespace taut {
 
@@ -48,16 +47,6 @@ void check_forces(const Cables& cables, const Force& force, const IsHeld& is_hel
       if (side == Watch::Side::below) alarms.add(Alarm::of(Alarm::Kind::force_low, c, i));
     }
   }
-}
-
-/// Whether a stroke [m] is within the tolerance on what is expected. `most` is the largest payout expected so
-/// far, which this may raise.
-template <class Scalar>
-[[nodiscard]] bool is_within_tolerance(Scalar stroke, Scalar expected, const AlarmLimits<Scalar>& limits,
-                                       Scalar& most) {
-  most = larger(most, std::fabs(expected));
-  const Scalar allowed = larger(limits.least_elongation, limits.elongation * most);
-  return std::fabs(stroke - expected) <= allowed;
 }
 
 }  // namespace taut
