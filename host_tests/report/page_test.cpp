@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -140,6 +141,82 @@ TEST_CASE("a force that hovers at its limit is one alarm, with the largest force
   CHECK(has(page, "<strong>1 alarm</strong>"));
   CHECK(has(page, ">4\u20137<"));
   CHECK(has(page, " Peak 101.2 kN in segment 3 at 40 s."));
+}
+
+namespace {
+
+// A jack, a cell at the far end, or not, and a stroke, or not, of a ramp with this mu; every column is read
+// once a row.
+std::string measured_ramp(double mu, bool has_cell, bool has_stroke) {
+  const double side = std::hypot(2, 0.4), turn = std::atan2(0.4, 2);
+  std::ostringstream log;
+  log << "time,C<&>.end" << (has_cell ? ",C<&>.start" : "") << (has_stroke ? ",C<&>.end.stroke" : "") << '\n';
+  for (int i = 1; i <= 300; ++i) {
+    const double c = mu * std::tan(turn / 2), held = (1 - c) / (1 + c), force = 1000.0 * i,
+                 stroke = force * (side + 2 * held + side * held * held) / (1.95e11 * 8e-4);
+    log << i << ',' << force + (i % 2 == 0 ? 300 : -300);
+    if (has_cell) log << ',' << force * held * held + (i % 4 < 2 ? 300 : -300);
+    if (has_stroke) log << ',' << stroke + (i % 8 < 4 ? 5e-5 : -5e-5);
+    log << '\n';
+  }
+  return log.str();
+}
+// E A is known, and the stroke is read from its start.
+std::string with_stroke() {
+  std::string scene = chain;
+  scene.replace(scene.find("\"A\": 8e-4"), 9, "\"A\": 8e-4, \"E_sd\": 0");
+  const std::string sensors = "\"sensors\": {";
+  scene.replace(scene.find(sensors), sensors.size(),
+                sensors + R"( "C<&>.end.stroke": { "sd": 0.0001, "zero": "start" },)");
+  return scene;
+}
+// The sentence about mu, without the marks that names need.
+std::string mu_sentence(const std::string& page) {
+  const std::string begin = "mu of C&lt;&amp;&gt;: ";
+  const std::size_t from = page.find(begin);
+  if (from == std::string::npos) return "";
+  return page.substr(from + begin.size(), page.find("</p>", from) - from - begin.size());
+}
+// What is before this text in a sentence, as a number.
+double number_before(const std::string& sentence, const std::string& text) {
+  const std::size_t end = sentence.find(text);
+  if (end == std::string::npos) return -1;
+  return std::stod(sentence.substr(sentence.rfind(' ', end - 1)));
+}
+
+}  // namespace
+
+TEST_CASE("a report says which columns taught it mu, and how much of it") {
+  const Scratch scratch;
+  const std::string cell = " from C&lt;&amp;&gt;.start (", stroke = " from C&lt;&amp;&gt;.end.stroke (";
+  const auto sentence = [&](bool has_cell, bool has_stroke) {
+    REQUIRE(report(scratch, with_stroke(), measured_ramp(0.3, has_cell, has_stroke)).status == 0);
+    const std::string page = page_of(scratch);
+    CHECK(WellFormed(page)() == "");
+    CHECK(has(page, "What friction was learned from"));
+    return mu_sentence(page);
+  };
+  const std::string both = sentence(true, true);
+  CHECK(both.rfind("0.200 \u00b1 0.100 beforehand, 0.", 0) == 0);
+  CHECK(has(both, cell));
+  CHECK(has(both, stroke));
+  // Percentages without decimals.
+  const double first = number_before(both, " % of that"),
+               second = number_before(both.substr(both.find(", 0.") + 1), " % from");
+  CAPTURE(both);
+  CHECK(first >= second);
+  CHECK(std::fabs(first + second - 100) < 1.5);
+  CHECK(has(sentence(false, true), "; 100 % of that" + stroke));
+  CHECK(has(sentence(true, false), "; 100 % of that" + cell));
+  CHECK(sentence(false, false) == "0.200 \u00b1 0.100, as the scene has it: nothing in the log measured it.");
+}
+
+TEST_CASE("a report of a mu that is known says nothing of how it was learned") {
+  const Scratch scratch;
+  std::string scene = with_stroke();
+  scene.replace(scene.find("\"mu_sd\": 0.1"), 12, "\"mu_sd\": 0");
+  REQUIRE(report(scratch, scene, measured_ramp(0.2, true, true)).status == 0);
+  CHECK_FALSE(has(page_of(scratch), "What friction was learned from"));
 }
 
 TEST_CASE("the same input gives the same page") {

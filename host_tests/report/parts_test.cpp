@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lib/files/alarm_words.hpp"
+#include "lib/kinds/learned_mu.hpp"
 #include "lib/report/alarm_meaning.hpp"
 #include "lib/report/alarm_record.hpp"
 #include "lib/report/axis.hpp"
@@ -16,6 +17,7 @@
 #include "lib/report/curve.hpp"
 #include "lib/report/html.hpp"
 #include "lib/report/number_text.hpp"
+#include "lib/report/report_tables.hpp"
 #include "lib/report/run_record.hpp"
 #include "lib/report/state_strip.hpp"
 
@@ -193,6 +195,65 @@ TEST_CASE("alarms have words") {
   }
   CHECK(alarm_word(Alarm::of(Alarm::Kind::segment, 0, 0), scene) == "gauge:C.T1");
   CHECK(alarm_place("force-high:a:b.T3") == "a:b.T3");
+}
+
+TEST_CASE("what taught a mu is said in a sentence, and that nothing did, too") {
+  LearnedFriction learned{"C1", 0.12, 0.04, 0.137, 0.006, {}};
+  CHECK(learned_sentence(learned) ==
+        "mu of C1: 0.120 \u00b1 0.040, as the scene has it: nothing in the log measured it.");
+  learned.sources = {{"C1.start", 412, 0.879}, {"C1.end.stroke", 64, 0.1205}, {"strut2", 1, 0.0005}};
+  CHECK(learned_sentence(learned) ==
+        "mu of C1: 0.120 \u00b1 0.040 beforehand, 0.137 \u00b1 0.006 now; 88 % of that from C1.start (412 "
+        "readings), 12 % from C1.end.stroke (64), less than 1 % from strut2 (1).");
+  learned = {"C1.2", 0.12, 0.04, 0.1371, 0.00123, {{"C1.start", 1, 1}}};
+  CHECK(learned_sentence(learned) ==
+        "mu of C1.2: 0.120 \u00b1 0.040 beforehand, 0.137 \u00b1 0.0012 now; 100 % of that from C1.start (1 "
+        "reading).");
+}
+
+namespace {
+
+/// The variances of two unknowns of friction.
+struct Variances {
+  std::array<double, 2> of{};
+
+  const Variances& belief() const { return *this; }
+  int friction() const { return 2; }
+  double variance(int p) const { return of.at(static_cast<std::size_t>(p)); }
+};
+
+}  // namespace
+
+TEST_CASE("an account has what every instrument took from a variance, and columns get their share") {
+  SceneDescription scene = one_cable();
+  const Alarm cell = Alarm::of(Alarm::Kind::sensor, 0, 0), stroke = Alarm::of(Alarm::Kind::elongation, 0, 1),
+              segment = Alarm::of(Alarm::Kind::segment, 0, 0), strut = Alarm::of(Alarm::Kind::strut, -1, 1);
+  FrictionAccount account;
+  account.begin(Variances{{1.0, 4.0}});
+  account.learned(cell, 16, Variances{{0.5, 4.0}});      // information 1 to 2
+  account.learned(stroke, 1, Variances{{0.25, 4.0}});    // to 4
+  account.learned(cell, 3, Variances{{0.125, 4.0}});     // to 8
+  account.learned(segment, 1, Variances{{0.125, 4.0}});  // nothing
+  account.learned(strut, 1, Variances{{0.1, 2.0}});      // to 10, and of the other one all there is
+  const auto first = sources_of(0, account, scene), second = sources_of(1, account, scene);
+  REQUIRE(first.size() == 3);
+  CHECK(first[0].column == "C.start");
+  CHECK(first[0].readings == 19);
+  CHECK(std::fabs(first[0].share - 5.0 / 9) < 1e-12);
+  double sum = 0;
+  for (const FrictionSource& source : first) {
+    sum += source.share;
+    if (source.column == "C.start") continue;
+    CHECK((source.column == "C.end.stroke" || source.column == "strut2"));
+    CHECK(source.readings == 1);
+    CHECK(std::fabs(source.share - 2.0 / 9) < 1e-12);
+  }
+  CHECK(std::fabs(sum - 1) < 1e-12);
+  REQUIRE(second.size() == 1);
+  CHECK(second[0].column == "strut2");
+  CHECK(second[0].share == 1);
+  CHECK(column_of({Alarm::Kind::segment, 0, 2}, scene) == "C.T3");
+  CHECK(column_of({Alarm::Kind::elongation, 0, 0}, scene) == "C.start.stroke");
 }
 
 TEST_CASE("text cannot break out of its element") {

@@ -43,6 +43,8 @@ class LogFollower {
   /// Follows the log to its last row or to the first that has no answer. Returns where and why the answer
   /// ends; empty if the log is whole.
   std::string follow(const RowVisitor& visit);
+  /// What has been learned of friction, and from which columns.
+  std::vector<LearnedFriction> learned() const { return model_->learned(); }
   /// After a log that is whole: writes what the next one goes on from, if the options name a file for it.
   void keep_state() const;
 

@@ -68,7 +68,7 @@ int report(const ReportOptions& options) {
     prediction.advance(row);
   });
   output.write(report_page({follower.scene(), options.scene, options.log, record, prediction.finished(), end,
-                            follower.remarks()}));
+                            follower.remarks(), follower.learned()}));
   output.finish();
   if (end.empty()) return 0;
   std::cerr << end << "; the report ends before it\n";

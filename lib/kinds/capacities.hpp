@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "lib/files/scene_description.hpp"
+#include "lib/kinds/friction_account.hpp"
 #include "taut/scene/capacity.hpp"
 
 namespace taut::host {
@@ -14,6 +15,7 @@ struct Small : Capacity {
   static constexpr int nodes = 24, struts = 64, cables = 4, segments = 16, joints = 12;
   static constexpr int substructures = 4, substructure_nodes = 8, substructure_entries = 576;
   static constexpr int loads = 8, forces = 64, temperatures = 8;
+  using Account = FrictionAccount;
 };
 
 struct Large : Capacity {
@@ -21,6 +23,7 @@ struct Large : Capacity {
   static constexpr int nodes = 512, struts = 2048, cables = 64, segments = 256, joints = 128;
   static constexpr int substructures = 128, substructure_nodes = 256, substructure_entries = 147456;
   static constexpr int loads = 32, forces = 2048, temperatures = 512;
+  using Account = FrictionAccount;
 };
 
 template <class... Caps>

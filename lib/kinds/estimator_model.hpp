@@ -9,6 +9,7 @@
 
 #include "lib/kinds/capacities.hpp"
 #include "lib/kinds/condense_scene.hpp"
+#include "lib/kinds/learned_mu.hpp"
 #include "lib/kinds/model.hpp"
 #include "lib/kinds/scene_gauges.hpp"
 #include "lib/kinds/solver_values.hpp"
@@ -33,6 +34,7 @@ class EstimatorModel : public Model {
     const Status known = know();
     if (!known) return {known, 0};
     const auto progress = estimator_->start(*condensed_, *knowledge_, limits_, cells_);
+    before_ = FrictionBefore::of(*estimator_, condensed_->joints);
     return {progress.status, static_cast<double>(progress.fraction)};
   }
   std::string save() const override {
@@ -46,6 +48,7 @@ class EstimatorModel : public Model {
     const auto state = std::make_unique<State>();
     std::memcpy(static_cast<void*>(state.get()), bytes.data(), sizeof(State));
     const Status restored = estimator_->restore(*condensed_, *knowledge_, *state, limits_, cells_);
+    before_ = FrictionBefore::of(*estimator_, condensed_->joints);
     time_ = time;
     has_row_ = true;
     return {restored, restored ? 1.0 : 0.0};
@@ -67,6 +70,9 @@ class EstimatorModel : public Model {
     past_begins_ = true;
   }
   bool has_unknown_past() const override { return past_ != nullptr; }
+  std::vector<LearnedFriction> learned() const override {
+    return learned_mu(*estimator_, *condensed_, *knowledge_, before_, scene_);
+  }
   void read(Answer& answer) const override {
     Response<Scalar, Cap> response;
     estimator_->respond(response, struts_.get());
@@ -152,6 +158,7 @@ class EstimatorModel : public Model {
   std::unique_ptr<StrutRows> struts_;
   std::unique_ptr<KnowledgeType> knowledge_;
   std::unique_ptr<EstimatorType> estimator_;
+  FrictionBefore before_;
   std::unique_ptr<PastType> past_;  // while it is not known
   bool past_begins_ = false;
   std::unique_ptr<ReadingsType> readings_;

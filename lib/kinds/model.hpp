@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lib/files/answer.hpp"
+#include "lib/files/learned_friction.hpp"
 #include "lib/files/log_file.hpp"
 #include "lib/files/scene_description.hpp"
 #include "taut/estimation/alarms.hpp"
@@ -38,6 +40,9 @@ class Model {
   virtual Followed restore(const std::string& bytes, double time);
   /// The present state.
   virtual void read(Answer& answer) const = 0;
+  /// What has been learned since the start of every mu that was not known, and from what; of the method
+  /// `estimate` alone.
+  virtual std::vector<LearnedFriction> learned() const { return {}; }
 };
 
 inline Followed Model::restore(const std::string&, double) {

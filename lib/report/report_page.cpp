@@ -30,7 +30,8 @@ class Page {
 
   std::string operator()() const {
     std::string body = header() + structure();
-    if (record_.rows > 0) body += along_the_cable() + over_time() + mu_over_time() + joint_states();
+    if (record_.rows > 0)
+      body += along_the_cable() + over_time() + mu_over_time() + what_taught_friction() + joint_states();
     body += element("section", {}, heading("Alarms") + alarm_table(view_));
     if (const std::string notices = notice_table(view_); !notices.empty())
       body += element("section", {}, heading("Notices") + notices);
@@ -165,6 +166,10 @@ class Page {
     for (std::size_t c = 0; c < scene_.cables.size(); ++c)
       if (scene_.cables[c].joints() > 0) html += cable_heading(c) + mu_chart(view_, c);
     return html.empty() ? "" : element("section", {}, heading("Friction coefficient over time") + html);
+  }
+  std::string what_taught_friction() const {
+    const std::string html = learned_table(view_);
+    return html.empty() ? "" : element("section", {}, heading("What friction was learned from") + html);
   }
 
   std::string joint_states() const {

@@ -12,6 +12,11 @@ namespace {
 constexpr int mu_digits = 4;  // decimals
 constexpr const char* dash = "\u2013";
 
+// A part that is there is never shown as none.
+std::string percent(double part) {
+  return part > 0 && part < 0.005 ? "less than 1 %" : fixed(100 * part, 0) + " %";
+}
+
 // The cells of one row of a table.
 class TableRow {
  public:
@@ -89,6 +94,47 @@ std::string alarm_table(const ReportView& view) {
 std::string notice_table(const ReportView& view) {
   const AlarmRecord& notices = view.record.notices;
   return notices.count() == 0 ? "" : run_table(view, notices, "Notice", false);
+}
+
+std::string learned_sentence(const LearnedFriction& learned) {
+  const auto spread = [](double mu, double sd) {
+    return fixed(mu, 3) + " \u00b1 " + (sd < 0.002 ? significant(sd, 2) : fixed(sd, 3));
+  };
+  const std::string before = "mu of " + learned.name + ": " + spread(learned.mu_before, learned.sd_before);
+  if (learned.sources.empty()) return before + ", as the scene has it: nothing in the log measured it.";
+  std::string sentence = before + " beforehand, " + spread(learned.mu, learned.sd) + " now; ";
+  for (std::size_t i = 0; i < learned.sources.size(); ++i) {
+    const FrictionSource& source = learned.sources[i];
+    sentence += (i == 0 ? "" : ", ") + percent(source.share) + (i == 0 ? " of that from " : " from ") +
+                source.column + " (" + std::to_string(source.readings) +
+                (i > 0                  ? ")"
+                 : source.readings == 1 ? " reading)"
+                                        : " readings)");
+  }
+  return sentence + ".";
+}
+
+std::string learned_table(const ReportView& view) {
+  std::string html, rows;
+  for (const LearnedFriction& learned : view.content.learned) {
+    html += paragraph("note", escaped(learned_sentence(learned)));
+    for (const FrictionSource& source : learned.sources)
+      rows += TableRow()
+                  .word(learned.name)
+                  .number(fixed(learned.mu_before, mu_digits))
+                  .number(significant(learned.sd_before, 2))
+                  .number(fixed(learned.mu, mu_digits))
+                  .number(significant(learned.sd, 2))
+                  .word(source.column)
+                  .number(std::to_string(source.readings))
+                  .number(percent(source.share))
+                  .finished();
+  }
+  if (rows.empty()) return html;
+  TableRow head("th");
+  head.word("mu of").number("Beforehand").number("sd").number("Now").number("sd");
+  head.word("Learned from").number("Readings used").number("Share of what was learned");
+  return html + table("What friction was learned from", head, rows);
 }
 
 std::string final_table(const ReportView& view, std::size_t c) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/files/learned_friction.hpp"
 #include "lib/report/axis.hpp"
 #include "lib/report/number_text.hpp"
 #include "lib/report/run_record.hpp"
@@ -25,6 +26,7 @@ struct ReportContent {
   NominalRun nominal;
   std::string end;  ///< where and why the answer ends before the log does; empty if it does not
   std::vector<std::string> remarks;
+  std::vector<LearnedFriction> learned;  ///< every mu that was not known beforehand
 };
 
 /// The content with one unit of force and one axis of time for all drawings and tables.

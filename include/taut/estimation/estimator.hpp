@@ -46,11 +46,12 @@ namespace taut {
 /// Nothing here may be called from an interrupt while another call is under way; two estimators share
 /// nothing.
 template <class CondensedType, int Parameters, int Further = 0>
-class Estimator {
+class Estimator : private CondensedType::Capacity::Account {
  public:
   using Scalar = typename CondensedType::Scalar;
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
+  using Account = typename Cap::Account;
   using TrackerType = Tracker<CondensedType, Parameters>;
   using KnowledgeType = Knowledge<Scalar, Cap>;
   using ReadingsType = Readings<Scalar, Cap>;
@@ -96,6 +97,7 @@ class Estimator {
                          const AlarmLimits<Scalar>& limits = {}, const Cells& gauges = {}) {
     const Status known = begin(condensed, knowledge, limits, gauges);
     if (!known) return {known, Scalar(0), 0};
+    Account::begin(filter_);
     return tracker_.start(condensed, filter_.friction(condensed), load_errors());
   }
   /// After start(): the loads of these first readings, those of jacks having come down from so high that
@@ -142,6 +144,7 @@ class Estimator {
     if (!known) return known;
     jacks_.restore(state.jacks);
     filter_.restore(state.friction);
+    Account::begin(filter_);
     far_ends_.restore(state.far_ends);
     misfits_ = far_ends_.misfits();
     gauges_.restore(state.gauges);
@@ -254,6 +257,8 @@ class Estimator {
   void take_stroke(int cable, std::size_t end, Scalar reading, Gauge gauge) {
     const int k = jacks_.find(cable, end);
     if (k < 0 || jacks_[k].locked) return;
+    // A mark is made once slack has been taken out.
+    if (gauges_.has(gauge) && gauges_.lacks_mark(gauge) && !is_bedded(k)) return;
     const auto predict = [&](auto& prediction) {
       predict_stroke(tracker_, jacks_.end(k), filter_.belief(), jacks_.ends(), prediction);
     };
@@ -290,6 +295,8 @@ class Estimator {
   /// Friction coefficient of a joint, and its standard deviation [-].
   Scalar mu(int joint) const { return filter_.mu(joint); }
   Scalar mu_deviation(int joint) const { return filter_.mu_deviation(joint); }
+  /// The unknown that it depends on, as Capacity::Account counts those of friction, or -1.
+  int friction_unknown(int joint) const { return filter_.unknown_of(joint); }
   /// Slips, contact and friction forces, payouts, states and, if their rows are given, strut forces: as
   /// Tracker::respond(), with tensions and payouts at the best estimate. Cost: a force a segment, and that of
   /// Tracker::respond().
@@ -317,6 +324,8 @@ class Estimator {
     return k < 0 ? ConditionedLoad<Scalar>() : jacks_[k].at;
   }
   const TrackerType& tracker() const { return tracker_; }
+  /// What was told of every update since start() or restore(); see Capacity::Account.
+  const Account& account() const { return *this; }
   int unknowns() const { return filter_.belief().size(); }
 
  private:
@@ -601,6 +610,7 @@ class Estimator {
       alarms_.add(alarm_at(Alarm::Kind::frozen, end));
       return false;
     }
+    const int readings = gathers ? far_ends_.waiting() + 1 : 1;
     const Update update = drifts(end.cable()) ? correct_drift(e, reading)
                           : is_ahead_         ? far_ends_.compare(e, reading, tracker_, filter_, jacks_)
                           : gathers           ? far_ends_.gather(reading, tracker_, filter_, jacks_)
@@ -608,7 +618,7 @@ class Estimator {
     // Once, as long as it lasts.
     const bool is_told = update == Update::no_information && watch.is_told;
     watch.is_told = update == Update::no_information;
-    if (update != Update::waits && !is_told) note(update, alarm_at(Alarm::Kind::sensor, end));
+    if (update != Update::waits && !is_told) note(update, alarm_at(Alarm::Kind::sensor, end), readings);
     return update == Update::updated;
   }
   /// The cell at the far end of a cable that is locked tells how far its wedge was drawn in, and what has
@@ -630,8 +640,10 @@ class Estimator {
     return std::sqrt(deviation * deviation + misfit * misfit);
   }
   void learn_waiting() {
-    if (far_ends_.has_waiting())
-      note(far_ends_.learn(tracker_, filter_, jacks_), alarm_at(Alarm::Kind::sensor, far_ends_.ends()[0]));
+    if (!far_ends_.has_waiting()) return;
+    const int readings = far_ends_.waiting();
+    note(far_ends_.learn(tracker_, filter_, jacks_), alarm_at(Alarm::Kind::sensor, far_ends_.ends()[0]),
+         readings);
   }
   /// Of something else than a load cell.
   template <class Predict>
@@ -692,13 +704,16 @@ class Estimator {
          contradiction);
     look_ahead();
   }
-  void note(Update update, const Alarm& contradiction) {
-    if (update == Update::updated)
+  /// What came of so many readings of an instrument; `contradiction` is the alarm if they contradict.
+  void note(Update update, const Alarm& contradiction, int readings = 1) {
+    if (update == Update::updated) {
       is_friction_fine_ = false;
-    else if (update == Update::contradiction)
+      Account::learned(contradiction, readings, filter_);
+    } else if (update == Update::contradiction) {
       alarms_.add(contradiction);
-    else if (update == Update::no_information)
+    } else if (update == Update::no_information) {
       alarms_.add(Alarm::of(Alarm::Kind::no_information, contradiction.cable, contradiction.place));
+    }
   }
 
   // Monitoring.
@@ -714,13 +729,14 @@ class Estimator {
   void check_stroke(int k, Scalar stroke) {
     auto& jack = jacks_[k];
     if (jack.locked) return;
-    // A jack carries at most a tenth of E A.
-    if (!(jack.at.load >= 10 * limits_.initial_strain * most_force(k))) return jack.elongation.begin_leg();
+    if (!is_bedded(k)) return jack.elongation.begin_leg();
     // Where a load may have turned, or was not read, so is the payout.
     const bool is_known = !jack.at.behind && !jack.at.refused && std::isfinite(stroke);
     if (is_known ? jack.elongation.take(stroke, expected_payout(k), limits_) : jack.elongation.is_off())
       alarms_.add(alarm_at(Alarm::Kind::elongation, jacks_.end(k)));
   }
+  /// Whether a jack strains its cable by AlarmLimits::initial_strain. It carries at most a tenth of E A.
+  bool is_bedded(int k) const { return jacks_[k].at.load >= 10 * limits_.initial_strain * most_force(k); }
   ExpectedPayout<Scalar> expected_payout(int k) {
     const auto& belief = filter_.belief();
     auto& prediction = filter_.prediction();

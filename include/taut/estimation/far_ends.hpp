@@ -55,6 +55,8 @@ class FarEnds {
   /// Something has happened: what is read next is worth most, and none of it waits for long.
   void restart() { state_.learned = 0; }
   bool has_waiting() const { return state_.gathered.size > 0; }
+  /// How many readings wait.
+  int waiting() const { return state_.gathered.size; }
   /// Whether a reading of this row is among those that wait.
   bool has_waiting_of_row() const { return has_gathered_; }
   /// Whether readings of the only cell are gathered at present: with a load to go by; what has begun goes on.

@@ -9,6 +9,14 @@ struct Unwatched {
   static constexpr void took(Route) {}
 };
 
+/// Whom an Estimator tells what a measurement taught it: nobody, which costs nothing.
+struct Unaccounted {
+  template <class Filter>
+  constexpr void begin(const Filter&) {}
+  template <class Source, class Filter>
+  constexpr void learned(const Source&, int, const Filter&) {}
+};
+
 /// The capacities of a scene. Derive from it and override what differs:
 ///
 ///     struct Roof : taut::Capacity {
@@ -35,6 +43,9 @@ struct Capacity {
   static constexpr bool saddles = false;
   static constexpr int profile = 0;  ///< entries of the structure's factor; 0: enough for any structure
   using Watch = Unwatched;           ///< another type with a static took(Route) is called at every event
+  /// An object of another type is in every Estimator: begin(FrictionFilter) is called where it begins, and
+  /// learned(Alarm of what was read, number of readings, FrictionFilter) after every update.
+  using Account = Unaccounted;
 };
 
 /// Jacked ends that there can be.
