@@ -307,6 +307,17 @@ TEST_CASE("eight readings that say the same are told where one is not enough") {
   }
 }
 
+TEST_CASE("errors of the loads at both places widen what is allowed") {
+  // As large as the noise of the stroke: of two readings each.
+  const double sd = 1e-3, allowed = 0.005 + 5 * std::sqrt(4.0) * sd;
+  for (const double part : {0.99, 1.01}) {
+    Check check;
+    const taut::AlarmLimits<double> limits;
+    CHECK_FALSE(check.take(0, {0.1, 0, 0, sd * sd}, limits));
+    CHECK(check.take(0.1 + part * allowed, {0.2, 0, 0, sd * sd}, limits) == (part > 1));
+  }
+}
+
 TEST_CASE("what has been told stays so until it is off by half as many standard deviations") {
   Plain plain;
   const auto off_by = [](double sigmas) { return 0.005 + sigmas * std::sqrt(2.0) * 1e-3; };

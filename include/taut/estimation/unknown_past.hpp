@@ -34,12 +34,15 @@ class UnknownPast {
   }
   /// Follows a row that the other estimator follows, too. Fails as Estimator::advance() does.
   Progress<Scalar> advance(const Readings& readings) { return above_.advance(readings); }
-  /// The readings without those of load cells at anchored ends.
+  /// The readings without those of load cells at anchored ends, and of strokes: how one grows depends on
+  /// which joints stick, and so on the past.
   template <class CondensedType>
   static void withhold(const CondensedType& condensed, Readings& readings) {
     for (int c = 0; c < condensed.cables.size(); ++c)
-      for (std::size_t end = 0; end < 2; ++end)
+      for (std::size_t end = 0; end < 2; ++end) {
+        readings.ends[c][end].has_stroke = false;
         if (condensed.cables[c].ends[end] != End::jacked) readings.ends[c][end].has_force = false;
+      }
   }
 
   /// The middle of all that a force can be, with the deviation whose 95 % interval holds the intervals of
