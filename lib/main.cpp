@@ -117,6 +117,8 @@ class CommandLine {
     add("--elongation-tolerance", limits.elongation,
         "Alarm when a stroke grows by this part more or less than expected")
         ->capture_default_str();
+    add("--gain-tolerance", limits.gain, "Alarm when the load cells of a cable differ by more than this part")
+        ->capture_default_str();
     add("--initial-strain", limits.initial_strain, "Strokes count from this strain of the cable on")
         ->capture_default_str();
   }

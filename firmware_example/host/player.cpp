@@ -112,7 +112,7 @@ class Player {
 
   int play(LogReader& log, OutputFile& output) {
     take_scene();
-    remark_on_cells(log);
+    remark_on_instruments(log);
     const NumberFormat format{ScalarType::float32, options_.hex};
     output.write(result_header(scene_, ResultColumns::estimate));
     LogRow row = log.first_row(), before = row;
@@ -164,14 +164,17 @@ class Player {
     device_.set_limits(-largest, largest, 0);
   }
 
-  /// `taut estimate` looks for the largest reading in the log; the device does not know it.
-  void remark_on_cells(const LogReader& log) const {
+  /// What `taut estimate` takes for instruments that the scene does not describe, the device does not.
+  void remark_on_instruments(const LogReader& log) const {
     for (const CableDescription& cable : scene_.cables)
       for (std::size_t end = 0; end < 2 && !cable.closed; ++end) {
         const std::string name = cable.name + "." + end_name(end);
         if (!cable.is_jacked(end) && log.has(name) && !cable.cell[end].sd)
           std::cerr << "remark: the load cell " << quote(name)
                     << " has no \"sd\" in \"sensors\": the device does not use it\n";
+        if (cable.is_jacked(end) && log.has(name + ".stroke") && !cable.stroke[end].is_given)
+          std::cerr << "remark: the stroke " << quote(name + ".stroke")
+                    << " is not in \"sensors\": the device does not learn from it\n";
       }
   }
 

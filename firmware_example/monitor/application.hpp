@@ -61,7 +61,7 @@ class Application {
 
  private:
   template <class Source>
-  using SessionOf = Session<Source>;
+  using SessionOf = Session<Source, Settings>;
   static constexpr int most_bytes_a_pass = 64;
   static constexpr int most_information = 1 + 24 * 9;
   static constexpr int most_command = 32;
@@ -79,7 +79,7 @@ class Application {
     std::uint32_t restarts = 0;
   };
   static constexpr int slot_size =
-      Records<Board>::size_with(sizeof(Common) + std::max({sizeof(typename SessionOf<Sources>::State)...}));
+      Records<Board>::size_with(sizeof(Common) + std::max({SessionOf<Sources>::most_kept...}));
   static_assert(2 * slot_size <= Board::memory_size, "the non-volatile memory is too small for two records");
   static constexpr int scenes = (Sources::scenes + ...);
 
@@ -96,7 +96,7 @@ class Application {
     while (scene >= counts[source]) scene -= counts[source++];
     session_.make(source);
     bool usable = false;
-    session_.visit([&](auto& session) { usable = session.begin(scene, Settings::alarm_limits).ok(); });
+    session_.visit([&](auto& session) { usable = session.begin(scene).ok(); });
     return usable;
   }
 
@@ -108,12 +108,18 @@ class Application {
     bool done = false;
     session_.visit([&](auto& session) {
       using State = typename std::decay_t<decltype(session)>::State;
-      done = header_.maker == session.maker() && header_.length == sizeof(Common) + sizeof(State);
+      constexpr std::size_t least = sizeof(Common) + sizeof(State);
+      done = header_.maker == session.maker() && header_.length >= least;
+      if (!done) return;
+      records_.read(sizeof common_, &session.kept(), sizeof(State));
+      const std::size_t further = session.above_size();
+      done = header_.length == least + further;
       if (!done) return;
       const std::uint32_t raised = common_.latched;
       records_.read(0, &common_, sizeof common_);
-      records_.read(sizeof common_, &session.kept(), sizeof(State));
-      done = session.restore(Settings::alarm_limits);
+      done = session.restore();
+      records_.read(least, &session.kept().estimator, further);
+      done = done && session.restore_past();
       common_.latched |= raised;
       ++common_.restarts;
     });
@@ -124,12 +130,14 @@ class Application {
       if (!session.usable()) return;
       const auto& state = session.save();
       RecordHeader header;
-      header.length = sizeof common_ + sizeof state;
+      const std::size_t further = session.above_size();
+      header.length = static_cast<std::uint32_t>(sizeof common_ + sizeof state + further);
       header.kind = static_cast<std::uint32_t>(scene_);
       header.maker = session.maker();
       records_.begin(header);
       records_.add(&common_, sizeof common_);
       records_.add(&state, sizeof state);
+      if (further > 0) records_.add(&session.save_above(), further);
       records_.finish();
     });
   }
@@ -188,8 +196,7 @@ class Application {
       // Its answer was lost on the line: the model must not go there twice.
       if (repeated) return answer_state();
       if (common_.has_last != 0 && ahead != 1) raise(Alarm::sample_lost);
-      const Alarms found =
-          session.template take<Settings>(common_.limits, [this] { board_.feed_watchdog(); });
+      const Alarms found = session.take(common_.limits, [this] { board_.feed_watchdog(); });
       pending_.add(found);
       common_.latched |= found.bits();
       common_.last = sequence;
@@ -289,7 +296,7 @@ class Application {
       writer_.number(usable ? session.model().segments : 0);
       writer_.number(usable ? session.model().joints : 0);
       writer_.number(usable ? session.model().loads : 0);
-      writer_.number(usable ? fingerprint(session.model(), session.knowledge()) : 0);
+      writer_.number(session.maker());
     });
     writer_.number(common_.has_last);
     writer_.number(common_.last);
@@ -323,7 +330,7 @@ class Application {
   }
 
   Board& board_;
-  OneOf<Session<Sources>...> session_;
+  OneOf<SessionOf<Sources>...> session_;
   int scene_ = 0;
   Records<Board> records_;
   RecordHeader header_;

@@ -33,6 +33,12 @@ foreach(name IN LISTS names)
   if(held_by_${name} MATCHES "make_struts\\(float\\)")
     set(rows "&::${name}::struts<float>")
   endif()
+  set(strokes "nullptr")
+  set(stroke_count 0)
+  if(held_by_${name} MATCHES "make_strokes\\(float\\)")
+    set(strokes "::${name}::strokes<float>.items.data()")
+    set(stroke_count "::${name}::strokes<float>.size()")
+  endif()
   # Alone in a header, a scene fills its capacity.
   set(strut_count "Capacity::struts")
   if(held_by_${name} MATCHES "strut_count")
@@ -52,6 +58,8 @@ foreach(name IN LISTS names)
   static constexpr const ::taut::CondensedStruts<float, Capacity>* struts() { return @rows@; }
   static constexpr int strut_count = @strut_count@;
   static constexpr const ::taut::Knowledge<float, Capacity>& knowledge() { return ::@name@::knowledge<float>; }
+  static constexpr auto strokes() { return @strokes@; }
+  static constexpr int stroke_count = @stroke_count@;
   static constexpr int unknowns = ::@name@::unknowns, reading_unknowns = ::@name@::reading_unknowns;
   static constexpr const auto& cable_names() { return ::@name@::names::cables; }
 };

@@ -1,6 +1,7 @@
 // Where the condensed scenes of a session come from, and what is known of them.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -10,12 +11,27 @@
 #include "taut/condensation/condensed.hpp"
 #include "taut/estimation/estimator.hpp"
 #include "taut/estimation/find_knowledge.hpp"
+#include "taut/estimation/gauges.hpp"
 #include "taut/status.hpp"
 
 namespace monitor {
 
+/// The strokes that are measurements in a scene: a view of at most `Most`.
+template <int Most>
+struct Strokes {
+  const taut::StrokeGauge<float>* first = nullptr;
+  int count = 0;
+
+  static constexpr int capacity() { return Most; }
+  /// Zero at compile time where no scene has any, so that loops over them leave no code.
+  constexpr int size() const { return Most == 0 ? 0 : count; }
+  constexpr const taut::StrokeGauge<float>* begin() const { return first; }
+  constexpr const taut::StrokeGauge<float>* end() const { return first + size(); }
+};
+
 /// Scenes that `taut export` has condensed, of one capacity: constants in flash. Each has model(),
-/// knowledge(), struts(), strut_count and, the same for all, unknowns and reading_unknowns.
+/// knowledge(), struts(), strut_count, strokes(), stroke_count and, the same for all, unknowns and
+/// reading_unknowns.
 template <class First, class... Others>
 class FromFlash {
  public:
@@ -32,6 +48,8 @@ class FromFlash {
   const taut::Knowledge<float, Capacity>& knowledge() const { return *present().knowledge; }
   const taut::CondensedStruts<float, Capacity>* struts() const { return present().struts; }
   int strut_count() const { return present().strut_count; }
+  using StrokesType = Strokes<std::max({First::stroke_count, Others::stroke_count...})>;
+  StrokesType strokes() const { return {present().strokes, present().stroke_count}; }
 
  private:
   struct Parts {
@@ -39,13 +57,16 @@ class FromFlash {
     const taut::Knowledge<float, Capacity>* knowledge;
     const taut::CondensedStruts<float, Capacity>* struts;
     int strut_count;
+    const taut::StrokeGauge<float>* strokes;
+    int stroke_count;
   };
   template <class Exported>
   static constexpr Parts parts_of() {
     static_assert(std::is_same_v<typename Exported::Capacity, Capacity> && Exported::unknowns == unknowns &&
                       Exported::reading_unknowns == reading_unknowns,
                   "scenes that share their memory are exported together");
-    return {&Exported::model(), &Exported::knowledge(), Exported::struts(), Exported::strut_count};
+    return {&Exported::model(),    &Exported::knowledge(), Exported::struts(),
+            Exported::strut_count, Exported::strokes(),    Exported::stroke_count};
   }
   static constexpr Parts parts[scenes] = {parts_of<First>(), parts_of<Others>()...};
 
@@ -75,7 +96,8 @@ constexpr taut::UnknownCounts most_unknowns(const SceneType& scene) {
   return count;
 }
 
-/// A scene as it was drawn, in flash too, that the device condenses itself when it is chosen.
+/// A scene as it was drawn, in flash too, that the device condenses itself when it is chosen. None of its
+/// strokes is a measurement.
 template <const auto& scene>
 class CondensedAtStartUp {
  public:
@@ -94,6 +116,8 @@ class CondensedAtStartUp {
   const taut::Knowledge<float, Capacity>& knowledge() const { return knowledge_; }
   const taut::CondensedStruts<float, Capacity>* struts() const { return &struts_; }
   static constexpr int strut_count() { return scene.struts.size(); }
+  using StrokesType = Strokes<0>;
+  static constexpr StrokesType strokes() { return {}; }
 
  private:
   taut::Condensation<float, SceneType> condensation_;
@@ -103,9 +127,10 @@ class CondensedAtStartUp {
 };
 
 /// A number that changes with everything that the scene's answers depend on.
-template <class Capacity>
+template <class Capacity, class StrokesType = Strokes<0>>
 std::uint32_t fingerprint(const taut::Condensed<float, Capacity>& model,
-                          const taut::Knowledge<float, Capacity>& knowledge) {
+                          const taut::Knowledge<float, Capacity>& knowledge,
+                          const StrokesType& strokes = {}) {
   Crc32 crc;
   const auto add = [&crc](const auto& value) { crc.add(&value, sizeof value); };
   for (const auto& cable : model.cables) {
@@ -140,6 +165,7 @@ std::uint32_t fingerprint(const taut::Condensed<float, Capacity>& model,
     add(knowledge.drift_sd[c]);
     add(knowledge.cell[c]);
   }
+  for (const auto& stroke : strokes) add(stroke);
   return crc.value();
 }
 

@@ -11,9 +11,12 @@
 #include "monitor/alarms.hpp"
 #include "monitor/estimator_alarm.hpp"
 #include "monitor/frame.hpp"
+#include "monitor/known_past.hpp"
 #include "monitor/scene_sources.hpp"
 #include "monitor/settings.hpp"
 #include "taut/estimation/estimator.hpp"
+#include "taut/estimation/unknown_past.hpp"
+#include "taut/numerics/larger.hpp"
 #include "taut/scene/path.hpp"
 #include "taut/scene/sample.hpp"
 #include "taut/tracking/verify.hpp"
@@ -28,14 +31,30 @@ struct Outcome {
   int events = 0;
 };
 
+/// How far an estimator has come on the path to a sample, in one call after the other.
+struct Way {
+  taut::Status status;
+  float rest = 1;  ///< of the path
+  int events = 0;
+
+  void add(const taut::Progress<float>& progress) {
+    status = progress.status;
+    rest *= progress.fraction < 1 ? 1 - progress.fraction : 0;
+    events += progress.events;
+  }
+  bool is_whole() const { return status.ok() && rest == 0; }
+  bool is_over() const { return !status.ok() || rest == 0; }
+};
+
 /// Holds all its storage: make it static.
-template <class Source>
+template <class Source, class Settings>
 class Session {
  public:
   using Cap = typename Source::Capacity;
   using Model = taut::Condensed<float, Cap>;
   using Estimator = taut::Estimator<Model, Source::unknowns, Source::reading_unknowns>;
   using Findings = typename Estimator::Alarms;
+  using Past = std::conditional_t<Settings::doubts_past, taut::UnknownPast<Estimator>, KnownPast<Estimator>>;
   static_assert(Cap::cables <= most_coded_cables, "a code of an alarm has no room for the cable's number");
 
   /// The load cell of one end, and the wedge if it is jacked.
@@ -51,6 +70,7 @@ class Session {
     Outcome outcome;
     float waited = 0;
     Findings findings;
+    typename Past::Phase past;
     typename Estimator::State estimator;
   };
   static_assert(std::is_trivially_copyable_v<State>, "the record keeps bytes");
@@ -59,16 +79,22 @@ class Session {
   static constexpr int most_sample = 1 + 2 * 9 + 9 * (Cap::loads + 4 * Cap::cables);
   static constexpr int most_answer =
       1 + 2 + 9 * 8 + 9 * (2 * Cap::segments + 5 * Cap::joints + 2 * Cap::cables + Cap::struts) +
-      Cap::joints + 2 + 9 * Findings::capacity();
+      Cap::joints + 2 + 9 * (Findings::capacity() + (Settings::doubts_past ? Cap::cables : 0));
+  /// Most bytes that are kept: a State, and while the past is not known that of a second estimator.
+  static constexpr std::size_t most_kept =
+      sizeof(State) + (Settings::doubts_past ? sizeof(typename Estimator::State) : 0);
 
-  /// Begins with one of the source's scenes, without load. The answer says whether the scene can be used.
-  taut::Status begin(int number, const taut::AlarmLimits<float>& limits) {
+  /// Begins with one of the source's scenes, without load unless the first sample is under load. The answer
+  /// says whether the scene can be used.
+  taut::Status begin(int number) {
     cells_ = {};
+    past_.reset();
     findings_.clear();
     waited_ = 0;
     outcome_ = {};
     outcome_.status = source_.prepare(number);
-    if (outcome_.status) outcome_.status = estimator_.start(model(), knowledge(), limits).status;
+    if (outcome_.status)
+      outcome_.status = estimator_.start(model(), knowledge(), alarm_limits(), source_.strokes()).status;
     outcome_.quality = outcome_.status ? Quality::held : Quality::none;
     usable_ = outcome_.status.ok();
     return outcome_.status;
@@ -79,25 +105,44 @@ class Session {
   const Outcome& outcome() const { return outcome_; }
 
   /// What must be the same for a record to be read back.
-  std::uint32_t maker() const { return usable_ ? fingerprint(model(), knowledge()) : 0; }
-  /// The state, until the next call.
+  std::uint32_t maker() const { return usable_ ? fingerprint(model(), knowledge(), source_.strokes()) : 0; }
+  /// The state, until the next call; above_size() says whether there is more.
   const State& save() {
     kept_.cells = cells_;
     kept_.outcome = outcome_;
     kept_.waited = waited_;
     kept_.findings = findings_;
+    kept_.past = past_.phase();
     // In its place: a copy on the way would need the stack.
     new (&kept_.estimator) typename Estimator::State(estimator_.save());
     return kept_;
   }
-  /// Room for a state that restore() is to take.
+  /// Bytes of the second estimator's state that belongs to kept(), or 0.
+  std::size_t above_size() const {
+    return Past::has_above(kept_.past) ? sizeof(typename Estimator::State) : 0;
+  }
+  /// After save(), in the place of the first estimator's.
+  const typename Estimator::State& save_above() {
+    if constexpr (Settings::doubts_past) new (&kept_.estimator) typename Estimator::State(past_.save());
+    return kept_.estimator;
+  }
+  /// Room for a state that restore() is to take, and then for that of the second estimator.
   State& kept() { return kept_; }
-  bool restore(const taut::AlarmLimits<float>& limits) {
+  bool restore() {
     cells_ = kept_.cells;
     outcome_ = kept_.outcome;
     waited_ = kept_.waited;
     findings_ = kept_.findings;
-    return estimator_.restore(model(), knowledge(), kept_.estimator, limits).ok();
+    return estimator_.restore(model(), knowledge(), kept_.estimator, alarm_limits(), source_.strokes()).ok();
+  }
+  /// After restore(), whether there is a second estimator or not.
+  bool restore_past() {
+    if constexpr (Settings::doubts_past) {
+      const taut::Status status =
+          past_.restore(kept_.past, kept_.estimator, model(), knowledge(), alarm_limits(), source_.strokes());
+      return status.ok();
+    }
+    return true;
   }
 
   // Commands; `cable` and `end` are checked.
@@ -126,7 +171,7 @@ class Session {
     return fits && fields.done();
   }
   /// Answers the sample that was read. `feed` is called between bounded pieces of work.
-  template <class Settings, class Feed>
+  template <class Feed>
   Alarms take(const CellLimits& limits, Feed feed) {
     Alarms alarms;
     const bool can_be_used = check_readings(limits, alarms);
@@ -139,23 +184,31 @@ class Session {
     }
     readings_.dt += waited_;
     waited_ = 0;
-    outcome_.fraction = 0;
-    float rest = 1;
-    for (int call = 0; call < Settings::most_calls; ++call) {
+    past_.look(model(), knowledge(), readings_);
+    keep_strokes();
+    past_.withhold(model(), readings_);
+    Way below, above;
+    if (!past_.is_unknown()) above.rest = 0;
+    for (int call = 0; call < Settings::most_calls && !(below.is_over() && above.is_over()); ++call) {
       constexpr int budget =
           Settings::event_budget > 0 ? Settings::event_budget : Estimator::TrackerType::default_budget;
-      const auto progress = estimator_.advance(readings_, budget);
-      feed();
+      if (!below.is_over()) {
+        below.add(estimator_.advance(readings_, budget));
+        feed();
+      }
       if (call == 0) findings_ = estimator_.alarms();
+      if (!above.is_over()) {
+        above.add(past_.advance(model(), knowledge(), alarm_limits(), source_.strokes(), readings_, budget));
+        feed();
+      }
       // They are taken; what follows is the rest of the path.
       forget_readings();
-      rest *= 1 - progress.fraction;
-      outcome_.events += progress.events;
-      outcome_.status = progress.status;
-      if (!progress.status || progress.fraction >= 1) break;
     }
-    outcome_.fraction = 1 - rest;
-    judge<Settings>(alarms);
+    if (below.is_whole() && above.is_whole()) finish_row();
+    outcome_.status = below.status ? above.status : below.status;
+    outcome_.fraction = 1 - (below.rest > above.rest ? below.rest : above.rest);
+    outcome_.events = below.events + above.events;
+    judge(alarms);
     return alarms;
   }
 
@@ -170,6 +223,7 @@ class Session {
     frame.number(outcome_.status.cable);
     if (!usable_) return;
     estimator_.respond(response_, source_.struts());
+    past_.respond(estimator_, response_);
     const int segments = model().segments, joints = model().joints;
     for (int i = 0; i < segments; ++i) frame.real(response_.tension[i]);
     for (int j = 0; j < joints; ++j) frame.real(response_.slip[j]);
@@ -180,13 +234,29 @@ class Session {
     taut::for_each_jacked_end(model().cables,
                               [&](int c, std::size_t end) { frame.real(response_.payout[c][end]); });
     for (int i = 0; i < source_.strut_count(); ++i) frame.real(response_.strut[i]);
-    for (int i = 0; i < segments; ++i) frame.real(estimator_.deviation(i));
+    for (int i = 0; i < segments; ++i) frame.real(past_.estimate(estimator_, i).deviation);
     for (int j = 0; j < joints; ++j) frame.real(estimator_.mu(j));
     for (int j = 0; j < joints; ++j) frame.real(estimator_.mu_deviation(j));
     for (const taut::Alarm& finding : findings_) frame.number(code_of(finding));
+    for (int c = 0; c < model().cables.size(); ++c)
+      if (!past_.is_wiped_out(estimator_, model().cables[c]))
+        frame.number(code_of(taut::Alarm::of(taut::Alarm::Kind::unknown_past, c, 0)));
   }
 
  private:
+  using StrokesType = typename Source::StrokesType;
+
+  /// Those of the site, with the largest noise of strokes.
+  decltype(auto) alarm_limits() const {
+    if constexpr (StrokesType::capacity() == 0) {
+      return (Settings::alarm_limits);
+    } else {
+      float sd = 0;
+      for (const auto& stroke : source_.strokes()) sd = taut::larger(sd, stroke.sd);
+      return Settings::alarm_limits.with_stroke_noise(sd);
+    }
+  }
+
   char state_letter(int joint) const {
     switch (response_.state[joint]) {
       case taut::JointState::stick:
@@ -254,7 +324,35 @@ class Session {
     return true;
   }
 
-  template <class Settings>
+  /// A row may take several calls: those after the first have no readings.
+  void keep_strokes() {
+    const StrokesType strokes = source_.strokes();
+    for (int s = 0; s < strokes.size(); ++s) {
+      const auto& stroke = strokes.first[s];
+      strokes_[s] = readings_.ends[stroke.cable][static_cast<std::size_t>(stroke.end)];
+    }
+  }
+  /// Once all have come to the end of the row: strokes teach only where no past is doubted.
+  void finish_row() {
+    if (past_.is_unknown()) return past_.settle(estimator_);
+    const int found = estimator_.alarms().size();
+    const StrokesType strokes = source_.strokes();
+    for (int s = 0; s < strokes.size(); ++s)
+      if (strokes_[s].has_stroke)
+        estimator_.take_stroke(strokes.first[s].cable, static_cast<std::size_t>(strokes.first[s].end),
+                               strokes_[s].stroke, taut::Gauge{s});
+    for (int i = found; strokes.size() > 0 && i < estimator_.alarms().size(); ++i)
+      findings_.add(estimator_.alarms()[i]);
+  }
+  bool is_consistent() const {
+    // Written so that a NaN is doubtful.
+    bool is_so = taut::verify(estimator_.tracker()).worst() <= Settings::most_violation;
+    if constexpr (Settings::doubts_past)
+      if (Past::has_above(past_.phase()))
+        is_so = is_so && taut::verify(past_.above().tracker()).worst() <= Settings::most_violation;
+    return is_so;
+  }
+
   void judge(Alarms& alarms) {
     outcome_.quality = Quality::good;
     if (!outcome_.status) {
@@ -267,8 +365,7 @@ class Session {
     since_verified_ = outcome_.events > 0 ? Settings::verify_every : since_verified_ + 1;
     if (since_verified_ < Settings::verify_every) return;
     since_verified_ = 0;
-    // Written so that a NaN is doubtful.
-    if (taut::verify(estimator_.tracker()).worst() <= Settings::most_violation) return;
+    if (is_consistent()) return;
     alarms.raise(Alarm::doubtful);
     if (outcome_.quality == Quality::good) outcome_.quality = Quality::doubtful;
   }
@@ -278,11 +375,13 @@ class Session {
   taut::FixedArray<std::array<Cell, 2>, Cap::cables> cells_;
   taut::Readings<float, Cap> readings_;  // as they were read, then as they are used
   float waited_ = 0;                     // time of the samples that could not be used
+  taut::FixedArray<taut::EndReading<float>, StrokesType::capacity()> strokes_;
   Outcome outcome_;
   Findings findings_;
   taut::Response<float, Cap> response_;
   State kept_;
   std::uint32_t since_verified_ = 0;
+  Past past_;
   bool usable_ = false;
 };
 

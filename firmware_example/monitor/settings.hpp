@@ -15,6 +15,9 @@ struct CellLimits {
 };
 
 struct Settings {
+  /// Whether forces are doubted where the very first sample is under load: then they lie between those of
+  /// all pasts of the jacks until the cables have slid enough. Takes the RAM of a second estimator.
+  static constexpr bool doubts_past = true;
   /// From when on the estimator finds something odd; by itself it has no limit for forces.
   static constexpr taut::AlarmLimits<float> alarm_limits{};
   /// Events of the tracker in one call, 0: as many as it takes by itself.

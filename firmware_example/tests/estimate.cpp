@@ -66,7 +66,6 @@ class Noise {
   std::normal_distribution<double> scatter_;
 };
 
-constexpr Reading none;
 /// Pulls by 2 kN a sample; the far end has 85 % of it, which mu = 0.211 does.
 Readings pulling(Noise& noise, int row) {
   const double force = 2000 * row;
@@ -103,6 +102,23 @@ TEST_CASE("a force above the site's limit is said, before and after a power fail
   // It has not come back by a hundredth: the episode is kept.
   CHECK(is_high(4, 114.5e3F));
   CHECK(!is_high(5, 113e3F));
+}
+
+TEST_CASE("a cell without load may say five standard deviations of its noise") {
+  Noisy without, with;
+  CHECK_FALSE(finds(without.ask(sample_of(1, {none, 1990.0F, none})), taut::Alarm::Kind::unknown_past));
+  CHECK(finds(with.ask(sample_of(1, {none, 2010.0F, none})), taut::Alarm::Kind::unknown_past));
+}
+
+TEST_CASE("what the far end reads teaches nothing while the past is not known") {
+  Noisy device;
+  const Fields answer = device.ask(sample_of(1, {85000.0F, 100000.0F, none}));
+  CHECK(mu(answer) == 0.2F);
+  CHECK(mu_deviation(answer) == 0.05F);
+  // Pulled from zero, it would have told.
+  Noisy from_zero;
+  from_zero.ask(sample_of(1, {0.0F, 0.0F, none}));
+  CHECK(mu_deviation(from_zero.ask(sample_of(2, {85000.0F, 100000.0F, none}))) < 0.05F);
 }
 
 TEST_CASE("what is not read is neither zero nor the reading before") {

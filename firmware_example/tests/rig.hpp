@@ -89,6 +89,8 @@ class Rig {
 
 using monitor::host::Reading;
 using Readings = std::vector<Reading>;
+/// An instrument that is not read.
+inline constexpr Reading none;
 
 /// A second after the one before.
 inline std::string sample_of(std::uint32_t sequence, const Readings& numbers, float dt = 1) {

@@ -27,7 +27,11 @@ std::uint32_t scene_of(const Fields& information) { return monitor::host::number
 std::uint32_t fingerprint_of(const Fields& information) {
   return monitor::host::number_of(information.at(12));
 }
-const std::string pull = sample(1, {40000, 30000, 20000});
+/// From zero.
+Fields pull(Several& device) {
+  device.ask(sample(1, {0, 0, 0}));
+  return device.ask(sample(2, {40000, 30000, 20000}));
+}
 
 }  // namespace
 
@@ -36,17 +40,17 @@ TEST_CASE("scenes of one source have numbers one after the other, and answers of
   CHECK(scene_of(device.greeting) == smooth);
   CHECK(device.greeting.at(3) == number_field(2));
   const std::uint32_t of_smooth = fingerprint_of(device.greeting);
-  const Fields with_smooth = device.ask(pull);
+  const Fields with_smooth = pull(device);
   const Fields chosen = device.ask(choose(rough));
   CHECK(scene_of(chosen) == rough);
   CHECK(fingerprint_of(chosen) != of_smooth);
-  const Fields with_rough = device.ask(pull);
+  const Fields with_rough = pull(device);
   CHECK(quality(with_rough) == 'g');
   // Segment 1 is at the jack, segment 0 behind the joint.
   CHECK(tension(with_rough, 1) == tension(with_smooth, 1));
   CHECK(tension(with_rough, 0) == doctest::Approx(tension(with_smooth, 0) / 2));
   device.ask(choose(smooth));
-  CHECK(state(device.ask(pull)) == state(with_smooth));
+  CHECK(state(pull(device)) == state(with_smooth));
   CHECK(device.ask(choose(2)) == Fields{"E", "scene"});
 }
 
@@ -54,7 +58,7 @@ TEST_CASE("after a power failure the scene is the one that was chosen") {
   for (const std::uint32_t scene : {smooth, rough}) {
     Several device;
     device.ask(choose(scene));
-    const Fields before = device.ask(pull);
+    const Fields before = pull(device);
     device.boot();
     CHECK(scene_of(device.greeting) == scene);
     CHECK(state(device.ask("P")) == state(before));

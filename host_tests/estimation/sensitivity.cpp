@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -211,3 +212,33 @@ TEST_CASE(
 }
 
 }  // namespace
+
+TEST_CASE(
+    "adjusted in the row in which a load came to depend on another unknown, it is where it would be else") {
+  Random random(7);
+  for (int n = 0; n < 20; ++n) {
+    CAPTURE(n);
+    static Plane scene;
+    support::rigid_saddles(scene, support::steel_cable(0.2), support::chain_points(6));
+    const Varied before(scene, true, 0, 0),
+        after(scene, true, 0, (n < 10 ? 1 : -1) * random.between(0.01, 0.05));
+    const auto trackers = std::make_unique<std::array<Follower, 2>>();
+    Row row;
+    for (Follower& tracker : *trackers) {
+      before.begin(tracker, true);
+      for (const double force : {4e5, n % 2 == 0 ? 4e5 : 1e5}) {
+        row.jack[0][1].force = force;
+        REQUIRE(tracker.advance(row).status.ok());
+      }
+    }
+    Follower &plain = (*trackers)[0], &changed = (*trackers)[1];
+    const double was = plain.tension(0);
+    changed.change_load_error({1, 1, 0, 1});
+    taut::FixedArray<double, most_parameters> change;
+    change[0] = after.scene.mu[0] - before.scene.mu[0];
+    for (Follower* tracker : {&plain, &changed}) REQUIRE(tracker->adjust(after.friction(true), change).ok());
+    for (int i = 0; i < before.model.segments; ++i)
+      CHECK(changed.tension(i) == doctest::Approx(plain.tension(i)).epsilon(1e-12));
+    CHECK(std::fabs(plain.tension(0) - was) > 1e3);
+  }
+}

@@ -28,6 +28,23 @@ TEST_CASE(
   static_assert(arch::unknowns == 1 + 3 + 2);
 }
 
+TEST_CASE("strokes that the scene describes are listed by cable and end, a free zero as unknown altogether") {
+  constexpr auto& strokes = arch::strokes<float>;
+  static_assert(strokes.size() == 2);
+  CHECK(strokes[0].cable == 0);
+  CHECK(strokes[0].end == 0);
+  CHECK(strokes[0].sd == 0.0004F);
+  CHECK(strokes[0].gain_sd == 0.03F);
+  CHECK(strokes[0].zero_sd == 0);
+  CHECK(strokes[1].end == 1);
+  CHECK(arch::strokes<double>[1].sd == 0.0005);
+  CHECK(strokes[1].zero_sd == taut::free_zero<float>);
+  // A gain each, and one zero.
+  static_assert(arch::reading_unknowns == 3);
+  taut::Estimator<taut::Condensed<float, arch::Capacity>, arch::unknowns, arch::reading_unknowns> estimator;
+  CHECK(estimator.start(arch::condensed<float>, arch::knowledge<float>, {}, strokes.items).status.ok());
+}
+
 TEST_CASE("deviations of mu and of load cells are those of the scene; without one a jack is exact") {
   CHECK(arch::knowledge<double>.mu_sd[0] == 0.03);
   CHECK(arch::knowledge<double>.shared[0]);

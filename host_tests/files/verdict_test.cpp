@@ -50,7 +50,7 @@ SceneDescription two_cables() {
 }
 
 // Kinds are no more than these.
-constexpr int kinds = static_cast<int>(Alarm::Kind::frozen) + 1;
+constexpr int kinds = static_cast<int>(Alarm::Kind::gain) + 1;
 
 }  // namespace
 

@@ -92,7 +92,8 @@
 // holds one unknown for every joint that can slide, or for every cable with a shared mu; gain, zero and
 // hysteresis of a jack's load cell where they are not known; two for every jack whose load cell has noise and
 // one for its wedge, without which reversals and draw-in count as exact. Further holds gain and zero of all
-// other instruments. They are `unknowns` and `reading_unknowns` of an exported header. Condensed scene and
+// other instruments. They are `unknowns` and `reading_unknowns` of an exported header, whose `strokes` are
+// the instruments that start() takes and take_stroke() is given, by number. Condensed scene and
 // Knowledge must outlive it. start(), then advance() for every Readings: forces [N] and strokes [m]
 // of cable ends as far as they were read, load factors, locks, time since the row before.
 //

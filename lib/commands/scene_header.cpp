@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <set>
@@ -225,6 +226,17 @@ class Constants {
            field("seating_sd", scalars(k.seating_sd, 10)) + field("drift_sd", scalars(k.drift_sd, 10)) +
            field("length", scalars(k.length, 10)) + "          /*cell*/ " + cells(k.cell) + "};\n}\n";
   }
+  std::string strokes() const {
+    std::vector<std::string> items;
+    for (const StrokeGauge<double>& stroke : knowledge_.stroke)
+      items.push_back("{" + cell(stroke) + ", " + std::to_string(stroke.cable) + ", " +
+                      std::to_string(stroke.end) + "}");
+    if (items.empty()) return "";
+    const std::string list =
+        "::taut::FixedArray<::taut::StrokeGauge<" + name() + ">, " + std::to_string(items.size()) + ">";
+    return "constexpr " + list + " make_strokes(" + name() + ") {\n  return " + fixed_array(items, 10) +
+           ";\n}\n";
+  }
 
  private:
   std::string name() const { return single_ ? "float" : "double"; }
@@ -254,13 +266,15 @@ class Constants {
     for (const bool value : row) items.emplace_back(value ? "true" : "false");
     return fixed_array(items, 10);
   }
+  std::string cell(const LoadCell<double>& of) const {
+    const std::string zero =
+        std::isfinite(of.zero_sd) ? scalar(of.zero_sd) : "::taut::free_zero<" + name() + ">";
+    return "{" + scalar(of.sd) + ", " + scalar(of.gain_sd) + ", " + zero + ", " + scalar(of.hysteresis_sd) +
+           ", " + scalar(of.up) + ", " + scalar(of.down) + "}";
+  }
   std::string cells(const std::vector<std::array<LoadCell<double>, 2>>& table) const {
-    const auto text = [this](const LoadCell<double>& cell) {
-      return "{" + scalar(cell.sd) + ", " + scalar(cell.gain_sd) + ", " + scalar(cell.zero_sd) + ", " +
-             scalar(cell.hysteresis_sd) + ", " + scalar(cell.up) + ", " + scalar(cell.down) + "}";
-    };
     std::vector<std::string> items;
-    for (const auto& pair : table) items.push_back("{{" + text(pair[0]) + ", " + text(pair[1]) + "}}");
+    for (const auto& pair : table) items.push_back("{{" + cell(pair[0]) + ", " + cell(pair[1]) + "}}");
     return fixed_array(items, 10);
   }
   static std::string numbers(const Row& row, std::size_t indent) {
@@ -306,8 +320,14 @@ class Constants {
 UnknownCounts unknowns(const ExportedArrays& arrays) {
   using AnyEstimator = Estimator<Condensed<double, Capacity>, 1>;
   const auto is_locked = [&](int j) { return !(arrays.condensed.rho[static_cast<std::size_t>(j)] > 0); };
-  return count_unknowns(arrays.condensed.cables, is_locked, arrays.knowledge,
-                        AnyEstimator::remembered_corners(static_cast<int>(arrays.condensed.load.size())));
+  UnknownCounts count =
+      count_unknowns(arrays.condensed.cables, is_locked, arrays.knowledge,
+                     AnyEstimator::remembered_corners(static_cast<int>(arrays.condensed.load.size())));
+  const auto& strokes = arrays.knowledge.stroke;
+  for (const StrokeGauge<double>& stroke : strokes) count.further += stroke.unknowns();
+  // Every gauge has a place, with unknowns or without.
+  count.further = std::max(count.further, static_cast<int>(strokes.size()));
+  return count;
 }
 
 std::string space_of(const ExportedScene& scene) { return identifier(scene.description.name); }
@@ -320,7 +340,8 @@ std::string sizes(const CondensedCounts& counts, ScalarType scalar) {
          "; the tracker takes " + std::to_string(size.tracker) + " bytes of RAM";
 }
 
-std::string head(const std::vector<ExportedScene>& scenes, const CondensedCounts& capacity) {
+std::string head(const std::vector<ExportedScene>& scenes, const CondensedCounts& capacity,
+                 bool has_strokes) {
   std::string text;
   if (scenes.size() == 1) {
     text = "// The scene " + literal(scenes[0].description.name) +
@@ -342,7 +363,8 @@ std::string head(const std::vector<ExportedScene>& scenes, const CondensedCounts
          ".\n"
          "#pragma once\n"
          "\n"
-         "#include \"taut/condensation/condensed.hpp\"\n"
+         "#include \"taut/condensation/condensed.hpp\"\n" +
+         (has_strokes ? "#include \"taut/estimation/gauges.hpp\"\n" : "") +
          "#include \"taut/estimation/knowledge.hpp\"\n";
 }
 
@@ -394,6 +416,7 @@ struct Shared {
         most_unknowns.carried = std::max(most_unknowns.carried, count.carried);
         most_unknowns.further = std::max(most_unknowns.further, count.further);
       }
+      has_strokes = has_strokes || !scene.in_double.knowledge.stroke.empty();
     }
   }
 
@@ -401,6 +424,7 @@ struct Shared {
   std::string space;  // of the first scene, where the capacity is
   CondensedCounts capacity;
   UnknownCounts most_unknowns = {1, 0};
+  bool has_strokes = false;
 };
 
 std::string capacity(const ExportedScene& scene, const Shared& shared) {
@@ -416,7 +440,8 @@ std::string constants(const ExportedScene& scene, const CondensedCounts& capacit
     const ExportedArrays& arrays = scalar == ScalarType::float32 ? scene.in_float : scene.in_double;
     if (!arrays.condensed.condensing.status) continue;
     const Constants written(arrays, capacity, scalar);
-    text += written.condensed() + (has_struts ? written.struts() : "") + written.knowledge() + "\n";
+    text += written.condensed() + (has_struts ? written.struts() : "") + written.knowledge() +
+            written.strokes() + "\n";
   }
   return text;
 }
@@ -438,7 +463,9 @@ std::string objects(const Shared& shared) {
          ".\n"
          "constexpr int unknowns = " +
          std::to_string(shared.most_unknowns.carried) + ";\n" +
-         "/// And its Further: unknowns of load cells at anchored ends.\n"
+         "/// And its Further: unknowns of load cells at anchored ends" +
+         (shared.has_strokes ? ", and strokes" : "") +
+         ".\n"
          "constexpr int reading_unknowns = " +
          std::to_string(shared.most_unknowns.further) + ";\n\n";
 }
@@ -459,12 +486,21 @@ std::string strut_objects(std::size_t struts, const Shared& shared) {
   return text;
 }
 
+std::string stroke_objects(const ExportedScene& scene) {
+  const std::size_t count = scene.in_double.knowledge.stroke.size();
+  if (count == 0) return "";
+  return "/// The strokes of jacks that are measurements, for start() and take_stroke() of Estimator.\n"
+         "template <class Scalar>\n"
+         "inline constexpr ::taut::FixedArray<::taut::StrokeGauge<Scalar>, " +
+         std::to_string(count) + "> strokes = detail::make_strokes(Scalar());\n\n";
+}
+
 std::string namespace_of(const ExportedScene& scene, const Shared& shared) {
   const std::size_t struts = scene.description.struts.size();
   return "namespace " + space_of(scene) + " {\n\n" + capacity(scene, shared) + "\nnamespace detail {\n\n" +
          constants(scene, shared.capacity, struts > 0) + "}  // namespace detail\n\n" + objects(shared) +
-         strut_objects(struts, shared) + names(scene.description) + "\n}  // namespace " + space_of(scene) +
-         "\n";
+         strut_objects(struts, shared) + stroke_objects(scene) + names(scene.description) +
+         "\n}  // namespace " + space_of(scene) + "\n";
 }
 
 }  // namespace
@@ -485,7 +521,7 @@ std::string identifier(const std::string& name) {
 
 std::string scene_header(const std::vector<ExportedScene>& scenes) {
   const Shared shared(scenes);
-  std::string text = head(scenes, shared.capacity);
+  std::string text = head(scenes, shared.capacity, shared.has_strokes);
   for (const ExportedScene& scene : scenes) text += "\n" + namespace_of(scene, shared);
   return text;
 }

@@ -12,7 +12,7 @@ namespace taut::host {
 
 /// `outlier:C.end`, `sensor:C.start`, `mu:C`, `mu:C.3`, `stuck:C.3`, `elongation:C.end`, `force-high:C.T3`,
 /// `force-low:C.T3`, `no-information:C.start`, `gauge:strut3`, `gauge:C.T3`, `lift-off:C.end`,
-/// `model-misfit:C.start`, `frozen:C.start` or `unknown-past:C`; joints, segments and
+/// `model-misfit:C.start`, `frozen:C.start`, `gain:C.start` or `unknown-past:C`; joints, segments and
 /// struts are counted from 1, blanks in a name are `_`.
 inline std::string alarm_word(const Alarm& alarm, const SceneDescription& scene) {
   const std::string number = std::to_string(alarm.place + 1);
@@ -47,6 +47,8 @@ inline std::string alarm_word(const Alarm& alarm, const SceneDescription& scene)
       return "unknown-past:" + cable;
     case Alarm::Kind::misfit:
       return "model-misfit:" + end;
+    case Alarm::Kind::gain:
+      return "gain:" + end;
     case Alarm::Kind::frozen:
       return "frozen:" + end;
     case Alarm::Kind::lift_off:

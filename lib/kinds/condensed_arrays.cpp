@@ -6,6 +6,7 @@
 
 #include "lib/files/number_range.hpp"
 #include "lib/kinds/condensed_kind.hpp"
+#include "lib/kinds/scene_gauges.hpp"
 #include "lib/kinds/valid_scene.hpp"
 
 namespace taut::host {
@@ -105,6 +106,12 @@ KnowledgeArrays knowledge_arrays(const SceneDescription& scene) {
     arrays.shared.push_back(knowledge->shared[c]);
     const auto& cell = knowledge->cell[c];
     arrays.cell.push_back({LoadCell<double>::of(cell[0]), LoadCell<double>::of(cell[1])});
+    for (int end = 0; end < 2; ++end) {
+      const CableDescription& cable = scene.cables[static_cast<std::size_t>(c)];
+      if (!has_stroke(cable, static_cast<std::size_t>(end))) continue;
+      const auto stroke = LoadCell<Scalar>::of(stroke_cell(cable, static_cast<std::size_t>(end)));
+      arrays.stroke.push_back({LoadCell<double>::of(stroke), c, end});
+    }
   }
   return arrays;
 }

@@ -7,6 +7,7 @@
 #include "lib/files/result_file.hpp"
 #include "lib/files/scene_description.hpp"
 #include "lib/kinds/condense_scene.hpp"
+#include "taut/estimation/gauges.hpp"
 
 namespace taut::host {
 
@@ -30,7 +31,8 @@ struct CondensedArrays {
 /// Condenses a scene in the given type. Throws InputError if the scene cannot be used.
 CondensedArrays condense(const SceneDescription& scene, ScalarType scalar);
 
-/// The fields of Knowledge for what the scene holds; values in float are exact.
+/// The fields of Knowledge for what the scene holds, and the strokes that it describes; values in float are
+/// exact.
 struct KnowledgeArrays {
   CondensedArrays::Row mu, grip;
   std::vector<bool> capstan;
@@ -38,6 +40,7 @@ struct KnowledgeArrays {
   std::vector<bool> shared;
   std::vector<double> scatter, seating_sd, drift_sd, length;
   std::vector<std::array<LoadCell<double>, 2>> cell;
+  std::vector<StrokeGauge<double>> stroke;
 };
 
 /// Collects it from a usable scene in the given type.

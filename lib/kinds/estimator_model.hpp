@@ -57,7 +57,7 @@ class EstimatorModel : public Model {
     read_row(row, scene_, has_row_ && row.time > time_ ? row.time - time_ : 1, *readings_);
     time_ = row.time;
     has_row_ = true;
-    if (past_) PastType::withhold(*condensed_, *readings_);
+    if (past_) past_->withhold(*condensed_, *readings_);
     const auto progress = estimator_->advance(*readings_);
     const Followed below = {progress.status, static_cast<double>(progress.fraction)};
     if (!below.whole()) return below;
@@ -67,7 +67,7 @@ class EstimatorModel : public Model {
   }
   void forget_past() override {
     past_ = std::make_unique<PastType>();
-    past_begins_ = true;
+    past_->forget();
   }
   bool has_unknown_past() const override { return past_ != nullptr; }
   std::vector<LearnedFriction> learned() const override {
@@ -76,11 +76,7 @@ class EstimatorModel : public Model {
   void read(Answer& answer) const override {
     Response<Scalar, Cap> response;
     estimator_->respond(response, struts_.get());
-    if (past_) {
-      for (int i = 0; i < condensed_->segments; ++i)
-        response.tension[i] = past_->estimate(*estimator_, i).force;
-      condensed_->resolve_joints(response);
-    }
+    if (past_) past_->respond(*estimator_, response);
     read_response(response, scene_, answer);
     read_certainty(*estimator_, scene_, answer);
     if (!past_) return;
@@ -115,20 +111,16 @@ class EstimatorModel : public Model {
     const Condensing condensing = scene_.dimension == 2 ? condense<2>() : condense<3>();
     gauges_ = SceneGauges(scene_);
     cells_ = gauges_.template cells<Scalar>();
-    if (gauges_.stroke_sd() > 0) limits_.stroke_sd = static_cast<Scalar>(gauges_.stroke_sd());
+    limits_ = limits_.with_stroke_noise(static_cast<Scalar>(gauges_.stroke_sd()));
     return condensing.status;
   }
   // Both estimators go on until they agree; where that has no answer neither has.
   Followed advance_past() {
-    const auto progress = past_begins_ ? past_->start(*condensed_, *knowledge_, limits_, cells_, *readings_)
-                                       : past_->advance(*readings_);
-    past_begins_ = false;
+    const auto progress = past_->advance(*condensed_, *knowledge_, limits_, cells_, *readings_);
     const Followed above = {progress.status, static_cast<double>(progress.fraction)};
     if (!above.whole()) return above;
-    bool is_wiped_out = true;
-    for (const auto& cable : condensed_->cables)
-      is_wiped_out = is_wiped_out && past_->is_wiped_out(*estimator_, cable);
-    if (is_wiped_out) past_.reset();
+    past_->settle(*estimator_);
+    if (!past_->is_unknown()) past_.reset();
     return above;
   }
   void take_gauges(const LogRow& row) {
@@ -160,7 +152,6 @@ class EstimatorModel : public Model {
   std::unique_ptr<EstimatorType> estimator_;
   FrictionBefore before_;
   std::unique_ptr<PastType> past_;  // while it is not known
-  bool past_begins_ = false;
   std::unique_ptr<ReadingsType> readings_;
   double time_ = 0;
   bool has_row_ = false;

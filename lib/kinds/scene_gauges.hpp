@@ -17,6 +17,18 @@ template <class Cap>
 constexpr int most_gauges = 2 * (Cap::cables < 8 ? Cap::cables : 8) +
                             (Cap::segments < 16 ? Cap::segments : 16);
 
+/// The stroke at a jacked end that has one as a measurement, as the scene describes it. What the elongation
+/// of a cable is uncertain by in proportion is that of E A.
+inline LoadCell<double> stroke_cell(const CableDescription& cable, std::size_t end) {
+  LoadCell<double> stroke = load_cell(cable.stroke[end], false);
+  stroke.gain_sd = cable.E_sd;
+  if (cable.stroke[end].has_free_zero) stroke.zero_sd = free_zero<double>;
+  return stroke;
+}
+inline bool has_stroke(const CableDescription& cable, std::size_t end) {
+  return cable.is_jacked(end) && cable.stroke[end].is_given;
+}
+
 /// Strokes, measured forces of segments, gauges of struts: all that the scene or the log has, with a number
 /// each.
 class SceneGauges {
@@ -26,8 +38,7 @@ class SceneGauges {
     for (const CableDescription& cable : scene.cables) {
       std::array<int, 2> strokes{-1, -1};
       for (std::size_t end = 0; end < 2; ++end)
-        if (cable.is_jacked(end) && cable.stroke[end].is_given)
-          strokes[end] = add_stroke(cable.stroke[end], cable.E_sd);
+        if (has_stroke(cable, end)) strokes[end] = add_stroke(cable, end);
       of_stroke_.push_back(strokes);
       std::vector<int> segments;
       for (const InstrumentDescription& force : cable.force)
@@ -44,7 +55,7 @@ class SceneGauges {
     for (const LoadCell<double>& cell : cells_) all.push_back(LoadCell<Scalar>::of(cell));
     return all;
   }
-  /// The largest standard deviation of a stroke's noise [m]; 0 if there is no stroke.
+  /// The largest standard deviation of a stroke's noise that the scene tells [m]; 0 if it tells none.
   double stroke_sd() const { return stroke_sd_; }
   /// Numbers of the instruments, or -1.
   int of_stroke(std::size_t cable, std::size_t end) const { return of_stroke_[cable][end]; }
@@ -56,12 +67,9 @@ class SceneGauges {
     cells_.push_back(cell);
     return static_cast<int>(cells_.size()) - 1;
   }
-  // What the elongation of a cable is uncertain by in proportion is that of E A.
-  int add_stroke(const InstrumentDescription& described, double E_sd) {
-    LoadCell<double> stroke = load_cell(described, false);
-    stroke.gain_sd = E_sd;
-    if (described.has_free_zero) stroke.zero_sd = free_zero<double>;
-    stroke_sd_ = std::max(stroke_sd_, stroke.sd);
+  int add_stroke(const CableDescription& cable, std::size_t end) {
+    const LoadCell<double> stroke = stroke_cell(cable, end);
+    if (!cable.stroke[end].is_assumed) stroke_sd_ = std::max(stroke_sd_, stroke.sd);
     return add(stroke);
   }
 

@@ -24,6 +24,7 @@ struct Alarm {
     unknown_past,    ///< the cable was under load before the first reading, and has not slid enough since
     misfit,  ///< readings at an anchored end are off what the model says for longer than chance allows
     frozen,  ///< a load cell keeps one value although the load moves
+    gain,    ///< the load cells at the anchored end and at the jack of a cable surely differ in gain
   } kind = Kind::outlier;
   std::int16_t cable = -1;  ///< -1: `place` is a strut
   std::int16_t place = -1;  ///< joint or segment of the cable; end 0 or 1
@@ -48,14 +49,23 @@ struct AlarmLimits {
   /// Of a cable at its jack: below, slack and bedding are taken out, and strokes are not compared. A tenth of
   /// what a tendon has when it is tensioned.
   Scalar initial_strain = Scalar(5e-4);
+  Scalar gain =
+      Scalar(0.01);  ///< by which the load cells at both ends of a cable may differ, part of a force
 
   constexpr bool has_force() const { return most_force >= 0 || least_force >= 0; }
+  /// These where strokes have noise of this standard deviation [m]; if it is zero, the usual one.
+  constexpr AlarmLimits with_stroke_noise(Scalar sd) const {
+    AlarmLimits limits = *this;
+    if (sd > 0) limits.stroke_sd = sd;
+    return limits;
+  }
 
   template <class Other>
   static constexpr AlarmLimits of(const AlarmLimits<Other>& other) {
     return {static_cast<Scalar>(other.least_force), static_cast<Scalar>(other.most_force),
             static_cast<Scalar>(other.elongation),  static_cast<Scalar>(other.stroke_sd),
-            static_cast<Scalar>(other.band),        static_cast<Scalar>(other.initial_strain)};
+            static_cast<Scalar>(other.band),        static_cast<Scalar>(other.initial_strain),
+            static_cast<Scalar>(other.gain)};
   }
 };
 

@@ -142,6 +142,7 @@ class Belief {
   Scalar mean(int p) const { return state_.mean[p]; }
   Scalar linearized_at(int p) const { return state_.linearized_at[p]; }
   Scalar variance(int p) const { return state_.covariance[p][p]; }
+  Scalar covariance(int p, int q) const { return state_.covariance[p][q]; }
   /// Variance S P S^T, Eq. (20), of a force whose derivative by unknown `p` is derivative(p). Cost: half the
   /// square of the unknowns in use.
   template <class Derivatives>

@@ -66,7 +66,7 @@ class Estimator : private CondensedType::Capacity::Account {
   using GaugesType = Gauges<Scalar, Further, Cap::cables>;
   using ForceWatchType = ForceWatch<Scalar, Cap::segments>;
   using NoGauges = FixedList<LoadCell<Scalar>, 0>;
-  using Alarms = FixedList<Alarm, 8 + 4 * Cap::cables + Cap::joints + Cap::segments>;
+  using Alarms = FixedList<Alarm, 8 + 5 * Cap::cables + Cap::joints + Cap::segments>;
 
   /// Where the loads are confirmed to have come, while the tracker looks ahead.
   struct Confirmed {
@@ -209,8 +209,10 @@ class Estimator : private CondensedType::Capacity::Account {
       if (drifts(c)) filter_.diffuse(drift_[c], c, readings.dt);
     if (!loads_are_in_doubt() && measure_far_ends(readings)) look_ahead();
     if (has_more) check_jacks(readings);
-    if (!is_friction_fine_ && filter_.belief().has_friction())
-      is_friction_fine_ = check_friction(model().cables, filter_, alarms_);
+    if (!is_belief_fine_ && filter_.belief().has_friction()) {
+      const bool is_friction_fine = check_friction(model().cables, filter_, alarms_);
+      is_belief_fine_ = check_gains(model().cables, filter_, limits_, alarms_) && is_friction_fine;
+    }
     if (limits_.has_force())
       check_forces(
           model().cables, [this](int i) { return force(i); }, [this](int c) { return is_held(c); }, forces_,
@@ -346,7 +348,7 @@ class Estimator : private CondensedType::Capacity::Account {
                const AlarmLimits<Scalar>& limits, const Cells& gauges) {
     limits_ = limits;
     alarms_.clear();
-    is_friction_fine_ = is_ahead_ = misfits_ = false;
+    is_belief_fine_ = is_ahead_ = misfits_ = false;
     forces_.start();
     jacks_.start(condensed, knowledge);
     Status known = filter_.start(condensed, knowledge);
@@ -426,10 +428,11 @@ class Estimator : private CondensedType::Capacity::Account {
     change_branch(k);
     const bool loads_change = jack.frozen >= 0;
     forget_other_loads(k);
+    if (!jack.locked) filter_.come_to_what_is_known(tracker_);
     const int p = next_memory(k);
     if (p < 0) return;
     filter_.remember_reversal(tracker_, p, jacks_.end(k).cable(), jacks_.end(k).end, jack.sd_before);
-    is_friction_fine_ = false;
+    is_belief_fine_ = false;
     if (!loads_change || jack.locked) return;
     jack.frozen = static_cast<std::int16_t>(p);
     tracker_.change_load_error(frozen_error(k));
@@ -464,7 +467,7 @@ class Estimator : private CondensedType::Capacity::Account {
     if (!changes) return forget_other_loads(k);
     jack.frozen = static_cast<std::int16_t>(next_memory(k));
     filter_.remember_load(tracker_, frozen_error(k), jack.come_sd);
-    is_friction_fine_ = false;
+    is_belief_fine_ = false;
   }
   /// Other loads change no longer: what friction remembers stays as it is.
   void forget_other_loads(int k) {
@@ -707,7 +710,7 @@ class Estimator : private CondensedType::Capacity::Account {
   /// What came of so many readings of an instrument; `contradiction` is the alarm if they contradict.
   void note(Update update, const Alarm& contradiction, int readings = 1) {
     if (update == Update::updated) {
-      is_friction_fine_ = false;
+      is_belief_fine_ = false;
       Account::learned(contradiction, readings, filter_);
     } else if (update == Update::contradiction) {
       alarms_.add(contradiction);
@@ -765,7 +768,7 @@ class Estimator : private CondensedType::Capacity::Account {
 
   // What every row needs comes first: instructions reach it directly.
   AlarmLimits<Scalar> limits_;
-  bool is_friction_fine_ = false;  // nothing is odd about what is believed of it
+  bool is_belief_fine_ = false;  // nothing is odd about what is believed of friction and gains
   FarEndsType far_ends_;
   FixedArray<std::int16_t, Cap::cables> drift_;  // unknown strains of cables, or -1
   JacksType jacks_;

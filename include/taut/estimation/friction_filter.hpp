@@ -250,6 +250,17 @@ class FrictionFilter {
     const Scalar missing = sd * sd - belief_.variance(p);
     if (missing > 0) belief_.diffuse(p, missing);
   }
+  /// Brings the tracker to friction as it is known now, if that is elsewhere by more than a tenth of a
+  /// standard deviation: where a jack reverses, when joints slide back depends on it, and not in proportion.
+  /// Cost: at worst that of Tracker::adjust().
+  void come_to_what_is_known(TrackerType& tracker) {
+    bool is_elsewhere = false;
+    for (int p = 0; p < belief_.friction(); ++p) {
+      const Scalar off = belief_.mean(p) - belief_.linearized_at(p);
+      is_elsewhere |= off * off > Scalar(0.01) * belief_.variance(p);
+    }
+    if (is_elsewhere) static_cast<void>(relinearize(tracker, belief_.mean()));
+  }
   /// The jack at this end reverses now or is locked: from here on unknown `p` is the error of its load, with
   /// the standard deviation `sd` [N]. Cost: that of Tracker::turn(), and at worst of Tracker::adjust().
   void remember_reversal(TrackerType& tracker, int p, int cable, std::size_t end, Scalar sd) {
@@ -306,10 +317,13 @@ class FrictionFilter {
   void keep_what_is_known(TrackerType& tracker, int p) {
     if (belief_.mean(p) != belief_.linearized_at(p)) static_cast<void>(relinearize(tracker, belief_.mean()));
   }
-  /// Brings the tracker to these values of the unknowns.
+  /// Brings the tracker to these values of the unknowns. False if it has no state there: then it stays.
   bool relinearize(TrackerType& tracker, const Values& values) {
-    const Values change = belief_.linearize_at(values);
-    return tracker.adjust(friction(tracker.model()), change).ok();
+    const Values before = belief_.save().linearized_at, change = belief_.linearize_at(values);
+    if (tracker.adjust(friction(tracker.model()), change).ok()) return true;
+    static_cast<void>(belief_.linearize_at(before));
+    static_cast<void>(tracker.stay(friction(tracker.model())).ok());
+    return false;
   }
   /// Whether friction of cable `c` matters to the predicted number.
   template <class CableLayout>

@@ -22,6 +22,19 @@ struct Gauge {
 template <class Scalar>
 constexpr Scalar free_zero = std::numeric_limits<Scalar>::infinity();
 
+/// The stroke of a jack as a measurement: how well it is known, in metres, and where it is read. An
+/// aggregate, it can be a constant in flash; a range of them is one of instruments for Estimator::start().
+template <class Scalar>
+struct StrokeGauge : LoadCell<Scalar> {
+  int cable = 0;
+  int end = 0;  ///< as in Readings::ends
+
+  template <class Other>
+  static constexpr StrokeGauge of(const StrokeGauge<Other>& other) {
+    return {LoadCell<Scalar>::of(other), other.cable, other.end};
+  }
+};
+
 /// Measured segment forces, strain gauges of struts and strokes: a reading of what should be y is
 ///     reading = (1 + gain) y + zero + noise,
 /// with gain and zero unknown constants. A LoadCell says how well they are known, for a stroke in metres; its

@@ -1,9 +1,11 @@
-// What is odd about the answers: friction outside of its prior, forces beyond limits.
+// What is odd about the answers: friction outside of its prior, cells that differ, forces beyond limits.
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #include "taut/estimation/alarms.hpp"
+#include "taut/scene/scene.hpp"
 
 namespace taut {
 
@@ -29,6 +31,33 @@ template <class Cables, class FilterType, class Alarms>
       if (shared) break;
     }
   }
+  return is_fine;
+}
+
+/// Raises an alarm for every load cell at an anchored end whose gain differs from that of the jack's cell of
+/// its cable by more than AlarmLimits::gain, surely: by two standard deviations more. Readings show the
+/// difference alone, and only once the cable has slid both ways: else another mu explains it. Returns true if
+/// and only if there is none. Cost: a few operations a cable.
+template <class Cables, class FilterType, class Scalar, class Alarms>
+[[nodiscard]] bool check_gains(const Cables& cables, const FilterType& filter,
+                               const AlarmLimits<Scalar>& limits, Alarms& alarms) {
+  const auto& belief = filter.belief();
+  bool is_fine = true;
+  for (int c = 0; c < cables.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const auto& ends = cables[c].ends;
+      const int far = filter.instruments().at(c, end).gain, jack = filter.instruments().at(c, 1 - end).gain;
+      if (ends[end] != End::anchored || ends[1 - end] != End::jacked || (far < 0 && jack < 0)) continue;
+      const auto mean = [&](int p) { return p < 0 ? Scalar(0) : belief.mean(p); };
+      const auto covariance = [&](int p, int q) {
+        return p < 0 || q < 0 ? Scalar(0) : belief.covariance(p, q);
+      };
+      const Scalar off = std::fabs(mean(far) - mean(jack)), beyond = off - limits.gain,
+                   variance = covariance(far, far) + covariance(jack, jack) - 2 * covariance(far, jack);
+      if (!(beyond > 0 && beyond * beyond > 4 * variance)) continue;
+      is_fine = false;
+      alarms.add(Alarm::of(Alarm::Kind::gain, c, static_cast<int>(end)));
+    }
   return is_fine;
 }
 

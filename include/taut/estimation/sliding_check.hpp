@@ -23,7 +23,7 @@ class SlidingCheck {
     const int first = is_alone ? 0 : cables[c].first_joint;
     const int joints = is_alone ? Cap::joints : cables[c].joints();
     bool sticks = false;
-    for (int j = first; j < first + joints; ++j) sticks |= can_slide_[j] & !tracker.is_at_limit(j);
+    for (int j = first; j < first + joints; ++j) sticks |= can_slide_[j] && !tracker.is_at_limit(j);
     return !sticks;
   }
 

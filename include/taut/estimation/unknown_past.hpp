@@ -2,15 +2,35 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/readings.hpp"
 #include "taut/numerics/larger.hpp"
 #include "taut/scene/fixed_list.hpp"
+#include "taut/scene/path.hpp"
+#include "taut/scene/sample.hpp"
 #include "taut/scene/scene.hpp"
 #include "taut/tracking/tracker.hpp"
 
 namespace taut {
+
+/// Whether some jack pulls in these readings: more than five standard deviations of the zero and the noise of
+/// its load cell, which it would not say without load, and not more than the cable can carry. A jack that is
+/// not read pulls nothing. For who has nothing but the first row to tell whether cables were under load
+/// before.
+template <class CondensedType, class KnowledgeType, class Readings>
+bool is_under_load(const CondensedType& condensed, const KnowledgeType& knowledge, const Readings& readings) {
+  bool pulls = false;
+  for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) {
+    const auto& given = readings.ends[c][end];
+    const auto& cell = knowledge.cell[c][end];
+    const auto least = 5 * std::sqrt(cell.zero_sd * cell.zero_sd + cell.sd * cell.sd);
+    pulls |= given.has_force && given.force > least && given.force <= condensed.most_force[c];
+  });
+  return pulls;
+}
 
 /// Beside an Estimator whose loads came up from zero, a second one whose loads came down from so high that
 /// every joint slid back: between the two lie the forces of every past of the jacks, for a joint's clamp
@@ -18,56 +38,130 @@ namespace taut {
 /// structure the springs between segments make it an approximation. As cables slide, both come together;
 /// until then neither may learn from other readings than those of jacks, see withhold(). A past of load
 /// patterns is not covered: their factors are taken to have been there. Costs what a second Estimator does.
+///
+/// A row: withhold(), advance() of the other estimator and of this, and settle() when both came to the end of
+/// the row. `below` is always the other estimator. Between two rows, phase() and save() are all that
+/// restore() needs.
 template <class EstimatorType>
 class UnknownPast {
  public:
   using Scalar = typename EstimatorType::Scalar;
+  using Cap = typename EstimatorType::Cap;
   using Readings = typename EstimatorType::ReadingsType;
+  using State = typename EstimatorType::State;
 
-  /// Begins at the loads of the first readings, from above. Fails as Estimator::start() and come_down() do.
-  template <class CondensedType, class KnowledgeType, class Limits, class Cells>
-  Progress<Scalar> start(const CondensedType& condensed, const KnowledgeType& knowledge, const Limits& limits,
-                         const Cells& gauges, const Readings& first) {
-    const Progress<Scalar> progress = above_.start(condensed, knowledge, limits, gauges);
-    if (!progress.status) return progress;
-    return above_.come_down(first);
+  enum class Phase : std::uint8_t {
+    unread,  ///< no row has been seen
+    begins,  ///< it is not known; the estimator from above has yet to begin
+    open,    ///< it is not known; both go on
+    known    ///< there was none, or it is wiped out
+  };
+
+  // What is known of it.
+
+  /// Begins anew, before the first row.
+  void reset() { phase_ = Phase::unread; }
+  /// Before the first row: cables are under load in it.
+  void forget() { phase_ = Phase::begins; }
+  /// Before every row: of the first one, is_under_load() decides.
+  template <class CondensedType, class KnowledgeType>
+  void look(const CondensedType& condensed, const KnowledgeType& knowledge, const Readings& readings) {
+    if (phase_ != Phase::unread) return;
+    phase_ = is_under_load(condensed, knowledge, readings) ? Phase::begins : Phase::known;
   }
-  /// Follows a row that the other estimator follows, too. Fails as Estimator::advance() does.
-  Progress<Scalar> advance(const Readings& readings) { return above_.advance(readings); }
-  /// The readings without those of load cells at anchored ends, and of strokes: how one grows depends on
-  /// which joints stick, and so on the past.
+  /// Whether forces still depend on a past that is not known.
+  bool is_unknown() const { return phase_ == Phase::begins || phase_ == Phase::open; }
+  Phase phase() const { return phase_; }
+  /// Whether there is something to save().
+  static constexpr bool has_above(Phase phase) { return phase == Phase::open; }
+
+  // A row of readings.
+
+  /// Leaves out what neither estimator may learn from while the past is not known: load cells at anchored
+  /// ends, and strokes: how one grows depends on which joints stick, and so on the past.
   template <class CondensedType>
-  static void withhold(const CondensedType& condensed, Readings& readings) {
+  void withhold(const CondensedType& condensed, Readings& readings) const {
+    if (!is_unknown()) return;
     for (int c = 0; c < condensed.cables.size(); ++c)
       for (std::size_t end = 0; end < 2; ++end) {
         readings.ends[c][end].has_stroke = false;
         if (condensed.cables[c].ends[end] != End::jacked) readings.ends[c][end].has_force = false;
       }
   }
+  /// Follows a row that the other estimator follows, too; the first one from above. The arguments are those
+  /// of Estimator::start() and advance(). Fails as start(), come_down() and advance() do.
+  template <class CondensedType, class KnowledgeType, class Limits, class Gauges>
+  Progress<Scalar> advance(const CondensedType& condensed, const KnowledgeType& knowledge,
+                           const Limits& limits, const Gauges& gauges, const Readings& readings,
+                           int event_budget = EstimatorType::TrackerType::default_budget) {
+    if (phase_ == Phase::open) return above_.advance(readings, event_budget);
+    Progress<Scalar> progress = above_.start(condensed, knowledge, limits, gauges);
+    if (progress.status) progress = above_.come_down(readings);
+    if (progress.status) phase_ = Phase::open;
+    return progress;
+  }
+  /// At the end of a row: nothing is unknown any more once both agree everywhere.
+  void settle(const EstimatorType& below) {
+    bool is_all = phase_ == Phase::open;
+    if (!is_all) return;
+    for (const auto& cable : model().cables) is_all = is_all && is_wiped_out(below, cable);
+    if (is_all) phase_ = Phase::known;
+  }
+
+  // The answers.
 
   /// The middle of all that a force can be, with the deviation whose 95 % interval holds the intervals of
-  /// both. `below` is the other estimator.
+  /// both.
   ForceEstimate<Scalar> estimate(const EstimatorType& below, int segment) const {
     constexpr Scalar interval = Scalar(1.96);
-    const ForceEstimate<Scalar> a = below.estimate(segment), b = above_.estimate(segment);
+    const ForceEstimate<Scalar> a = below.estimate(segment);
+    if (phase_ != Phase::open) return a;
+    const ForceEstimate<Scalar> b = above_.estimate(segment);
     const Scalar least =
                      larger(-larger(-(a.force - interval * a.deviation), -(b.force - interval * b.deviation)),
                             Scalar(0)),
                  most = larger(a.force + interval * a.deviation, b.force + interval * b.deviation);
     return {(least + most) / 2, (most - least) / (2 * interval)};
   }
-  /// Whether both agree in all segments of a cable: within a fifth of their deviation, or by rounding.
+  /// Puts these tensions, and what follows from them, into a response of the other estimator.
+  void respond(const EstimatorType& below, Response<Scalar, Cap>& response) const {
+    if (phase_ != Phase::open) return;
+    for (int i = 0; i < model().segments; ++i) response.tension[i] = estimate(below, i).force;
+    model().resolve_joints(response);
+  }
+  /// Whether the forces of a cable depend on no past: both agree in all of its segments, within a fifth of
+  /// their deviation or by rounding.
   template <class CableLayout>
   bool is_wiped_out(const EstimatorType& below, const CableLayout& cable) const {
+    if (phase_ != Phase::open) return phase_ != Phase::begins;
     for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i) {
       const ForceEstimate<Scalar> a = below.estimate(i), b = above_.estimate(i);
       if (std::fabs(a.force - b.force) > Scalar(0.2) * a.deviation + Scalar(1e-5) * a.force) return false;
     }
     return true;
   }
+  /// The estimator from above, while there is one.
+  const EstimatorType& above() const { return above_; }
+
+  // Saving.
+
+  /// Of the estimator from above, between two rows. Cost: a copy.
+  State save() const { return above_.save(); }
+  /// Goes on in this phase where save() was called; `state` counts only if has_above(phase). Fails as
+  /// Estimator::restore() does.
+  template <class CondensedType, class KnowledgeType, class Limits, class Gauges>
+  Status restore(Phase phase, const State& state, const CondensedType& condensed,
+                 const KnowledgeType& knowledge, const Limits& limits, const Gauges& gauges) {
+    phase_ = phase;
+    if (!has_above(phase)) return Status::success();
+    return above_.restore(condensed, knowledge, state, limits, gauges);
+  }
 
  private:
+  const auto& model() const { return above_.tracker().model(); }
+
   EstimatorType above_;
+  Phase phase_ = Phase::unread;
 };
 
 }  // namespace taut

@@ -168,20 +168,35 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
 
   /// Brings the present state to what it would be had the friction been `friction(joint)` all along, to first
   /// order; `change` is by how much each unknown differs. Joints that come to lie outside of their cone are
-  /// put on its edge. Fails with `mechanism`; then only start() may follow. Cost: that of one event, and of
-  /// one more for every joint on the edge.
+  /// put on its edge. Fails with `mechanism` where joints on their edges leave a node free; then only stay()
+  /// may follow. Cost: that of one event, and of one more for every joint on the edge.
   template <class Friction, class Changes>
   Status adjust(const Friction& friction, const Changes& change) {
+    // What changed in this row may have dropped it; before anything has moved there is none.
+    const bool has_map = cables_.state.has_map || make_map_anew();
     depend(friction);
-    if (!cables_.state.has_map) return Status::success();
+    if (!has_map) return Status::success();
     cables_.freeze();
+    const auto before = cables_.state;
     cables_.derivatives.for_each([&](const auto& derivative, int p) { shift(derivative, change[p]); });
     for (int count = 0; count <= cables_.joints(); ++count) {
-      if (!make_map_anew()) return cables_.at_joint(Code::mechanism, -1);
+      if (!make_map_anew()) {
+        cables_.state = before;
+        return cables_.at_joint(Code::mechanism, -1);
+      }
       if (!put_on_edge()) break;
     }
     for (int i = 0; i < cables_.model->segments; ++i)
       cables_.state.peak = larger(cables_.state.peak, std::fabs(cables_.force[i]));
+    samples_.refresh(cables_);
+    return Status::success();
+  }
+  /// After adjust() failed, with the friction of before: goes on from where it was. Fails with `mechanism`;
+  /// then only start() may follow. Cost: that of one event.
+  template <class Friction>
+  Status stay(const Friction& friction) {
+    depend(friction);
+    if (!make_map_anew()) return cables_.at_joint(Code::mechanism, -1);
     samples_.refresh(cables_);
     return Status::success();
   }
