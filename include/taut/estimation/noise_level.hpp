@@ -30,11 +30,11 @@ class NoiseLevel {
   /// Readings scatter at least by `sd`.
   void start(Scalar sd) {
     *this = NoiseLevel();
-    said_ = neighbours_.sd = distant_.sd = sd;
+    said_ = neighbours_.sd = beside_.sd = distant_.sd = sd;
   }
   /// The standard deviation of white noise that averages out as slowly as this noise, and scatters no less.
   Scalar sd() const {
-    const Scalar near = larger(neighbours_.sd, least * said_),
+    const Scalar near = larger(larger(neighbours_.sd, beside_.sd), least * said_),
                  white = neighbours_.exceeds(said_, 4) ? neighbours_.sd : said_;
     if (distant_.learned < few || !distant_.exceeds(near, 6)) return white;
     const Scalar r = -larger(-distant_.sd / near, -most_remembered);
@@ -55,8 +55,10 @@ class NoiseLevel {
       count_ = 0;
       bend();
     }
-    if (count_ == 2)
-      neighbours_.follow(std::fabs(reading - 2 * last_ + before_) * to_sd);
+    const Scalar of_neighbours = std::fabs(reading - 2 * last_ + before_) * to_sd;
+    const bool has_neighbours = count_ == 2;
+    if (has_neighbours)
+      neighbours_.follow(of_neighbours);
     else
       ++count_;
     before_ = last_;
@@ -65,10 +67,12 @@ class NoiseLevel {
     span_ += dt;
     if (++strides_ < fewest || (span_ < stride && strides_ < most)) return false;
     strides_ = 0;
-    if (kept_ == 4)
+    if (kept_ == 4 && has_neighbours) {
+      beside_.follow(of_neighbours);
       distant_.follow(std::fabs(reading - 2 * at_[1] + at_[3]) * to_sd);
-    else
+    } else if (kept_ < 4) {
       ++kept_;
+    }
     at_ = {reading, at_[0], at_[1], at_[2]};
     return true;
   }
@@ -98,7 +102,9 @@ class NoiseLevel {
     }
   };
 
-  Level neighbours_, distant_;
+  // Those beside are the neighbours where readings far apart are compared: a scatter that ceases is not taken
+  // for memory while the two follow it at different paces.
+  Level neighbours_, distant_, beside_;
   Scalar said_ = 0, dt_ = 0, last_ = 0, before_ = 0, span_ = 0;
   std::array<Scalar, 4> at_{};  // kept readings, the newest first
   std::int8_t count_ = 0, kept_ = 0;
