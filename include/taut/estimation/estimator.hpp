@@ -275,12 +275,6 @@ class Estimator : private CondensedType::Capacity::Account {
                Alarm::of(Alarm::Kind::segment, c, segment - model().cables[c].first_segment));
   }
   const GaugesType& gauges() const { return gauges_; }
-  /// The best estimate of what a gauge reads where there is nothing: a free zero with the mark that it was
-  /// read from.
-  Scalar zero(Gauge gauge) const {
-    const int p = gauges_.unknowns(gauge).zero;
-    return gauges_.mark(gauge) + (p < 0 ? Scalar(0) : filter_.belief().mean(p));
-  }
 
   // The answers.
 
