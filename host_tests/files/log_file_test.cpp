@@ -196,6 +196,128 @@ TEST_CASE(
         "kept");
 }
 
+TEST_CASE("units in the header make SI of what is below it, by the bits of the same number in SI") {
+  const auto given = rows(
+      "time [min],C.start [kN],C.end[MN],C.start.stroke [mm],C.T1 [ lbf ],Fy [%]\n"
+      "1.5,33.35,0.03335,8.7,1000,150\n");
+  CHECK(given[0].time == 90);
+  CHECK(given[0].cables[0][0].force == 33350);
+  CHECK(given[0].cables[0][1].reading == 33350.0);
+  CHECK(given[0].cables[0][0].stroke == 0.0087);
+  CHECK(given[0].forces[0].reading == doctest::Approx(4448.2216152605).epsilon(1e-15));
+  CHECK(given[0].factor[0] == 1.5);
+}
+
+TEST_CASE("a unit moves the decimal point of numbers with an exponent, also to where they are too small") {
+  const auto read = rows("time [ms],C.start [kN]\n1e3,1.5e-3\n2E+3,15e-4\n3000,0e400\n");
+  CHECK(read[0].time == 1);
+  CHECK(read[1].time == 2);
+  CHECK(read[0].cables[0][0].force == 1.5);
+  CHECK(read[1].cables[0][0].force == 1.5);
+  CHECK(read[2].cables[0][0].force == 0);
+  CHECK(refusal("time [ms]\n4.9e-324\n").find("is too large or too small") != std::string::npos);
+}
+
+TEST_CASE("hours, days, centimetres, inches, feet and kips are what they are said to be") {
+  CHECK(rows("time [h]\n2\n")[0].time == 7200);
+  CHECK(rows("time [d]\n0.5\n")[0].time == 43200);
+  const auto stroke = [](const std::string& unit) {
+    return *rows("time,C.start.stroke [" + unit + "]\n0,3\n")[0].cables[0][0].stroke;
+  };
+  CHECK(stroke("m") == 3);
+  CHECK(stroke("cm") == 0.03);
+  CHECK(stroke("in") == doctest::Approx(0.0762).epsilon(1e-15));
+  CHECK(stroke("ft") == doctest::Approx(0.9144).epsilon(1e-15));
+  CHECK(rows("time,C.start [kip]\n0,2\n")[0].cables[0][0].force ==
+        doctest::Approx(8896.443230521).epsilon(1e-15));
+}
+
+TEST_CASE("a calibrated column keeps its own unit, whatever it is called") {
+  const SceneDescription described = read_scene(R"({ "taut": 1, "name": "n", "dimension": 2,
+    "nodes": { "a": [0, 0], "b": [1, 0] },
+    "cables": [ { "name": "C", "path": ["a", "b"], "E": 1, "A": 1, "start": "jacked", "end": "anchored" } ],
+    "sensors": { "C.start": { "calibration": [[0, 0], [10, 2000]] } } })",
+                                                "f");
+  for (const std::string unit : {"", " [bar]", " [kN]"}) {
+    std::istringstream stream("time,C.start" + unit + "\n0,5\n");
+    LogReader reader(stream, "log", described, {});
+    LogRow row = reader.first_row();
+    REQUIRE(reader.next(row));
+    CHECK(row.cables[0][0].force == 1000);
+  }
+}
+
+TEST_CASE("a load pattern may have brackets in its name") {
+  const SceneDescription described = read_scene(R"({ "taut": 1, "name": "n", "dimension": 2,
+    "nodes": { "a": [0, 0] }, "loads": { "snow [kN]": {} } })",
+                                                "f");
+  std::istringstream stream("time,snow [kN]\n0,5\n");
+  LogReader reader(stream, "log", described, {});
+  LogRow row = reader.first_row();
+  REQUIRE(reader.next(row));
+  CHECK(row.factor[0] == 5);
+}
+
+TEST_CASE("semicolons separate fields, and numbers may then have decimal commas") {
+  const auto read = rows("time;Fy;C.start\n0,5;-1,25e3;\n1.5;2;7,5\n;;\n");
+  REQUIRE(read.size() == 2);
+  CHECK(read[0].time == 0.5);
+  CHECK(read[0].factor[0] == -1250);
+  CHECK(read[1].time == 1.5);
+  CHECK(read[1].cables[0][0].force == 7.5);
+}
+
+TEST_CASE("tabs separate fields, and an empty one between them is empty") {
+  const auto read = rows("time\tFy\tC.start\n0\t2\t\n1\t\t 5 \n");
+  CHECK(read[0].factor[0] == 2);
+  CHECK(read[1].factor[0] == 2);
+  CHECK(read[1].cables[0][0].force == 5);
+}
+
+TEST_CASE("lines that begin with # count for nothing but the numbers of lines") {
+  const auto read = rows(
+      "\xEF\xBB\xBF# made by hand, 2026; \"with quotes\n\ntime,Fy\n# zero\n0,1\n  # one\n"
+      "\"# two, in a spreadsheet\"\n1,2\n#\n\n# end\n");
+  REQUIRE(read.size() == 2);
+  CHECK(read[0].line == 5);
+  CHECK(read[1].line == 8);
+  CHECK(refusal("time,Fy\n0,1\n\n# a remark\n1,2\n").find("log: line 3: the line is blank") == 0);
+}
+
+TEST_CASE("rows of nothing but separators at the end do not count") {
+  CHECK(rows("time,Fy\n0,1\n,\n , \n").size() == 1);
+}
+
+TEST_CASE("dates and times count in seconds from the first row") {
+  const auto read = rows("time\n2026-02-28T23:59:59.7\n2026-03-01 00:00\n\"2026-03-01T01:00:00,25\"\n");
+  CHECK(read[0].time == 0);
+  CHECK(read[1].time == 0.3);
+  REQUIRE(read.size() == 3);
+  CHECK(read[2].time == 3600.55);
+  // A leap year, and the days of a century without one.
+  CHECK(rows("time\n2024-02-28\n2024-03-01\n")[1].time == 2 * 86400);
+  CHECK(rows("time\n1899-12-31\n2000-01-01\n")[1].time == (100 * 365 + 24 + 1) * 86400.0);
+}
+
+TEST_CASE("offsets from UTC are taken off, as when clocks are put forward") {
+  const auto read = rows(
+      "time\n2026-03-29T01:59:00+01:00\n2026-03-29T03:00:00+0200\n2026-03-29T01:02:00Z\n"
+      "2026-03-28T22:03:00-03\n");
+  CHECK(read[1].time == 60);
+  CHECK(read[2].time == 180);
+  CHECK(read[3].time == 240);
+}
+
+TEST_CASE("what no clock shows is no date and time") {
+  for (const char* const text :
+       {"2026-00-01T00:00", "2026-13-01T00:00", "2026-04-31T00:00", "2026-04-30T24:00", "2026-04-30T10:60",
+        "2026-04-30T10:00:60", "2026-04-30T10", "2026-04-30T10:00:00.", "2026-04-30T10:00:00+25:00",
+        "2026-04-30T10:00:00 o'clock", "2026-4-30", "0000-01-01"})
+    CHECK_MESSAGE(
+        refusal("time\n" + std::string(text) + "\n").find("is not a date and time") != std::string::npos,
+        text);
+}
+
 TEST_CASE("a line without end is refused before it takes all memory") {
   CHECK(refusal("time\n" + std::string(2000000, '1')) ==
         "log: line 2: the line is longer than 1 MiB; write one line a row");

@@ -95,6 +95,7 @@ std::string LogFollower::follow(const RowVisitor& visit) {
   if (begun_) {
     row.factor = begun_->factor;
     row.cables = begun_->cables;
+    log.count_from(begun_->origin);
     verdict_ = Verdict(begun_->raised);
   }
   Answer answer;
@@ -110,6 +111,7 @@ std::string LogFollower::follow(const RowVisitor& visit) {
     progress.reach(row.row);
   }
   last_ = row;
+  origin_ = log.origin();
   return "";
 }
 
@@ -124,6 +126,7 @@ void LogFollower::keep_state() const {
   state.scalar = name_of(options_.numbers.scalar);
   state.assumed = assumptions(scene_);
   state.time = last_.time;
+  state.origin = origin_;
   state.factor = last_.factor;
   state.cables = last_.cables;
   state.raised = verdict_.memory();

@@ -64,6 +64,7 @@ class LogFollower {
   std::optional<SavedState> begun_;  // with the log before
   Verdict verdict_;
   LogRow last_;
+  std::optional<Moment> origin_;  // of its time
   std::vector<std::string> remarks_;
 };
 

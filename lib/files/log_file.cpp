@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 #include <istream>
+#include <limits>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -19,12 +21,32 @@ namespace {
 constexpr std::size_t longest_line = std::size_t{1} << 20;
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
-
 std::string_view trimmed(std::string_view text) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
   return text;
+}
+
+// In quotes where a spreadsheet has seen a separator in it.
+bool is_remark(std::string_view line) {
+  line = trimmed(line);
+  return line.substr(0, 1) == "#" || line.substr(0, 2) == "\"#";
+}
+
+const char* name_of(char separator) {
+  return separator == ',' ? "comma" : separator == ';' ? "semicolon" : "tab";
+}
+
+bool is_force(Quantity quantity) {
+  return quantity == Quantity::force || quantity == Quantity::segment_force ||
+         quantity == Quantity::strut_force;
+}
+
+const InstrumentDescription& gauge_of(const LogColumn& column, const SceneDescription& scene) {
+  if (column.quantity == Quantity::strut_force) return scene.struts[column.index].gauge;
+  const CableDescription& cable = scene.cables[column.index];
+  return column.quantity == Quantity::force ? cable.cell[column.end] : cable.force[column.end];
 }
 
 bool is_utf16(std::string_view text) {
@@ -67,10 +89,46 @@ bool LogReader::read_line() {
     text_ += static_cast<char>(byte);
   }
   if (!text_.empty() && text_.back() == '\r') text_.pop_back();
+  if (line_ == 1) {
+    if (is_utf16(text_)) refuse("the file is UTF-16", "save it as UTF-8 text");
+    if (text_.compare(0, byte_order_mark.size(), byte_order_mark) == 0)
+      text_.erase(0, byte_order_mark.size());
+  }
   return any;
 }
 
-// Splits the line at its commas, minding quotes.
+// The next line that is no remark.
+bool LogReader::read_line_with_content() {
+  while (read_line())
+    if (!is_remark(text_)) return true;
+  return false;
+}
+
+// Where tabs separate fields they are not blanks.
+bool LogReader::is_blank(char c) const { return c == ' ' || (c == '\t' && separator_ != '\t'); }
+
+// Spreadsheets leave rows of separators.
+bool LogReader::is_blank_row() const {
+  return std::all_of(text_.begin(), text_.end(),
+                     [&](char c) { return c == ' ' || c == '\t' || c == separator_; });
+}
+
+// Commas can be in no name, so one of them in the header settles it; tabs beside others are blanks.
+void LogReader::find_separator() {
+  bool in_quotes = false;
+  std::string outside;
+  for (const char c : trimmed(text_)) {
+    if (c == '"') in_quotes = !in_quotes;
+    if (!in_quotes) outside += c;
+  }
+  for (const char separator : {',', ';', '\t'})
+    if (outside.find(separator) != std::string::npos) {
+      separator_ = separator;
+      return;
+    }
+}
+
+// Splits the line at its separators, minding quotes.
 void LogReader::split() {
   fields_.clear();
   std::string_view rest = text_;
@@ -92,13 +150,15 @@ void LogReader::split() {
       if (at >= rest.size()) refuse_field(column, "the quotes are not closed", "close them on the same line");
       rest.remove_prefix(at + 1);
       while (!rest.empty() && is_blank(rest.front())) rest.remove_prefix(1);
-      if (!rest.empty() && rest.front() != ',') {
-        refuse_field(column, "there is text after the closing quote", "put a comma after it");
+      if (!rest.empty() && rest.front() != separator_) {
+        refuse_field(column, "there is text after the closing quote",
+                     std::string("put a ") + name_of(separator_) + " after it");
       }
       field = trimmed(std::string(field));
     } else {
-      field = trimmed(rest.substr(0, rest.find(',')));
-      rest.remove_prefix(std::min(rest.find(','), rest.size()));
+      const std::size_t length = std::min(rest.find(separator_), rest.size());
+      field = trimmed(rest.substr(0, length));
+      rest.remove_prefix(length);
     }
     more = !rest.empty();
     if (more) rest.remove_prefix(1);
@@ -106,24 +166,43 @@ void LogReader::split() {
 }
 
 void LogReader::read_header() {
-  if (!read_line())
+  bool is_there = read_line_with_content();
+  while (is_there && trimmed(text_).empty()) is_there = read_line_with_content();
+  if (!is_there) {
+    line_ = 1;
     refuse("the log is empty", "write a header, \"time\" and further columns, and rows below it");
-  if (is_utf16(text_)) refuse("the file is UTF-16", "save it as UTF-8 text");
-  if (text_.compare(0, byte_order_mark.size(), byte_order_mark) == 0) text_.erase(0, byte_order_mark.size());
+  }
+  find_separator();
   split();
   const std::vector<std::string> header = fields_;
   for (std::size_t i = 0; i < header.size(); ++i) {
-    const LogColumn column = known_column(i, header[i]);
-    const auto twin = std::find(names_.begin(), names_.end(), header[i]);
+    // A name with brackets of its own is not taken apart.
+    const NameWithUnit field =
+        known_.find(header[i]) != nullptr ? NameWithUnit{header[i], "", false} : split_unit(header[i]);
+    const LogColumn column = known_column(i, field.name);
+    const auto twin = std::find(names_.begin(), names_.end(), field.name);
     if (twin != names_.end()) {
       const std::string first = std::to_string(twin - names_.begin() + 1);
-      refuse_field(i, "the column " + quote(header[i]) + " is there twice, first as column " + first,
+      refuse_field(i, "the column " + quote(field.name) + " is there twice, first as column " + first,
                    "remove one of the two");
     }
-    names_.push_back(header[i]);
+    if (column.quantity == Quantity::time) time_column_ = i;
+    units_.push_back(known_unit(i, column, field));
+    names_.push_back(field.name);
     columns_.push_back(column);
   }
   if (!has("time")) refuse("there is no column \"time\"", "add one, in seconds");
+}
+
+const LogUnit& LogReader::known_unit(std::size_t i, const LogColumn& column,
+                                     const NameWithUnit& field) const {
+  static const LogUnit its_own;
+  // Its table makes forces of what the gauge shows, in whatever unit.
+  if (!field.has_unit || (is_force(column.quantity) && !gauge_of(column, scene_).calibration.empty()))
+    return its_own;
+  if (const LogUnit* unit = find_unit(column.quantity, field.unit)) return *unit;
+  refuse_field(i, "the unit " + quote(field.unit) + " of column " + quote(field.name) + " is not known",
+               "write one of " + known_units(column.quantity) + ", or none for the first of these");
 }
 
 LogColumn LogReader::known_column(std::size_t i, const std::string& name) const {
@@ -140,10 +219,9 @@ LogColumn LogReader::known_column(std::size_t i, const std::string& name) const 
 }
 
 void LogReader::refuse_unknown_column(std::size_t i, const std::string& name) const {
-  if (name.find(';') != std::string::npos) {
-    refuse_field(i, "the columns are separated by semicolons",
-                 "separate them by commas, with decimal points");
-  }
+  if (separator_ == ',' && name.find(';') != std::string::npos)
+    refuse_field(i, "columns are separated by commas and by semicolons",
+                 "use one of the two, in the whole log");
   for (const CableDescription& cable : scene_.cables) {
     if (cable.closed && name.compare(0, cable.name.size() + 1, cable.name + ".") == 0) {
       refuse_field(i, "cable " + quote(cable.name) + " is closed and has no ends", "remove the column");
@@ -166,11 +244,11 @@ LogRow LogReader::first_row() const {
 bool LogReader::next(LogRow& row) {
   std::size_t blank_line = 0;
   while (true) {
-    if (!read_line()) {
+    if (!read_line_with_content()) {
       if (rows_ == 0) refuse("the log has no rows", "write at least one below the header");
       return false;
     }
-    if (!trimmed(text_).empty()) break;
+    if (!is_blank_row()) break;
     if (blank_line == 0) blank_line = line_;
   }
   if (blank_line != 0) {
@@ -180,9 +258,12 @@ bool LogReader::next(LogRow& row) {
   split();
   if (fields_.size() != columns_.size()) {
     refuse("the row has " + counted(fields_.size(), "field") + " under " + counted(columns_.size(), "column"),
-           "write one field a column, with decimal points and commas between them");
+           separator_ == ','
+               ? "write one field a column, with decimal points and commas between them"
+               : std::string("write one field a column, with ") + name_of(separator_) + "s between them");
   }
   const double time_before = row.time;
+  const std::string time_text_before = std::exchange(time_text_, fields_[time_column_]);
   row.row = ++rows_;
   row.line = line_;
   for (auto& cable : row.cables) {
@@ -190,23 +271,49 @@ bool LogReader::next(LogRow& row) {
   }
   row.forces.clear();
   for (std::size_t i = 0; i < columns_.size(); ++i) take(i, row);
-  if (rows_ > 1) check_time(row.time, time_before);
+  if (rows_ > 1) check_time(row.time, time_before, time_text_before);
   check_jacks(row);
   return true;
 }
 
-void LogReader::check_time(double time, double before) const {
+void LogReader::check_time(double time, double before, const std::string& before_text) const {
   if (time > before && time - before >= rules_.shortest_step) return;
-  const auto column =
-      static_cast<std::size_t>(std::find(names_.begin(), names_.end(), "time") - names_.begin());
-  const std::string found = "the time " + plain(time);
+  // In seconds as it is counted, else as it is written.
+  const LogUnit& unit = units_[time_column_];
+  const bool is_counted = !has_dates_ && unit.decimals == 0 && unit.factor == 1;
+  const std::string found = "the time " + (is_counted ? plain(time) : time_text_),
+                    last = is_counted ? plain(before) : before_text;
   if (time > before)
-    refuse_field(column,
-                 found + " is less than " + plain(rules_.shortest_step) + " s after " + plain(before) +
-                     " of the row before",
-                 "give the time in seconds");
-  refuse_field(column, found + " is not after " + plain(before) + " of the row before",
+    refuse_field(
+        time_column_,
+        found + " is less than " + plain(rules_.shortest_step) + " s after " + last + " of the row before",
+        is_counted ? "give the time in seconds" : "let the time increase from row to row");
+  refuse_field(time_column_, found + " is not after " + last + " of the row before",
                "let the time increase from row to row");
+}
+
+// Seconds; of dates, from the first one on.
+double LogReader::read_time(std::size_t i) {
+  const std::string& text = fields_[i];
+  if (rows_ == 1) has_dates_ = is_like_date(text);
+  if (has_dates_ != is_like_date(text) && (has_dates_ || rows_ > 1))
+    refuse_field(i,
+                 quote(text) + (has_dates_ ? " is no date and time, as the first row has"
+                                           : " is a date and time, where the first row has a number"),
+                 "write all times in one way");
+  if (!has_dates_) return number(i);
+  const std::optional<Moment> moment = read_moment(text);
+  if (!moment)
+    refuse_field(i, quote(text) + " is not a date and time",
+                 "write one such as 2026-03-01T10:00:00, with Z or an offset such as +02:00 after it where "
+                 "it is known");
+  if (!origin_) origin_ = moment;
+  if (origin_->has_zone != moment->has_zone)
+    refuse_field(i,
+                 quote(text) + (moment->has_zone ? " has an offset from UTC, those before have none"
+                                                 : " has no offset from UTC, those before have one"),
+                 "write it everywhere or nowhere");
+  return seconds_between(*origin_, *moment);
 }
 
 // Puts a field where it belongs. An empty one keeps what was there.
@@ -217,7 +324,7 @@ void LogReader::take(std::size_t i, LogRow& row) {
     return;
   }
   if (column.quantity == Quantity::time) {
-    row.time = number(i);
+    row.time = read_time(i);
     return;
   }
   if (column.quantity == Quantity::factor) {
@@ -271,15 +378,24 @@ void LogReader::take_factor(std::size_t i, double& factor) {
 
 double LogReader::number(std::size_t i) const {
   const std::string& text = fields_[i];
+  std::string digits = text;
+  // With both it is one of thousands.
+  if (separator_ == ';' && digits.find('.') == std::string::npos && digits.find(',') != std::string::npos)
+    digits[digits.find(',')] = '.';
   double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc::result_out_of_range) {
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool is_whole = end == digits.data() + digits.size();
+  if (error == std::errc() && is_whole && std::isfinite(value)) {
+    value = in_si(i, value, digits);
+  } else if (error != std::errc::result_out_of_range) {
+    const bool is_time = i == time_column_ && i < columns_.size();
+    refuse_field(i, quote(text) + " is not a number",
+                 is_time ? "write a plain decimal such as 1.5, or a date and time such as 2026-03-01T10:00:00"
+                         : "write a plain decimal such as -1.5 or 2e3, or leave it empty");
+  }
+  if (error == std::errc::result_out_of_range || !std::isfinite(value)) {
     refuse_field(i, "the number " + quote(text) + " is too large or too small",
                  "write one between 1e-307 and " + plain(largest_input) + " in size, or 0");
-  }
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-    refuse_field(i, quote(text) + " is not a number",
-                 "write a plain decimal such as -1.5 or 2e3, or leave it empty");
   }
   // What the cables can carry is asked later, by name.
   const LogColumn* const column = i < columns_.size() ? &columns_[i] : nullptr;
@@ -292,6 +408,23 @@ double LogReader::number(std::size_t i) const {
                  "write one of at most " + plain(largest_input) + " in size");
   }
   return value;
+}
+
+// A number in SI units; a NaN where it is too large or too small.
+double LogReader::in_si(std::size_t i, double value, const std::string& digits) const {
+  const LogUnit& unit = units_[i];
+  if (unit.decimals == 0 || value == 0) return value * unit.factor;
+  // The point is moved in the text, so that nothing is rounded twice.
+  const std::size_t letter = std::min(digits.find_first_of("eE"), digits.size());
+  int exponent = 0;
+  if (letter < digits.size()) {
+    const std::size_t from = letter + (digits[letter + 1] == '+' ? 2 : 1);
+    std::from_chars(digits.data() + from, digits.data() + digits.size(), exponent);
+  }
+  const std::string moved = digits.substr(0, letter) + "e" + std::to_string(exponent + unit.decimals);
+  double shifted = 0;
+  const auto error = std::from_chars(moved.data(), moved.data() + moved.size(), shifted).ec;
+  return error == std::errc() ? shifted * unit.factor : std::numeric_limits<double>::quiet_NaN();
 }
 
 // A jack can only pull, and no more than the cable carries. What counts is the force while the end is not
@@ -307,10 +440,12 @@ void LogReader::check_jacks(const LogRow& row) const {
     const std::string force =
         "the jack force " + plain(end.force) + (end.reading ? "" : " from a row before");
     if (end.force < 0) refuse_field(i, force + " is below zero", "write zero or more: a jack can only pull");
-    if (!rules_.is_possible_force(column.index, end.force))
-      refuse_field(
-          i, force + " is more than cable " + quote(cable.name) + " can carry, a tenth of its E A",
-          "write a force in N below " + plain(rules_.most_force[column.index]) + ": is the unit wrong?");
+    if (rules_.is_possible_force(column.index, end.force)) continue;
+    const std::string most = plain(rules_.most_force[column.index]);
+    const bool is_newton = units_[i].decimals == 0 && units_[i].factor == 1;
+    refuse_field(i, force + " is more than cable " + quote(cable.name) + " can carry, a tenth of its E A",
+                 "write a force " + (is_newton ? "in N below " + most : "below " + most + " N") +
+                     ": is the unit wrong?");
   }
 }
 

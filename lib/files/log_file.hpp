@@ -10,7 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include "lib/files/date_time.hpp"
 #include "lib/files/log_columns.hpp"
+#include "lib/files/log_units.hpp"
 #include "lib/files/scene_description.hpp"
 
 namespace taut::host {
@@ -59,9 +61,12 @@ struct LogRules {
 
 /// Reads a log from a stream, one row at a time.
 ///
-/// Lines end in LF or CRLF; a byte order mark and blank lines at the end are skipped. Blanks around a field
-/// do not count, and a field may be in double quotes. Every function throws InputError for what does not fit,
-/// with the line and the column as numbers from 1 and the column's name.
+/// Lines end in LF or CRLF; a byte order mark, lines that begin with # and blank rows at the end are skipped.
+/// The header tells what separates fields: commas, else semicolons, with which a decimal comma is taken too,
+/// else tabs. Blanks around a field do not count, and a field may be in double quotes. Numbers become SI
+/// units by the unit that the header names. Times may be dates: they count in seconds from the first row.
+/// Every function throws InputError for what does not fit, with the line of the text and the column as
+/// numbers from 1 and the column's name. Cost: linear in the text; memory for one line.
 class LogReader {
  public:
   /// Reads the header. The scene and the stream must outlive the reader; `file` is the name for messages.
@@ -70,6 +75,10 @@ class LogReader {
 
   /// Reads the next row into `row`, which must be the one of the call before; false at the end.
   bool next(LogRow& row);
+
+  /// Where times that are dates count from: that of the first row, or of the log that this one goes on from.
+  const std::optional<Moment>& origin() const { return origin_; }
+  void count_from(const std::optional<Moment>& origin) { origin_ = origin; }
 
   /// A row before the first: no load, no force, nothing locked.
   LogRow first_row() const;
@@ -83,14 +92,21 @@ class LogReader {
 
  private:
   bool read_line();
+  bool read_line_with_content();
+  bool is_blank(char c) const;
+  bool is_blank_row() const;
+  void find_separator();
   void read_header();
+  const LogUnit& known_unit(std::size_t i, const LogColumn& column, const NameWithUnit& field) const;
   LogColumn known_column(std::size_t i, const std::string& name) const;
   [[noreturn]] void refuse_unknown_column(std::size_t i, const std::string& name) const;
   void split();
   void take(std::size_t i, LogRow& row);
   void take_factor(std::size_t i, double& factor);
-  void check_time(double time, double before) const;
+  double read_time(std::size_t i);
+  void check_time(double time, double before, const std::string& before_text) const;
   double number(std::size_t i) const;
+  double in_si(std::size_t i, double value, const std::string& digits) const;
   void check_jacks(const LogRow& row) const;
   [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) const;
   [[noreturn]] void refuse_field(std::size_t column, const std::string& problem,
@@ -103,10 +119,16 @@ class LogReader {
   LogRules rules_;
   LogColumns known_;
   std::vector<LogColumn> columns_;  // of the file
-  std::vector<std::string> names_;  // of the file
-  std::string text_;                // the present line
-  std::size_t line_ = 0;            // its number
+  std::vector<std::string> names_;  // of the file, without units
+  std::vector<LogUnit> units_;      // of the file
+  char separator_ = ',';
+  std::size_t time_column_ = 0;
+  std::optional<Moment> origin_;
+  bool has_dates_ = false;
+  std::string text_;      // the present line
+  std::size_t line_ = 0;  // its number
   std::vector<std::string> fields_;
+  std::string time_text_;  // of the present row
   std::size_t rows_ = 0;
   std::vector<std::string> remarks_;
   std::size_t left_out_ = 0;  // factors

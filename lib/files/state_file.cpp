@@ -12,7 +12,7 @@
 namespace taut::host {
 namespace {
 
-constexpr const char* magic = "taut-state-2";
+constexpr const char* magic = "taut-state-3";
 
 // FNV-1a, 64 bits.
 std::string fingerprint(const std::string& text) {
@@ -96,6 +96,18 @@ void write(std::string& text, const std::vector<double>& numbers) {
   text += '\n';
 }
 
+// As numbers, which hold them exactly.
+std::vector<double> numbers_of(const std::optional<Moment>& origin) {
+  if (!origin) return {};
+  return {static_cast<double>(origin->seconds), static_cast<double>(origin->nanoseconds),
+          origin->has_zone ? 1.0 : 0.0};
+}
+std::optional<Moment> origin_of(const std::vector<double>& numbers) {
+  if (numbers.size() != 3) return std::nullopt;
+  return Moment{static_cast<std::int64_t>(numbers[0]), static_cast<std::int32_t>(numbers[1]),
+                numbers[2] == 1};
+}
+
 }  // namespace
 
 std::vector<double> assumptions(const SceneDescription& scene) {
@@ -128,6 +140,7 @@ void assume(const std::vector<double>& assumed, SceneDescription& scene) {
 
 std::string state_text(const SavedState& state, const std::string& scene_text) {
   std::string body = exact(state.time) + '\n';
+  write(body, numbers_of(state.origin));
   write(body, state.assumed);
   write(body, state.factor);
   std::vector<double> ends;
@@ -161,6 +174,7 @@ SavedState read_state(const std::string& path, const std::string& text, const st
   SavedState state;
   state.scalar = scalar;
   state.time = rest.number();
+  state.origin = origin_of(rest.numbers());
   state.assumed = rest.numbers();
   state.factor = rest.numbers();
   const std::vector<double> ends = rest.numbers();

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "lib/files/date_time.hpp"
 #include "lib/files/log_file.hpp"
 #include "lib/files/scene_description.hpp"
 #include "lib/files/verdict.hpp"
@@ -16,6 +18,7 @@ struct SavedState {
   std::string scalar;                         ///< floating-point type of the computation
   std::vector<double> assumed;                ///< see assumptions()
   double time = 0;                            ///< of the last row [s]
+  std::optional<Moment> origin;               ///< where times that are dates count from
   std::vector<double> factor;                 ///< of every load pattern
   std::vector<std::array<EndRow, 2>> cables;  ///< forces and wedges at both ends
   Verdict::Memory raised;                     ///< what the verdict remembers of the last rows
