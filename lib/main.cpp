@@ -9,6 +9,7 @@
 
 #include "lib/commands/check.hpp"
 #include "lib/commands/export_scene.hpp"
+#include "lib/commands/log_template.hpp"
 #include "lib/commands/report.hpp"
 #include "lib/commands/run_log.hpp"
 #include "lib/files/input_error.hpp"
@@ -55,6 +56,7 @@ class CommandLine {
     add_estimate();
     add_report();
     add_export();
+    add_template();
   }
 
   int run(int argc, char** argv) {
@@ -65,6 +67,7 @@ class CommandLine {
     }
     if (check_->parsed()) return check(options_.scene);
     if (export_->parsed()) return export_scenes({scenes_, options_.output});
+    if (template_->parsed()) return write_log_template(options_.scene, options_.output);
     if (report_->parsed()) return report({options_.scene, options_.log, options_.output, options_.limits});
     options_.method = estimate_->parsed() ? Method::estimate : method_called(method_);
     options_.numbers.scalar = scalar_ == "float" ? ScalarType::float32 : ScalarType::float64;
@@ -140,11 +143,18 @@ class CommandLine {
     export_->add_option("-o", options_.output, "Header file (C++); standard output if absent");
   }
 
+  void add_template() {
+    template_ = app_.add_subcommand("template", "Write the header of a log for a scene, with remarks");
+    template_->add_option("SCENE", options_.scene, "Scene file (JSON)")->required();
+    template_->add_option("-o", options_.output, "Log file (CSV); standard output if absent");
+  }
+
   CLI::App app_{"Cable forces with friction in cable-supported structures."};
   CLI::App* check_ = nullptr;
   CLI::App* estimate_ = nullptr;
   CLI::App* export_ = nullptr;
   CLI::App* report_ = nullptr;
+  CLI::App* template_ = nullptr;
   RunOptions options_;
   std::vector<std::string> scenes_;
   std::string method_ = methods.front().first, scalar_ = "double";
