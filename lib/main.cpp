@@ -21,7 +21,7 @@ namespace {
 using namespace taut::host;
 
 constexpr int unusable_input = 2;
-constexpr int most_substeps = 1000000;
+constexpr int most_substeps = 1000000, most_every = 1000000000;
 
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
@@ -132,6 +132,14 @@ class CommandLine {
     command.add_option("-o", options_.output, "Result file (CSV); standard output if absent");
     command.add_option("--scalar", scalar_, "Floating-point type of the computation")
         ->check(CLI::IsMember({"double", "float"}))
+        ->capture_default_str();
+    command
+        .add_option("--columns", options_.choice.columns,
+                    "Columns of the result beside the time, as in C.T1,C.sd1; all if absent")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command.add_option("--every", options_.choice.every, "Write every so many rows one")
+        ->check(CLI::Range(1, most_every))
         ->capture_default_str();
     command.add_flag("--hex", options_.numbers.hex, "Write numbers as the bits of their IEEE values");
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/commands/result_writer.hpp"
 #include "lib/files/state_file.hpp"
 #include "lib/files/verdict.hpp"
 #include "lib/kinds/make_model.hpp"
@@ -21,7 +22,8 @@ struct RunOptions {
   NumberFormat numbers;
   int substeps = 1;  ///< load steps a row, for the method stepwise
   AlarmLimits<double> limits;
-  std::string state;  ///< for `estimate`: where the log goes on from, and what it leaves; empty: nothing
+  ResultChoice choice;  ///< of `simulate` and `estimate`
+  std::string state;    ///< for `estimate`: where the log goes on from, and what it leaves; empty: nothing
 };
 
 /// Gets every row that has an answer, in order.

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "lib/files/output_file.hpp"
+#include "lib/commands/result_writer.hpp"
 
 namespace taut::host {
 
@@ -11,12 +11,10 @@ int run_log(const RunOptions& options) {
   const SceneDescription& scene = follower.scene();
   const ResultColumns columns =
       options.method == Method::estimate ? ResultColumns::estimate : ResultColumns::state;
-  OutputFile output(options.output);
-  output.write(result_header(scene, columns));
-  const std::string end = follower.follow([&](const LogRow& row, const Answer& answer) {
-    output.write(result_row(scene, row.time, answer, options.numbers, columns));
-  });
-  output.finish();
+  ResultWriter writer(options.output, scene, columns, options.numbers, options.choice);
+  const std::string end =
+      follower.follow([&](const LogRow& row, const Answer& answer) { writer.take(row.time, answer); });
+  writer.finish();
   if (end.empty()) {
     follower.keep_state();
     return 0;

@@ -63,9 +63,13 @@ void OutputFile::write(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size()) fail();
 }
 
-void OutputFile::finish() {
+void OutputFile::flush() {
   errno = 0;
   if (std::fflush(stream_) != 0) fail();
+}
+
+void OutputFile::finish() {
+  flush();
   if (stream_ == stdout) return;
   std::FILE* const written = std::exchange(stream_, nullptr);
   const bool closed = std::fclose(written) == 0;

@@ -22,6 +22,8 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   void write(std::string_view text);
+  /// What is written until now can be read, in a file that is not whole under its other name.
+  void flush();
   /// Everything is written: makes it last.
   void finish();
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "lib/files/input_error.hpp"
 #include "lib/files/number_range.hpp"
 #include "lib/files/text.hpp"
 
@@ -28,34 +29,43 @@ void append_shortest(std::string& text, Float value) {
   text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
 }
 
-// Grows one line of a result, field by field.
+// Grows one line of a result, field by field; those that are not selected are not written.
 class Line {
  public:
-  explicit Line(const NumberFormat& format) : format_(format) {}
+  Line(const NumberFormat& format, const ResultSelection& selection)
+      : format_(format), selection_(selection), chosen_(selection.count()) {}
 
   void number(double value) {
-    comma();
-    append_number(text_, value, format_);
+    if (std::string* const text = next()) append_number(*text, value, format_);
   }
   void number(const std::vector<double>& values, std::size_t first, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) number(values[first + i]);
   }
-  void field(const std::string& text) {
-    comma();
-    text_ += text;
+  void field(const std::string& field) {
+    if (std::string* const text = next()) *text += field;
   }
-  void numbered(const std::string& stem, std::size_t count) {
-    for (std::size_t i = 1; i <= count; ++i) field(stem + std::to_string(i));
+  std::string finished() {
+    for (std::size_t i = 0; i < chosen_.size(); ++i) text_ += (i == 0 ? "" : ",") + chosen_[i];
+    return text_ + "\n";
   }
-  std::string finished() { return text_ + "\n"; }
 
  private:
-  void comma() {
-    if (!text_.empty()) text_ += ',';
+  // Where the next field goes; null if it is not written.
+  std::string* next() {
+    const std::size_t column = column_++;
+    if (!selection_.is_all()) {
+      const std::size_t place = selection_.place(column);
+      return place == ResultSelection::nowhere ? nullptr : &chosen_[place];
+    }
+    if (column > 0) text_ += ',';
+    return &text_;
   }
 
   NumberFormat format_;
+  const ResultSelection& selection_;
+  std::vector<std::string> chosen_;
   std::string text_;
+  std::size_t column_ = 0;
 };
 
 using host::is_possible;
@@ -129,34 +139,61 @@ std::string impossible_number(const SceneDescription& scene, const Answer& answe
   return found;
 }
 
-std::string result_header(const SceneDescription& scene, ResultColumns columns) {
-  Line line(NumberFormat{});
-  line.field("time");
+std::vector<std::string> result_columns(const SceneDescription& scene, ResultColumns columns) {
+  std::vector<std::string> names = {"time"};
+  const auto numbered = [&](const std::string& stem, std::size_t count) {
+    for (std::size_t i = 1; i <= count; ++i) names.push_back(stem + std::to_string(i));
+  };
   for (const CableDescription& cable : scene.cables) {
-    line.numbered(cable.name + ".T", cable.segments());
-    line.numbered(cable.name + ".slip", cable.joints());
-    line.numbered(cable.name + ".state", cable.joints());
-    line.numbered(cable.name + ".N", cable.joints());
-    line.numbered(cable.name + ".f", cable.joints());
+    numbered(cable.name + ".T", cable.segments());
+    numbered(cable.name + ".slip", cable.joints());
+    numbered(cable.name + ".state", cable.joints());
+    numbered(cable.name + ".N", cable.joints());
+    numbered(cable.name + ".f", cable.joints());
     for (std::size_t end = 0; end < 2; ++end) {
-      if (cable.is_jacked(end)) line.field(cable.name + "." + end_name(end) + ".payout");
+      if (cable.is_jacked(end)) names.push_back(cable.name + "." + end_name(end) + ".payout");
     }
   }
-  line.numbered("strut", scene.struts.size());
+  numbered("strut", scene.struts.size());
   if (columns == ResultColumns::estimate) {
     for (const CableDescription& cable : scene.cables) {
-      line.numbered(cable.name + ".sd", cable.segments());
-      line.numbered(cable.name + ".mu", cable.joints());
-      line.numbered(cable.name + ".mu_sd", cable.joints());
+      numbered(cable.name + ".sd", cable.segments());
+      numbered(cable.name + ".mu", cable.joints());
+      numbered(cable.name + ".mu_sd", cable.joints());
     }
-    for (const char* name : {"alarms", "notices", "verdict"}) line.field(name);
+    for (const char* name : {"alarms", "notices", "verdict"}) names.push_back(name);
   }
+  return names;
+}
+
+ResultSelection select_columns(const std::vector<std::string>& names, const SceneDescription& scene,
+                               ResultColumns columns) {
+  const std::vector<std::string> known = result_columns(scene, columns);
+  std::vector<std::size_t> chosen = {0};
+  for (const std::string& name : names) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end()) {
+      const std::string all = "the columns are", list = suggestion("", known, all),
+                        meant = suggestion(name, known, all);
+      throw InputError("--columns", "", "the result has no column " + quote(name),
+                       meant == list ? list : meant + " " + list);
+    }
+    const auto column = static_cast<std::size_t>(found - known.begin());
+    if (std::find(chosen.begin(), chosen.end(), column) == chosen.end()) chosen.push_back(column);
+  }
+  return {chosen, known.size()};
+}
+
+std::string result_header(const SceneDescription& scene, ResultColumns columns,
+                          const ResultSelection& selection) {
+  Line line(NumberFormat{}, selection);
+  for (const std::string& name : result_columns(scene, columns)) line.field(name);
   return line.finished();
 }
 
 std::string result_row(const SceneDescription& scene, double time, const Answer& answer,
-                       const NumberFormat& format, ResultColumns columns) {
-  Line line(format);
+                       const NumberFormat& format, ResultColumns columns, const ResultSelection& selection) {
+  Line line(format, selection);
   line.number(time);
   std::size_t segment = 0, joint = 0;
   for (std::size_t c = 0; c < scene.cables.size(); ++c) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lib/files/answer.hpp"
+#include "lib/files/result_selection.hpp"
 #include "lib/files/scene_description.hpp"
 
 namespace taut::host {
@@ -32,11 +34,21 @@ const char* state_word(JointState state);
 /// alarms, notices and verdict.
 enum class ResultColumns { state, estimate };
 
+/// Names of these columns in their order.
+std::vector<std::string> result_columns(const SceneDescription& scene, ResultColumns columns);
+
+/// `time`, and then the columns with these names in this order; a name that is there again has no effect.
+/// Throws InputError for a name that no column has.
+ResultSelection select_columns(const std::vector<std::string>& names, const SceneDescription& scene,
+                               ResultColumns columns);
+
 /// Header line of a result of the scene.
-std::string result_header(const SceneDescription& scene, ResultColumns columns = ResultColumns::state);
+std::string result_header(const SceneDescription& scene, ResultColumns columns = ResultColumns::state,
+                          const ResultSelection& selection = {});
 
 /// Line of a result: the time [s] and the answer, in the columns of result_header().
 std::string result_row(const SceneDescription& scene, double time, const Answer& answer,
-                       const NumberFormat& format, ResultColumns columns = ResultColumns::state);
+                       const NumberFormat& format, ResultColumns columns = ResultColumns::state,
+                       const ResultSelection& selection = {});
 
 }  // namespace taut::host
