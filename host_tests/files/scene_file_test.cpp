@@ -70,6 +70,11 @@ TEST_CASE("nodes, cables and loads keep the order of the file") {
   CHECK(scene.loads[1].temperatures[0].cable == 2);
 }
 
+TEST_CASE("a scene is checked for what is surely a mistake unless it says not to") {
+  CHECK_FALSE(every_key().plausible);
+  CHECK(read_scene_file(TAUT_FILES "/one_jack.json").plausible);
+}
+
 TEST_CASE("every value of a cable arrives") {
   const CableDescription cable = every_key().cables[0];
   CHECK(cable.path == std::vector<int>{0, 1, 2, 3});

@@ -6,12 +6,14 @@
 #include <iostream>
 
 #include "lib/commands/first_load.hpp"
+#include "lib/commands/plausible_log.hpp"
 #include "lib/commands/progress_line.hpp"
 #include "lib/commands/usual_deviations.hpp"
 #include "lib/files/file_text.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/number_range.hpp"
 #include "lib/files/output_file.hpp"
+#include "lib/files/plausible_scene.hpp"
 #include "lib/files/scene_file.hpp"
 #include "lib/files/status_text.hpp"
 #include "lib/files/text.hpp"
@@ -30,6 +32,9 @@ LogRules rules_for(const RunOptions& options, const SceneDescription& scene) {
   const CondensedArrays condensed = condense(scene, options.numbers.scalar);
   rules.most_factor = condensed.most_factor;
   rules.most_force = condensed.most_force;
+  if (scene.plausible)
+    for (const CableDescription& cable : scene.cables)
+      rules.most_plausible_force.push_back(largest_plausible_strain * cable.E * cable.A);
   return rules;
 }
 
@@ -61,7 +66,8 @@ LogFollower::LogFollower(const RunOptions& options)
       model_(make_model(scene_, options.method, options.numbers.scalar, options.limits)),
       rules_(rules_for(options, scene_)) {
   std::vector<std::string> left_out;
-  rows_ = check_log(options.log, scene_, rules_, &left_out);
+  PlausibleLog plausible(scene_);
+  rows_ = check_log(options.log, scene_, rules_, &left_out, [&](const LogRow& row) { plausible.take(row); });
   keep_inputs(options.output, {options.scene, options.log, options.state});
   keep_inputs(options.state, {options.scene, options.log});
   if (!options.state.empty() && options.state == options.output)
@@ -69,7 +75,9 @@ LogFollower::LogFollower(const RunOptions& options)
   read_state();
   std::ifstream stream = open_log(options.log);
   for (const std::string& text : left_out) remark(text);
-  remark_on_columns(LogReader(stream, options.log, scene_, rules_));
+  const LogReader log(stream, options.log, scene_, rules_);
+  if (options.method == Method::estimate) plausible.require(log, options.log, begun_.has_value());
+  remark_on_columns(log);
   if (begun_)
     fill_in_mu_deviations(scene_);
   else if (options.method == Method::estimate)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "lib/commands/reading_scatter.hpp"
 #include "lib/files/text.hpp"
 #include "lib/kinds/capacities.hpp"
 #include "taut/estimation/noise_level.hpp"
@@ -14,33 +15,8 @@ namespace {
 
 constexpr double usual_mu_sd = 0.5, usual_gain_sd = 0.01, usual_zero_sd = 0.002, usual_hysteresis_sd = 0.01,
                  least_noise = 1e-4, usual_stroke_sd = 1e-3;
-// Of a tendon when it is tensioned.
-constexpr double usual_strain = 0.005;
-
-/// The readings of a gauge in a log: the largest, and how much they scatter.
-class Column {
- public:
-  void add(double reading) {
-    largest_ = std::max(largest_, std::fabs(reading));
-    if (readings_ >= 2) bends_.push_back(std::fabs(reading - 2 * last_ + before_));
-    before_ = last_;
-    last_ = reading;
-    ++readings_;
-  }
-  double largest() const { return largest_; }
-  // The median of the size of a second difference of white noise is 0.6745 sqrt(6) standard deviations.
-  double noise() {
-    if (bends_.empty()) return least_noise * largest_;
-    const auto middle = bends_.begin() + static_cast<std::ptrdiff_t>(bends_.size() / 2);
-    std::nth_element(bends_.begin(), middle, bends_.end());
-    return std::max(least_noise * largest_, *middle / (0.6745 * std::sqrt(6.0)));
-  }
-
- private:
-  std::vector<double> bends_;
-  double largest_ = 0, last_ = 0, before_ = 0;
-  std::size_t readings_ = 0;
-};
+// Of a tendon when it is tensioned, and of a strut.
+constexpr double usual_strain = 0.005, usual_strain_of_strut = 0.001;
 
 /// What a gauge is called in a log, and what is known of it.
 struct GaugeColumn {
@@ -66,25 +42,13 @@ std::vector<GaugeColumn> gauges_of(const LogReader& log, SceneDescription& scene
 }
 
 // A gauge that the scene says nothing of, or not all, is an ordinary one.
-void fill_in_gauges(const std::string& path, const LogRules& rules, SceneDescription& scene,
-                    std::vector<std::string>& remarks) {
-  std::ifstream stream = open_log(path);
-  LogReader log(stream, path, scene, rules);
-  const std::vector<GaugeColumn> gauges = gauges_of(log, scene);
-  if (gauges.empty()) return;
-  std::vector<Column> columns(gauges.size());
-  LogRow row = log.first_row();
-  while (log.next(row))
-    for (const MeasuredForce& force : row.forces)
-      for (std::size_t g = 0; g < gauges.size(); ++g)
-        if (gauges[g].of_strut == force.of_strut && gauges[g].cable == force.cable &&
-            gauges[g].index == force.index)
-          columns[g].add(force.reading);
+void take_gauges(const std::vector<GaugeColumn>& gauges, std::vector<ReadingScatter>& columns,
+                 std::vector<std::string>& remarks) {
   for (std::size_t g = 0; g < gauges.size(); ++g) {
     InstrumentDescription& instrument = *gauges[g].instrument;
     if (columns[g].largest() == 0) continue;
     instrument.is_given = true;
-    if (!instrument.sd) instrument.sd = columns[g].noise();
+    if (!instrument.sd) instrument.sd = std::max(least_noise * columns[g].largest(), columns[g].scatter());
     if (!instrument.gain_sd) instrument.gain_sd = usual_gain_sd;
     if (!instrument.zero_sd) instrument.zero_sd = usual_zero_sd * columns[g].largest();
     remarks.push_back("the scene does not say all of the gauge " + quote(gauges[g].name) +
@@ -94,10 +58,36 @@ void fill_in_gauges(const std::string& path, const LogRules& rules, SceneDescrip
   }
 }
 
-void fill_in_strokes(const std::string& path, const LogRules& rules, SceneDescription& scene,
-                     std::vector<std::string>& remarks) {
+void fill_in_gauges(const std::string& path, const LogRules& rules, SceneDescription& scene,
+                    std::vector<std::string>& remarks) {
   std::ifstream stream = open_log(path);
-  const LogReader log(stream, path, scene, rules);
+  LogReader log(stream, path, scene, rules);
+  const std::vector<GaugeColumn> gauges = gauges_of(log, scene);
+  if (gauges.empty()) return;
+  std::vector<ReadingScatter> columns(gauges.size());
+  LogRow row = log.first_row();
+  while (log.next(row))
+    for (const MeasuredForce& force : row.forces)
+      for (std::size_t g = 0; g < gauges.size(); ++g)
+        if (gauges[g].of_strut == force.of_strut && gauges[g].cable == force.cable &&
+            gauges[g].index == force.index)
+          columns[g].add(force.reading);
+  take_gauges(gauges, columns, remarks);
+}
+
+void expect_gauges(const LogReader& log, SceneDescription& scene, std::vector<std::string>& remarks) {
+  const std::vector<GaugeColumn> gauges = gauges_of(log, scene);
+  std::vector<ReadingScatter> columns(gauges.size());
+  for (std::size_t g = 0; g < gauges.size(); ++g) {
+    const StrutDescription* const strut = gauges[g].of_strut ? &scene.struts[gauges[g].index] : nullptr;
+    const CableDescription* const cable = strut != nullptr ? nullptr : &scene.cables[gauges[g].cable];
+    columns[g].expect(strut != nullptr ? usual_strain_of_strut * strut->E * strut->A
+                                       : usual_strain * cable->E * cable->A);
+  }
+  take_gauges(gauges, columns, remarks);
+}
+
+void fill_in_strokes(const LogReader& log, SceneDescription& scene, std::vector<std::string>& remarks) {
   for (CableDescription& cable : scene.cables)
     for (std::size_t end = 0; end < 2; ++end) {
       const std::string column = cable.name + "." + end_name(end) + ".stroke";
@@ -240,8 +230,22 @@ std::vector<std::string> fill_in_deviations(const std::string& path, const LogRu
                                             SceneDescription& scene) {
   std::vector<std::string> remarks = fill_in_mu_deviations(scene);
   fill_in_gauges(path, rules, scene, remarks);
-  fill_in_strokes(path, rules, scene, remarks);
+  std::ifstream stream = open_log(path);
+  fill_in_strokes(LogReader(stream, path, scene, rules), scene, remarks);
   fill_in_cells(read_cells(path, scene, rules), scene, remarks);
+  return remarks;
+}
+
+std::vector<std::string> fill_in_deviations(const LogReader& log, SceneDescription& scene) {
+  std::vector<std::string> remarks = fill_in_mu_deviations(scene);
+  expect_gauges(log, scene, remarks);
+  fill_in_strokes(log, scene, remarks);
+  CellTable cells(scene.cables.size());
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end)
+      if (const CableDescription& cable = scene.cables[c]; log.has(cable.name + "." + end_name(end)))
+        cells[c][end].largest = usual_strain * cable.E * cable.A;
+  fill_in_cells(cells, scene, remarks);
   return remarks;
 }
 

@@ -13,6 +13,7 @@
 #include "lib/files/file_text.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/number_range.hpp"
+#include "lib/files/plausible_scene.hpp"
 #include "lib/files/text.hpp"
 
 namespace taut::host {
@@ -70,8 +71,13 @@ void LogReader::refuse_field(std::size_t column, const std::string& problem,
   throw InputError(file_, place_of(column), problem, remedy);
 }
 
-std::string LogReader::place_of(std::size_t column) const {
-  std::string place = "line " + std::to_string(line_) + ", column " + std::to_string(column + 1);
+std::string LogReader::place(std::size_t line, const std::string& column) const {
+  return place_of(line,
+                  static_cast<std::size_t>(std::find(names_.begin(), names_.end(), column) - names_.begin()));
+}
+
+std::string LogReader::place_of(std::size_t line, std::size_t column) const {
+  std::string place = "line " + std::to_string(line) + ", column " + std::to_string(column + 1);
   if (column < names_.size()) place += " (" + names_[column] + ")";
   return place;
 }
@@ -172,6 +178,7 @@ void LogReader::read_header() {
     line_ = 1;
     refuse("the log is empty", "write a header, \"time\" and further columns, and rows below it");
   }
+  header_line_ = line_;
   find_separator();
   split();
   const std::vector<std::string> header = fields_;
@@ -440,6 +447,12 @@ void LogReader::check_jacks(const LogRow& row) const {
     const std::string force =
         "the jack force " + plain(end.force) + (end.reading ? "" : " from a row before");
     if (end.force < 0) refuse_field(i, force + " is below zero", "write zero or more: a jack can only pull");
+    if (column.index < rules_.most_plausible_force.size() &&
+        end.force > rules_.most_plausible_force[column.index] &&
+        rules_.is_possible_force(column.index, end.force))
+      refuse_field(i, force + " strains cable " + quote(cable.name) + " by more than 2 %",
+                   "write a force below " + plain(rules_.most_plausible_force[column.index]) +
+                       " N: is the unit wrong?" + remedy_if_meant);
     if (rules_.is_possible_force(column.index, end.force)) continue;
     const std::string most = plain(rules_.most_force[column.index]);
     const bool is_newton = units_[i].decimals == 0 && units_[i].factor == 1;
@@ -459,12 +472,12 @@ std::ifstream open_log(const std::string& path) {
 }
 
 std::size_t check_log(const std::string& path, const SceneDescription& scene, const LogRules& rules,
-                      std::vector<std::string>* remarks) {
+                      std::vector<std::string>* remarks, const std::function<void(const LogRow&)>& visit) {
   std::ifstream stream = open_log(path);
   LogReader reader(stream, path, scene, rules);
   LogRow row = reader.first_row();
-  while (reader.next(row)) {
-  }
+  while (reader.next(row))
+    if (visit) visit(row);
   if (remarks != nullptr) remarks->insert(remarks->end(), reader.remarks().begin(), reader.remarks().end());
   return row.row;
 }

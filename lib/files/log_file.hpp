@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <fstream>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,6 +51,8 @@ struct LogRules {
   double shortest_step = 0;  ///< least time between rows [s]
   /// Sizes beyond which a factor or a force is impossible, see Condensed; empty: not known.
   std::vector<double> most_factor, most_force;
+  /// Sizes beyond which a force that is no reading is surely a mistake; empty: not known, or meant.
+  std::vector<double> most_plausible_force;
 
   bool is_possible_factor(std::size_t load, double factor) const {
     return load >= most_factor.size() || std::fabs(factor) <= most_factor[load];
@@ -87,6 +90,10 @@ class LogReader {
   bool has(const std::string& column) const;
   /// The columns in the order of the file.
   const std::vector<std::string>& names() const { return names_; }
+  /// The line that the header is in.
+  std::size_t header_line() const { return header_line_; }
+  /// A place for a message: the line, and the column with this name, which the log has.
+  std::string place(std::size_t line, const std::string& column) const;
   /// Where a factor was left out, of the rows until now.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
@@ -111,7 +118,8 @@ class LogReader {
   [[noreturn]] void refuse(const std::string& problem, const std::string& remedy) const;
   [[noreturn]] void refuse_field(std::size_t column, const std::string& problem,
                                  const std::string& remedy) const;
-  std::string place_of(std::size_t column) const;
+  std::string place_of(std::size_t line, std::size_t column) const;
+  std::string place_of(std::size_t column) const { return place_of(line_, column); }
 
   std::istream& stream_;
   std::string file_;
@@ -122,7 +130,7 @@ class LogReader {
   std::vector<std::string> names_;  // of the file, without units
   std::vector<LogUnit> units_;      // of the file
   char separator_ = ',';
-  std::size_t time_column_ = 0;
+  std::size_t time_column_ = 0, header_line_ = 0;
   std::optional<Moment> origin_;
   bool has_dates_ = false;
   std::string text_;      // the present line
@@ -135,9 +143,11 @@ class LogReader {
 };
 
 /// Reads the whole log and throws InputError for the first thing in it that does not fit; returns the number
-/// of rows, and adds to `remarks`, if given, what was left out.
+/// of rows, and adds to `remarks`, if given, what was left out. Every row is shown to `visit`, if there is
+/// one.
 std::size_t check_log(const std::string& path, const SceneDescription& scene, const LogRules& rules,
-                      std::vector<std::string>* remarks = nullptr);
+                      std::vector<std::string>* remarks = nullptr,
+                      const std::function<void(const LogRow&)>& visit = {});
 
 /// Opens a log for reading. Throws InputError if it is not a file that can be read twice.
 std::ifstream open_log(const std::string& path);

@@ -106,6 +106,7 @@ struct SceneDescription {
   std::string file;  ///< where it comes from, for messages
   std::string name;
   int dimension = 2;
+  bool plausible = true;  ///< what is surely a mistake is refused
   std::vector<NodeDescription> nodes;
   std::vector<StrutDescription> struts;
   std::vector<CableDescription> cables;

@@ -30,6 +30,7 @@ const Keys scene_keys = {
     {"substructures", false, ""},
     {"loads", false, ""},
     {"sensors", false, ""},
+    {"plausible", false, ""},
 };
 const Keys strut_keys = {
     {"nodes", true, "a list of two node names"},
@@ -110,6 +111,8 @@ class SceneReader {
     if (found != 2 && found != 3)
       field.refuse("dimension " + plain(found) + " is not possible", "write 2 or 3");
     scene_.dimension = static_cast<int>(found);
+    if (const auto plausible = root_.find("plausible"))
+      scene_.plausible = plausible->boolean("true or false");
   }
 
   // As many numbers as the scene has axes.

@@ -1,5 +1,7 @@
 #include "lib/kinds/valid_scene.hpp"
 
+#include "lib/files/plausible_scene.hpp"
+
 namespace taut::host {
 
 void require_valid(const SceneDescription& described) {
@@ -7,6 +9,7 @@ void require_valid(const SceneDescription& described) {
     using Kind = decltype(kind);
     return make_valid_scene<Kind::dimension, typename Kind::Capacity>(described) != nullptr;
   });
+  require_plausible(described);
 }
 
 }  // namespace taut::host

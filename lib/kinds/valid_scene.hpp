@@ -14,7 +14,8 @@ namespace taut::host {
 template <int Dimension, class Cap>
 std::unique_ptr<Scene<double, Dimension, Cap>> make_valid_scene(const SceneDescription& described);
 
-/// Throws InputError unless the mechanics of the scene can be used: sizes, geometry, stiffnesses, supports.
+/// Throws InputError unless the mechanics of the scene can be used: sizes, geometry, stiffnesses, supports;
+/// or if they are surely a mistake, see require_plausible().
 void require_valid(const SceneDescription& described);
 
 }  // namespace taut::host

@@ -1,0 +1,179 @@
+// What is possible and yet surely a mistake is refused with its place and remedy, unless it is meant.
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <string>
+
+#include "files/result_table.hpp"
+#include "files/run_program.hpp"
+
+namespace {
+
+/// A cable of 10 m over a saddle, E A = 2e7 N, jacked at its end.
+struct Site {
+  std::string E = "2e11", coordinates = "[0, 0]", prestrain = "0", more, sensors;
+  std::string text(bool plausible) const {
+    return R"({ "taut": 1, "name": "site", "dimension": 2, )" +
+           std::string(plausible ? "" : "\"plausible\": false, ") + R"("nodes": { "a": )" + coordinates +
+           R"(, "b": [5, -0.5], "c": [10, 0] }, "supports": { "a": "xy", "b": "xy", "c": "xy" },
+  "cables": [ { "name": "C", "path": ["a", "b", "c"], "E": )" +
+           E + R"(, "A": 1e-4, "start": "anchored", "end": "jacked", "prestrain": )" + prestrain +
+           R"(, "friction": { "law": "point", "mu": 0.1, "mu_sd": 0.05 } } ], "sensors": { )" + sensors +
+           "}" + more + " }";
+  }
+};
+
+Outcome run(const Scratch& scratch, const Site& site, const std::string& command, const std::string& log,
+            bool plausible = true) {
+  std::ofstream(scratch.path / "scene.json") << site.text(plausible);
+  std::ofstream(scratch.path / "log.csv") << log;
+  return run_taut(scratch, command + " " + scratch.quoted("scene.json") +
+                               (command == "check" ? "" : " " + scratch.quoted("log.csv")));
+}
+
+// Refused with the message, which is one line and names the way out; taken where it is meant.
+void check_refused(const Site& site, const std::string& command, const std::string& log,
+                   const std::string& message) {
+  const Scratch scratch;
+  const Outcome refused = run(scratch, site, command, log);
+  CHECK(refused.status == 2);
+  CHECK(refused.out.empty());
+  CHECK_MESSAGE(refused.err.find(message) != std::string::npos, refused.err);
+  CHECK(refused.err.find("; if it is meant, \"plausible\": false in the scene switches such checks off\n") !=
+        std::string::npos);
+  CHECK(run(scratch, site, command, log, false).err.find("if it is meant") == std::string::npos);
+}
+void check_taken(const Site& site, const std::string& command, const std::string& log) {
+  const Scratch scratch;
+  const Outcome outcome = run(scratch, site, command, log);
+  CHECK_MESSAGE(outcome.status == 0, outcome.err);
+}
+
+// A ramp with the friction of nobody's choice: so many rows up to a force, with what else each has.
+template <class Row>
+std::string ramp(const std::string& header, int rows, const Row& row) {
+  std::string log = header + "\n";
+  for (int i = 1; i <= rows; ++i) log += std::to_string(i) + "," + row(i) + "\n";
+  return log;
+}
+std::string up_to(double most, int rows, int i) { return std::to_string(most * i / rows); }
+
+}  // namespace
+
+TEST_CASE("a modulus in GPa or MPa is refused, for a strut too; those of steel, carbon and ropes are taken") {
+  Site site;
+  for (const char* const E : {"200", "2e5", "2e13"}) {
+    site.E = E;
+    check_refused(site, "check", "", "scene.json: /cables/0/E: a modulus of ");
+  }
+  for (const char* const E : {"1e9", "2.1e11", "1e12"}) {
+    site.E = E;
+    check_taken(site, "check", "");
+  }
+  site = Site();
+  site.more = R"(, "struts": [ { "nodes": ["b", "c"], "E": 210000, "A": 1e-3 } ])";
+  check_refused(site, "check", "", "scene.json: /struts/0/E: a modulus of 210000 N/m2 is that of no strut; ");
+  // A spring of 1e6 N/m, and what is to be rigid.
+  site.more =
+      R"(, "struts": [ { "nodes": ["b", "c"], "E": 1, "A": 5e6 }, { "nodes": ["a", "b"], "E": 2e15, "A": 1 } ])";
+  check_taken(site, "check", "");
+}
+
+TEST_CASE("a prestrain in per cent is refused at its place") {
+  Site site;
+  site.prestrain = "0.3";
+  check_refused(site, "check", "",
+                "scene.json: /cables/0/prestrain: a strain of 0.3 is more than a cable takes; ");
+  site.prestrain = "[0.001, 0.021]";
+  check_refused(site, "check", "", "scene.json: /cables/0/prestrain/1: ");
+  site.prestrain = "[0.02, -0.1]";
+  check_taken(site, "check", "");
+}
+
+TEST_CASE("coordinates in mm are refused where they make a cable longer than 10 km") {
+  Site site;
+  site.coordinates = "[-20000, 0]";
+  check_refused(site, "check", "", "scene.json: /cables/0/path: the cable is 20010 m long; ");
+  site.coordinates = "[-9000, 0]";
+  check_taken(site, "check", "");
+}
+
+TEST_CASE("a jack force that strains the cable by more than 2 % is refused by its row") {
+  check_refused(
+      {}, "simulate", "time,C.end\n1,300000\n2,500000\n",
+      "log.csv: line 3, column 2 (C.end): the jack force 5e+05 strains cable \"C\" by more than 2 %; "
+      "write a force below 4e+05 N: is the unit wrong?");
+  check_taken({}, "simulate", "time,C.end\n1,300000\n2,400000\n");
+}
+
+TEST_CASE("readings in N under a header in kN are refused; a single wrong one is for the estimator") {
+  check_refused(
+      {}, "estimate", ramp("time,C.end [kN]", 20, [](int i) { return up_to(2e4, 20, i); }),
+      "log.csv: line 2, column 2 (C.end): the jack force 1e+06, as most here, strains cable \"C\" by more "
+      "than 2 %; write the unit of the column after its name, as in C.end [N]");
+  check_taken({}, "estimate",
+              ramp("time,C.end", 20, [](int i) { return i == 9 ? "9.9e37" : up_to(2e4, 20, i); }));
+}
+
+TEST_CASE("readings that strain no cable by 1e-6 are refused; 1 kN on a strand is taken") {
+  // 19 kN in MN without a unit.
+  check_refused(
+      {}, "estimate", ramp("time,C.end", 20, [](int i) { return up_to(0.019, 20, i); }),
+      "log.csv: line 1, column 2 (C.end): no jack strains its cable by as much as 1e-6 in the whole log; "
+      "write the unit of the column after its name, as in C.end [kN]");
+  check_taken({}, "estimate", ramp("time,C.end", 20, [](int i) { return up_to(1000, 20, i); }));
+  check_taken({}, "estimate", "time,C.end\n1,0\n2,0\n3,0\n4,0\n");
+  check_taken({}, "simulate", "time,C.end\n1,1\n2,2\n3,3\n4,4\n");
+}
+
+TEST_CASE("strokes in mm without the unit are refused; from any mark and with a wrong one they are taken") {
+  const auto strokes = [](double from, double to, int wrong) {
+    return ramp("time,C.end,C.end.stroke", 20, [&](int i) {
+      return up_to(2e4, 20, i) + "," +
+             (i == wrong ? std::string("999") : std::to_string(from + (to - from) * i / 20));
+    });
+  };
+  check_refused({}, "estimate", strokes(0, 10, 0),
+                "log.csv: line 20, column 3 (C.end.stroke): strokes go from 1 to 9.5 m, "
+                "over more than a tenth of cable \"C\"; ");
+  check_refused({}, "estimate", strokes(0, 10, 0), "as in C.end.stroke [mm]");
+  check_taken({}, "estimate", strokes(7.4, 7.41, 0));
+  check_taken({}, "estimate", strokes(0, 0.01, 7));
+}
+
+TEST_CASE("a cell that scatters by more than its cable ever pulls is refused at its place in the scene") {
+  Site site;
+  site.sensors = R"("C.start": { "sd": 200 } )";
+  const auto log = [](double most) {
+    return ramp("time,C.start,C.end", 50,
+                [&](int i) { return up_to(0.9 * most, 50, i) + "," + up_to(most, 50, i); });
+  };
+  check_refused(
+      site, "estimate", log(350),
+      "scene.json: /sensors/C.start/sd: a cell that scatters by 200 N tells nothing of a cable whose jacks "
+      "pull at most 350 N; ");
+  check_taken(site, "estimate", log(1000));
+  // At rest there is nothing but noise.
+  check_taken(site, "estimate", ramp("time,C.start,C.end", 50, [](int i) {
+                return std::string(i % 3 == 0 ? "90,-80" : "-70,60");
+              }));
+}
+
+TEST_CASE("a log without the jack is refused where other instruments read the cable under load") {
+  check_refused(
+      {}, "estimate", ramp("time,C.start", 5, [](int i) { return up_to(900, 5, i); }),
+      "log.csv: line 1: there is no column \"C.end\", though other instruments read cable \"C\" under load; "
+      "add the force of this jack");
+  check_refused({}, "estimate", ramp("# site\ntime,C.end.stroke", 5, [](int i) { return up_to(0.01, 5, i); }),
+                "log.csv: line 2: there is no column \"C.end\"");
+  check_taken({}, "estimate", ramp("time,C.start", 5, [](int) { return std::string("0"); }));
+  check_taken({}, "simulate", ramp("time,C.start", 5, [](int i) { return up_to(900, 5, i); }));
+}
+
+TEST_CASE("plausible is true or false") {
+  const Scratch scratch;
+  std::ofstream(scratch.path / "scene.json")
+      << R"({ "taut": 1, "name": "n", "dimension": 2, "plausible": "no", "nodes": { "a": [0, 0] } })";
+  CHECK(run_taut(scratch, "check " + scratch.quoted("scene.json")).err.find("/plausible: ") !=
+        std::string::npos);
+}

@@ -1,0 +1,170 @@
+#include "lib/commands/plausible_log.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/files/input_error.hpp"
+#include "lib/files/plausible_scene.hpp"
+#include "lib/files/text.hpp"
+
+namespace taut::host {
+namespace {
+
+constexpr double least_strain = 1e-6, part_of_length = 0.1, part_of_largest = 0.5, clear_of_noise = 20;
+constexpr std::size_t most_strokes = 4096, least_strokes = 3, least_readings = 3;
+
+std::string column_of(const CableDescription& cable, std::size_t end) {
+  return cable.name + "." + end_name(end);
+}
+
+// A table has the unit of its gauge already.
+std::string unit_remedy(const CableDescription& cable, std::size_t end, const std::string& unit) {
+  if (!cable.cell[end].calibration.empty()) return "look at the \"calibration\" of this column in the scene";
+  return "write the unit of the column after its name, as in " + column_of(cable, end) + " [" + unit + "]";
+}
+
+[[noreturn]] void refuse(const std::string& file, const std::string& place, const std::string& problem,
+                         const std::string& remedy) {
+  throw InputError(file, place, problem, remedy + remedy_if_meant);
+}
+
+}  // namespace
+
+// Every so many of a long log are enough.
+void PlausibleLog::Strokes::take(const Stroke& stroke) {
+  if (readings++ % every != 0) return;
+  if (kept.size() == most_strokes) {
+    for (std::size_t i = 0; 2 * i < kept.size(); ++i) kept[i] = kept[2 * i];
+    kept.resize(most_strokes / 2);
+    every *= 2;
+  }
+  kept.push_back(stroke);
+}
+
+double PlausibleLog::Jack::pull() const {
+  if (within.readings() < least_readings || within.largest() <= clear_of_noise * within.scatter()) return 0;
+  return within.largest();
+}
+
+PlausibleLog::PlausibleLog(const SceneDescription& scene) : scene_(scene), cables_(scene.cables.size()) {}
+
+void PlausibleLog::take(const LogRow& row) {
+  if (!scene_.plausible) return;
+  for (std::size_t c = 0; c < cables_.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const CableDescription& cable = scene_.cables[c];
+      const EndRow& given = row.cables[c][end];
+      if (given.stroke) {
+        Strokes& strokes = cables_[c].stroke[end];
+        strokes.take({*given.stroke, row.line});
+        cables_[c].is_read_under_load |= *given.stroke != strokes.kept.front().at;
+      }
+      if (!given.reading) continue;
+      if (!cable.is_jacked(end)) {
+        cables_[c].is_read_under_load |= *given.reading > 0;
+        continue;
+      }
+      Jack& jack = cables_[c].jack[end];
+      if (std::fabs(*given.reading) <= largest_plausible_strain * cable.E * cable.A) {
+        jack.within.add(*given.reading);
+      } else if (jack.beyond++ == 0) {
+        jack.line = row.line;
+        jack.force = *given.reading;
+      }
+    }
+  for (const MeasuredForce& force : row.forces)
+    if (!force.of_strut) cables_[force.cable].is_read_under_load |= force.reading > 0;
+}
+
+void PlausibleLog::require(const LogReader& log, const std::string& path, bool has_past) const {
+  if (!scene_.plausible) return;
+  require_units_of_jacks(log, path);
+  for (std::size_t c = 0; c < cables_.size(); ++c) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (!scene_.cables[c].is_jacked(end)) continue;
+      require_strokes(c, end, log, path);
+    }
+    if (!has_past) require_column(c, log, path);
+    require_deviations(c);
+  }
+}
+
+void PlausibleLog::require_units_of_jacks(const LogReader& log, const std::string& path) const {
+  double largest_strain = 0, pull = 0;
+  std::size_t readings = 0, first_cable = 0, first_end = 0;
+  for (std::size_t c = 0; c < cables_.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const Jack& jack = cables_[c].jack[end];
+      const CableDescription& cable = scene_.cables[c];
+      if (jack.readings() == 0) continue;
+      if (readings == 0) {
+        first_cable = c;
+        first_end = end;
+      }
+      readings += jack.readings();
+      pull = std::max(pull, jack.pull());
+      largest_strain = std::max(largest_strain, jack.within.largest() / (cable.E * cable.A));
+      if (2 * jack.beyond > jack.readings())
+        refuse(path, log.place(jack.line, column_of(cable, end)),
+               "the jack force " + plain(jack.force) + ", as most here, strains cable " + quote(cable.name) +
+                   " by more than 2 %",
+               unit_remedy(cable, end, "N"));
+    }
+  if (pull == 0 || largest_strain >= least_strain) return;
+  const CableDescription& cable = scene_.cables[first_cable];
+  refuse(path, log.place(log.header_line(), column_of(cable, first_end)),
+         "no jack strains its cable by as much as 1e-6 in the whole log",
+         unit_remedy(cable, first_end, "kN"));
+}
+
+void PlausibleLog::require_strokes(std::size_t c, std::size_t end, const LogReader& log,
+                                   const std::string& path) const {
+  const CableDescription& cable = scene_.cables[c];
+  const double most = part_of_length * length_of(cable, scene_);
+  std::vector<Stroke> sorted = cables_[c].stroke[end].kept;
+  if (sorted.size() < least_strokes) return;
+  std::sort(sorted.begin(), sorted.end(), [](const Stroke& a, const Stroke& b) { return a.at < b.at; });
+  const std::size_t tenth = (sorted.size() - 1) / 10;
+  const Stroke &least = sorted[tenth], &largest = sorted[sorted.size() - 1 - tenth];
+  if (!(largest.at - least.at > most)) return;
+  const std::string column = column_of(cable, end) + ".stroke";
+  refuse(path, log.place(largest.line, column),
+         "strokes go from " + plain(least.at) + " to " + plain(largest.at) +
+             " m, over more than a tenth of cable " + quote(cable.name),
+         "write the unit of the column after its name, as in " + column + " [mm]");
+}
+
+void PlausibleLog::require_deviations(std::size_t c) const {
+  const CableDescription& cable = scene_.cables[c];
+  double largest = 0;
+  for (const Jack& jack : cables_[c].jack) largest = std::max(largest, jack.pull());
+  if (largest == 0) return;
+  const auto require = [&](const InstrumentDescription& cell, const std::string& column) {
+    if (!cell.exact && !cell.is_assumed && cell.sd && *cell.sd > part_of_largest * largest)
+      refuse(
+          scene_.file, "/sensors" + pointer_step(column) + "/sd",
+          "a cell that scatters by " + plain(*cell.sd) +
+              " N tells nothing of a cable whose jacks pull at most " + plain(largest) + " N",
+          "write sd in N, and in the header of the log the unit of its columns, as in " + column + " [kN]");
+  };
+  for (std::size_t end = 0; end < 2; ++end) require(cable.cell[end], column_of(cable, end));
+}
+
+// A jack that pulls nothing for the whole log has a column, with zeros.
+void PlausibleLog::require_column(std::size_t c, const LogReader& log, const std::string& path) const {
+  const CableDescription& cable = scene_.cables[c];
+  std::string missing;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const std::string column = column_of(cable, end);
+    if (!cable.is_jacked(end)) continue;
+    if (log.has(column) || log.has(column + ".locked")) return;
+    if (missing.empty()) missing = column;
+  }
+  if (missing.empty() || !cables_[c].is_read_under_load) return;
+  refuse(path, "line " + std::to_string(log.header_line()),
+         "there is no column " + quote(missing) + ", though other instruments read cable " +
+             quote(cable.name) + " under load",
+         "add the force of this jack");
+}
+
+}  // namespace taut::host

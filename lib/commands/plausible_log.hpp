@@ -1,0 +1,65 @@
+// Whether the readings of a log can be those of its scene.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "lib/commands/reading_scatter.hpp"
+#include "lib/files/log_file.hpp"
+#include "lib/files/scene_description.hpp"
+
+namespace taut::host {
+
+/// Takes the readings of a log row by row and judges them together, so that single wrong readings, which are
+/// for the estimator to leave out, do not count. Memory: bounded.
+class PlausibleLog {
+ public:
+  explicit PlausibleLog(const SceneDescription& scene);
+
+  void take(const LogRow& row);
+  /// Throws InputError, unless the scene says "plausible": false, if most readings of a jack strain its cable
+  /// by more than 2 %, or all jacks together none by 1e-6, though they pull; if a stroke, but for the tenth
+  /// of its readings at either end, goes over more than a tenth of the cable; if a described cell scatters by
+  /// more than half of what the jacks of its cable ever pull, though these readings do not; and, where the
+  /// log does not go on from a state, if no jack of a cable has a column though other instruments read it
+  /// under load.
+  void require(const LogReader& log, const std::string& path, bool has_past) const;
+
+ private:
+  struct Jack {
+    ReadingScatter within;
+    std::size_t beyond = 0, line = 0;  // the first beyond
+    double force = 0;                  // there
+
+    std::size_t readings() const { return within.readings() + beyond; }
+    /// What it pulls at most, if its readings are not noise alone; otherwise 0.
+    double pull() const;
+  };
+  struct Stroke {
+    double at;
+    std::size_t line;
+  };
+  struct Strokes {
+    std::vector<Stroke> kept;
+    std::size_t readings = 0, every = 1;
+
+    void take(const Stroke& stroke);
+  };
+  struct Cable {
+    std::array<Jack, 2> jack;
+    std::array<Strokes, 2> stroke;
+    bool is_read_under_load = false;  ///< by other instruments
+  };
+
+  void require_units_of_jacks(const LogReader& log, const std::string& path) const;
+  void require_strokes(std::size_t c, std::size_t end, const LogReader& log, const std::string& path) const;
+  void require_deviations(std::size_t c) const;
+  void require_column(std::size_t c, const LogReader& log, const std::string& path) const;
+
+  const SceneDescription& scene_;
+  std::vector<Cable> cables_;
+};
+
+}  // namespace taut::host

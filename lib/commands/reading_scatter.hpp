@@ -1,0 +1,56 @@
+// How large the readings of an instrument are in a log, and how much they scatter.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace taut::host {
+
+/// Takes readings in their order. Memory: up to half a megabyte.
+class ReadingScatter {
+ public:
+  void add(double reading) {
+    largest_ = std::max(largest_, std::fabs(reading));
+    if (readings_ >= 2) keep(std::fabs(reading - 2 * last_ + before_));
+    before_ = last_;
+    last_ = reading;
+    ++readings_;
+  }
+  /// Nothing but the size that its readings may come to is known.
+  void expect(double largest) { largest_ = largest; }
+
+  /// The largest size of a reading.
+  double largest() const { return largest_; }
+  /// The standard deviation of readings about the lines that they follow; 0 of fewer than three. The median
+  /// of the size of a second difference of white noise is 0.6745 sqrt(6) standard deviations.
+  double scatter() const {
+    if (bends_.empty()) return 0;
+    std::vector<double> bends = bends_;
+    const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
+    std::nth_element(bends.begin(), middle, bends.end());
+    return *middle / (0.6745 * std::sqrt(6.0));
+  }
+  std::size_t readings() const { return readings_; }
+
+ private:
+  static constexpr std::size_t most_bends = 65536;
+
+  // Every so many of a long log have the same median.
+  void keep(double bend) {
+    if ((readings_ - 2) % every_ != 0) return;
+    if (bends_.size() == most_bends) {
+      for (std::size_t i = 0; 2 * i < most_bends; ++i) bends_[i] = bends_[2 * i];
+      bends_.resize(most_bends / 2);
+      every_ *= 2;
+    }
+    bends_.push_back(bend);
+  }
+
+  std::vector<double> bends_;
+  double largest_ = 0, last_ = 0, before_ = 0;
+  std::size_t readings_ = 0, every_ = 1;
+};
+
+}  // namespace taut::host

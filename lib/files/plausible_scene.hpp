@@ -1,0 +1,25 @@
+// What is possible and yet surely a mistake, as a modulus in GPa.
+#pragma once
+
+#include <string>
+
+#include "lib/files/scene_description.hpp"
+
+namespace taut::host {
+
+/// What is said at the end of every such refusal.
+inline constexpr const char* remedy_if_meant =
+    "; if it is meant, \"plausible\": false in the scene switches such checks off";
+
+/// A cable that is strained by more is not elastic any more, or no cable.
+inline constexpr double largest_plausible_strain = 0.02;
+
+/// Length of a cable along its nodes [m].
+double length_of(const CableDescription& cable, const SceneDescription& scene);
+
+/// Throws InputError, unless the scene says "plausible": false, if the modulus of a cable is not between 1e9
+/// and 1e12 N/m2; that of a strut below 1e6 N/m2, unless its cross-section is above 1 m2, as of a spring with
+/// E = 1; a prestrain above 2 %; or a cable longer than 10 km.
+void require_plausible(const SceneDescription& scene);
+
+}  // namespace taut::host
