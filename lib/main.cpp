@@ -82,7 +82,7 @@ class CommandLine {
 
   void add_simulate() {
     CLI::App* simulate = app_.add_subcommand("simulate", "Compute the cable forces for every row of a log");
-    add_run(*simulate, "Log of loads and jack forces (CSV)");
+    add_run(*simulate, "Log of loads and jack forces (CSV); - for standard input");
     simulate->add_option("--method", method_, "Method of computation")
         ->check(CLI::IsMember(method_names()))
         ->capture_default_str();
@@ -94,7 +94,7 @@ class CommandLine {
   void add_estimate() {
     estimate_ = app_.add_subcommand(
         "estimate", "Estimate the cable forces, and friction, from the readings of a log, with error bars");
-    add_run(*estimate_, "Log of readings (CSV)");
+    add_run(*estimate_, "Log of readings (CSV); - for standard input");
     add_limits(*estimate_);
     estimate_->add_option(
         "--state", options_.state,

@@ -1,15 +1,46 @@
 // Whether cables were under load before the first row of a log.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "lib/files/log_file.hpp"
 #include "lib/files/scene_description.hpp"
 
 namespace taut::host {
 
-/// Whether some jack pulls in the first row more than 5 % of what it ever does, and did not come there from
-/// zero in one stage: the next row goes on by less than 0.8 of that.
+/// The jacks from the first row on.
+class FirstLoad {
+ public:
+  FirstLoad(const LogRules& rules, const SceneDescription& scene);
+
+  /// Rows in their order.
+  void take(const LogRow& row);
+  /// Whether some jack pulls in the first row more than 5 % of what it ever does, and did not come there from
+  /// zero in one stage: the next row goes on by less than 0.8 of that. As far as rows have been taken.
+  bool is_under_load() const;
+  /// Whether further rows can say so.
+  bool is_open() const;
+
+ private:
+  struct Jack {
+    std::optional<double> first, second;
+    double largest = 0;
+
+    // From a load of its own, and not in one stage from zero.
+    bool goes_on() const { return first && *first > 0 && (!second || *second - *first < 0.8 * *first); }
+  };
+
+  const LogRules& rules_;
+  const SceneDescription& scene_;
+  std::vector<std::array<Jack, 2>> jacks_;
+  std::size_t rows_ = 0;
+};
+
+/// FirstLoad::is_under_load() of a whole log.
 bool begins_under_load(const std::string& path, const LogRules& rules, const SceneDescription& scene);
 
 }  // namespace taut::host

@@ -23,6 +23,10 @@ namespace taut::host {
 namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 28;
+constexpr const char* standard_input = "standard input";
+constexpr const char* under_load =
+    "the log begins under load: until the cables have slid over all joints their forces are those of any "
+    "past; --state FILE goes on from the log before";
 
 LogRules rules_for(const RunOptions& options, const SceneDescription& scene) {
   LogRules rules;
@@ -65,24 +69,46 @@ LogFollower::LogFollower(const RunOptions& options)
       scene_(read_scene_file(options.scene)),
       model_(make_model(scene_, options.method, options.numbers.scalar, options.limits)),
       rules_(rules_for(options, scene_)) {
-  std::vector<std::string> left_out;
-  PlausibleLog plausible(scene_);
-  rows_ = check_log(options.log, scene_, rules_, &left_out, [&](const LogRow& row) { plausible.take(row); });
   keep_inputs(options.output, {options.scene, options.log, options.state});
   keep_inputs(options.state, {options.scene, options.log});
   if (!options.state.empty() && options.state == options.output)
     throw InputError(options.state, "", "is the output and the state of one run", "name another file");
+  if (is_stream())
+    open_stream();
+  else
+    read_log();
+  remark_on_substeps();
+}
+
+// The whole of it is checked before anything is computed.
+void LogFollower::read_log() {
+  std::vector<std::string> left_out;
+  PlausibleLog plausible(scene_);
+  const bool measures = options_.method == Method::estimate;
+  rows_ = check_log(options_.log, scene_, rules_, &left_out, [&](const LogRow& row) {
+    if (measures) plausible.take(row);
+  });
   read_state();
-  std::ifstream stream = open_log(options.log);
+  std::ifstream stream = open_log(options_.log);
   for (const std::string& text : left_out) remark(text);
-  const LogReader log(stream, options.log, scene_, rules_);
-  if (options.method == Method::estimate) plausible.require(log, options.log, begun_.has_value());
+  const LogReader log(stream, options_.log, scene_, rules_);
+  if (measures) plausible.require(log, options_.log, begun_.has_value());
   remark_on_columns(log);
   if (begun_)
     fill_in_mu_deviations(scene_);
-  else if (options.method == Method::estimate)
-    for (const std::string& text : fill_in_deviations(options.log, rules_, scene_)) remark(text);
-  remark_on_substeps();
+  else if (measures)
+    for (const std::string& text : fill_in_deviations(options_.log, rules_, scene_)) remark(text);
+}
+
+// What is not in its header is not known.
+void LogFollower::open_stream() {
+  read_state();
+  stream_ = std::make_unique<LogReader>(std::cin, standard_input, scene_, rules_);
+  remark_on_columns(*stream_);
+  if (begun_)
+    fill_in_mu_deviations(scene_);
+  else if (options_.method == Method::estimate)
+    for (const std::string& text : fill_in_deviations(*stream_, scene_)) remark(text);
 }
 
 std::string LogFollower::follow(const RowVisitor& visit) {
@@ -91,14 +117,29 @@ std::string LogFollower::follow(const RowVisitor& visit) {
   if (!start.whole())
     return options_.scene + ": before the first row" + part(start.fraction) + ": " +
            reason_to_stop(start, scene_);
-  if (!begun_ && options_.method == Method::estimate && begins_under_load(options_.log, rules_, scene_)) {
-    remark(
-        "the log begins under load: until the cables have slid over all joints their forces are those of any "
-        "past; --state FILE goes on from the log before");
+  if (!is_stream()) {
+    std::ifstream file = open_log(options_.log);
+    LogReader log(file, options_.log, scene_, rules_);
+    begin();
+    return follow(log, visit);
+  }
+  begin();
+  return follow(*stream_, visit);
+}
+
+// Of a stream, the first row has to say whether there was a load before, until the second one does.
+void LogFollower::begin() {
+  if (begun_ || options_.method != Method::estimate) return;
+  if (is_stream()) {
+    first_load_ = std::make_unique<FirstLoad>(rules_, scene_);
+    model_->doubt_past();
+  } else if (begins_under_load(options_.log, rules_, scene_)) {
+    remark(under_load);
     model_->forget_past();
   }
-  std::ifstream stream = open_log(options_.log);
-  LogReader log(stream, options_.log, scene_, rules_);
+}
+
+std::string LogFollower::follow(LogReader& log, const RowVisitor& visit) {
   LogRow row = log.first_row();
   if (begun_) {
     row.factor = begun_->factor;
@@ -107,8 +148,10 @@ std::string LogFollower::follow(const RowVisitor& visit) {
     verdict_ = Verdict(begun_->raised);
   }
   Answer answer;
-  ProgressLine progress(rows_, wants_progress(options_));
+  ProgressLine progress(rows_, !is_stream() && wants_progress(options_));
   while (log.next(row)) {
+    if (is_stream()) remark_on_left_out(log);
+    if (first_load_) take_first_load(row);
     if (const Followed path = model_->advance(row, options_.substeps); !path.whole())
       return place(row) + part(path.fraction) + ": " + reason_to_stop(path, scene_);
     model_->read(answer);
@@ -121,6 +164,23 @@ std::string LogFollower::follow(const RowVisitor& visit) {
   last_ = row;
   origin_ = log.origin();
   return "";
+}
+
+// Before the row is followed.
+void LogFollower::take_first_load(const LogRow& row) {
+  first_load_->take(row);
+  if (!first_load_->is_under_load()) {
+    model_->deny_past();
+    first_load_.reset();
+  } else if (row.row == 2 && model_->has_unknown_past()) {
+    remark(under_load);
+  } else if (row.row > 1 && !model_->has_unknown_past()) {
+    first_load_.reset();
+  }
+}
+
+void LogFollower::remark_on_left_out(const LogReader& log) {
+  for (; left_out_ < log.remarks().size(); ++left_out_) remark(log.remarks()[left_out_]);
 }
 
 void LogFollower::keep_state() const {
@@ -213,8 +273,8 @@ void LogFollower::remark_on_substeps() {
 }
 
 std::string LogFollower::place(const LogRow& row) const {
-  return options_.log + ": line " + std::to_string(row.line) + " (row " + std::to_string(row.row) +
-         ", time " + plain(row.time) + " s)";
+  return (is_stream() ? standard_input : options_.log) + ": line " + std::to_string(row.line) + " (row " +
+         std::to_string(row.row) + ", time " + plain(row.time) + " s)";
 }
 
 }  // namespace taut::host

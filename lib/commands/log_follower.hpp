@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/commands/first_load.hpp"
 #include "lib/commands/result_writer.hpp"
 #include "lib/files/state_file.hpp"
 #include "lib/files/verdict.hpp"
@@ -16,8 +17,8 @@ namespace taut::host {
 
 /// What is followed, how, and where the result goes.
 struct RunOptions {
-  std::string scene, log;
-  std::string output;  ///< empty: standard output
+  std::string scene, log;  ///< log: `-` for standard input, which is followed as it comes
+  std::string output;      ///< empty: standard output
   Method method = methods.front().second;
   NumberFormat numbers;
   int substeps = 1;  ///< load steps a row, for the method stepwise
@@ -39,6 +40,9 @@ class LogFollower {
   LogFollower& operator=(const LogFollower&) = delete;
 
   const SceneDescription& scene() const { return scene_; }
+  /// Whether the log comes from standard input: then rows are checked as they come, follow() throws
+  /// InputError where one cannot be used, and nothing is known of rows to come.
+  bool is_stream() const { return options_.log == "-"; }
   /// What a reader of the result may not expect.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
@@ -52,6 +56,12 @@ class LogFollower {
 
  private:
   void remark(const std::string& text);
+  void read_log();
+  void open_stream();
+  void begin();
+  std::string follow(LogReader& log, const RowVisitor& visit);
+  void take_first_load(const LogRow& row);
+  void remark_on_left_out(const LogReader& log);
   void remark_on_columns(const LogReader& log);
   void remark_on_substeps();
   void read_state();
@@ -62,7 +72,9 @@ class LogFollower {
   SceneDescription scene_;
   std::unique_ptr<Model> model_;
   LogRules rules_;
-  std::size_t rows_ = 0;
+  std::unique_ptr<LogReader> stream_;      // of standard input
+  std::unique_ptr<FirstLoad> first_load_;  // of a stream, as long as it is in question
+  std::size_t rows_ = 0, left_out_ = 0;
   std::optional<SavedState> begun_;  // with the log before
   Verdict verdict_;
   LogRow last_;

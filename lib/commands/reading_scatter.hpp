@@ -18,15 +18,19 @@ class ReadingScatter {
     last_ = reading;
     ++readings_;
   }
-  /// Nothing but the size that its readings may come to is known.
-  void expect(double largest) { largest_ = largest; }
+  /// In place of readings: how large they may be, and how much they may scatter.
+  void expect(double largest, double scatter) {
+    largest_ = largest;
+    expected_ = scatter;
+  }
 
   /// The largest size of a reading.
   double largest() const { return largest_; }
-  /// The standard deviation of readings about the lines that they follow; 0 of fewer than three. The median
-  /// of the size of a second difference of white noise is 0.6745 sqrt(6) standard deviations.
+  /// The standard deviation of readings about the lines that they follow; what was expected, or 0, of fewer
+  /// than three. The median of the size of a second difference of white noise is 0.6745 sqrt(6) standard
+  /// deviations.
   double scatter() const {
-    if (bends_.empty()) return 0;
+    if (bends_.empty()) return expected_;
     std::vector<double> bends = bends_;
     const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
     std::nth_element(bends.begin(), middle, bends.end());
@@ -49,7 +53,7 @@ class ReadingScatter {
   }
 
   std::vector<double> bends_;
-  double largest_ = 0, last_ = 0, before_ = 0;
+  double largest_ = 0, expected_ = 0, last_ = 0, before_ = 0;
   std::size_t readings_ = 0, every_ = 1;
 };
 

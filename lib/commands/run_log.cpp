@@ -3,8 +3,30 @@
 #include <iostream>
 
 #include "lib/commands/result_writer.hpp"
+#include "lib/files/input_error.hpp"
 
 namespace taut::host {
+
+namespace {
+
+// Of a stream, every row is written before the next one comes, and what was written stays.
+std::string follow(LogFollower& follower, ResultWriter& writer) {
+  const bool is_stream = follower.is_stream();
+  if (is_stream) writer.flush();
+  try {
+    const std::string end = follower.follow([&](const LogRow& row, const Answer& answer) {
+      writer.take(row.time, answer);
+      if (is_stream) writer.flush();
+    });
+    writer.finish();
+    return end;
+  } catch (const InputError&) {
+    if (is_stream) writer.finish();
+    throw;
+  }
+}
+
+}  // namespace
 
 int run_log(const RunOptions& options) {
   LogFollower follower(options);
@@ -12,9 +34,7 @@ int run_log(const RunOptions& options) {
   const ResultColumns columns =
       options.method == Method::estimate ? ResultColumns::estimate : ResultColumns::state;
   ResultWriter writer(options.output, scene, columns, options.numbers, options.choice);
-  const std::string end =
-      follower.follow([&](const LogRow& row, const Answer& answer) { writer.take(row.time, answer); });
-  writer.finish();
+  const std::string end = follow(follower, writer);
   if (end.empty()) {
     follower.keep_state();
     return 0;

@@ -14,7 +14,7 @@ namespace taut::host {
 namespace {
 
 constexpr double usual_mu_sd = 0.5, usual_gain_sd = 0.01, usual_zero_sd = 0.002, usual_hysteresis_sd = 0.01,
-                 least_noise = 1e-4, usual_stroke_sd = 1e-3;
+                 least_noise = 1e-4, expected_noise = 1e-3, usual_stroke_sd = 1e-3;
 // Of a tendon when it is tensioned, and of a strut.
 constexpr double usual_strain = 0.005, usual_strain_of_strut = 0.001;
 
@@ -81,8 +81,9 @@ void expect_gauges(const LogReader& log, SceneDescription& scene, std::vector<st
   for (std::size_t g = 0; g < gauges.size(); ++g) {
     const StrutDescription* const strut = gauges[g].of_strut ? &scene.struts[gauges[g].index] : nullptr;
     const CableDescription* const cable = strut != nullptr ? nullptr : &scene.cables[gauges[g].cable];
-    columns[g].expect(strut != nullptr ? usual_strain_of_strut * strut->E * strut->A
-                                       : usual_strain * cable->E * cable->A);
+    const double largest =
+        strut != nullptr ? usual_strain_of_strut * strut->E * strut->A : usual_strain * cable->E * cable->A;
+    columns[g].expect(largest, expected_noise * largest);
   }
   take_gauges(gauges, columns, remarks);
 }
@@ -107,6 +108,11 @@ struct CellReadings {
   double time = 0;
   long count = 0;
 
+  // Nothing but the size that its readings may come to is known.
+  void expect(double expected) {
+    largest = expected;
+    noise.start(expected_noise * expected);
+  }
   void take(double reading, double at) {
     largest = std::max(largest, std::fabs(reading));
     noise.take(reading, at - time);
@@ -244,7 +250,7 @@ std::vector<std::string> fill_in_deviations(const LogReader& log, SceneDescripti
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (std::size_t end = 0; end < 2; ++end)
       if (const CableDescription& cable = scene.cables[c]; log.has(cable.name + "." + end_name(end)))
-        cells[c][end].largest = usual_strain * cable.E * cable.A;
+        cells[c][end].expect(usual_strain * cable.E * cable.A);
   fill_in_cells(cells, scene, remarks);
   return remarks;
 }

@@ -24,8 +24,8 @@ std::vector<std::string> fill_in_deviations(const std::string& path, const LogRu
                                             SceneDescription& scene);
 
 /// The same for a log of which only the header is known: the largest reading of what it has is taken for that
-/// of a strain of 0.5 %, of a strut 0.1 %, and its scatter for 1e-4 of it; the estimator finds out if it is
-/// more.
+/// of a strain of 0.5 %, of a strut 0.1 %, and its scatter for 1e-3 of it. The estimator finds out if
+/// readings scatter more, not if they scatter less: forces are then as uncertain as this says.
 std::vector<std::string> fill_in_deviations(const LogReader& log, SceneDescription& scene);
 
 }  // namespace taut::host

@@ -466,7 +466,9 @@ std::ifstream open_log(const std::string& path) {
   require_readable(path, "log file");
   std::error_code none;
   if (!std::filesystem::is_regular_file(path, none)) {
-    throw InputError(path, "", "is a pipe or a device", "save the log as a file: it is read twice");
+    throw InputError(
+        path, "", "is a pipe or a device",
+        "save the log as a file, for it is read twice, or write - and send it to standard input");
   }
   return std::ifstream(path, std::ios::binary);
 }

@@ -57,6 +57,10 @@ class EstimatorModel : public Model {
     read_row(row, scene_, has_row_ && row.time > time_ ? row.time - time_ : 1, *readings_);
     time_ = row.time;
     has_row_ = true;
+    if (past_) {
+      past_->look(*condensed_, *knowledge_, *readings_);
+      if (!past_->is_unknown()) past_.reset();
+    }
     if (past_) past_->withhold(*condensed_, *readings_);
     const auto progress = estimator_->advance(*readings_);
     const Followed below = {progress.status, static_cast<double>(progress.fraction)};
@@ -69,6 +73,8 @@ class EstimatorModel : public Model {
     past_ = std::make_unique<PastType>();
     past_->forget();
   }
+  void doubt_past() override { past_ = std::make_unique<PastType>(); }
+  void deny_past() override { past_.reset(); }
   bool has_unknown_past() const override { return past_ != nullptr; }
   std::vector<LearnedFriction> learned() const override {
     return learned_mu(*estimator_, *condensed_, *knowledge_, before_, scene_);

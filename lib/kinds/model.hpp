@@ -30,6 +30,10 @@ class Model {
   virtual Followed start(int substeps) = 0;
   /// After start(): cables were under load before the first row, and nobody knows how they came there.
   virtual void forget_past() {}
+  /// After start(): the first row is to say whether there was such a load, see is_under_load().
+  virtual void doubt_past() {}
+  /// After all there was none.
+  virtual void deny_past() {}
   /// Follows the path to the loads and jack forces of the row.
   virtual Followed advance(const LogRow& row, int substeps) = 0;
   /// All that restore() needs, as bytes; empty for a method that cannot go on.
