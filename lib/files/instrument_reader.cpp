@@ -110,7 +110,7 @@ void read_instruments(const Field& sensors, SceneDescription& scene) {
       known.push_back(candidate);
       return column == candidate;
     };
-    const auto find = [&, &field = item]() -> bool {
+    const auto find = [&, &field = item, &given = name]() -> bool {
       const auto force_cell = [&](InstrumentDescription& instrument, bool may_be_exact) {
         instrument.is_given = true;
         read_force_cell(field, may_be_exact, instrument);
@@ -120,7 +120,7 @@ void read_instruments(const Field& sensors, SceneDescription& scene) {
         for (std::size_t end = 0; end < 2; ++end) {
           const std::string column = cable.name + "." + end_name(end);
           if (cable.closed) {
-            if (name == column)
+            if (given == column)
               field.refuse("cable " + quote(cable.name) + " is closed and has no ends",
                            "remove the load cell");
             continue;
