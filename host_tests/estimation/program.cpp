@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -702,4 +703,21 @@ TEST_CASE("a log that comes up from zero, in one stage too, has no unknown past;
           std::string::npos);
     CHECK(estimate(scratch).out.find("unknown-past") != std::string::npos);
   }
+}
+
+TEST_CASE("the noise that nobody said is found in a log that begins at zero") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0.1, "shared": true)", ""));
+  std::mt19937 random(20);
+  std::normal_distribution<double> noise(0, 300);
+  std::string log = "time,C.end\n0,0.01\n";
+  for (int i = 1; i <= 1000; ++i)
+    log += std::to_string(i) + ',' + std::to_string(200.0 * i + noise(random)) + '\n';
+  write(scratch, "log.csv", log);
+  const Outcome outcome = estimate(scratch);
+  REQUIRE(outcome.status == 0);
+  const std::size_t at = outcome.err.find(": sd ");
+  REQUIRE(at != std::string::npos);
+  // About 1.2 / sqrt(100) of itself, says NoiseLevel.
+  CHECK(std::strtod(outcome.err.c_str() + at + 5, nullptr) == doctest::Approx(300).epsilon(0.36));
 }

@@ -114,7 +114,6 @@ struct CellReadings {
     noise.start(expected_noise * expected);
   }
   void take(double reading, double at) {
-    largest = std::max(largest, std::fabs(reading));
     noise.take(reading, at - time);
     time = at;
     ++count;
@@ -134,22 +133,34 @@ bool is_all_said(const LogReader& log, const SceneDescription& scene) {
   return true;
 }
 
-// Without readings if nothing is missing, so that a long log is not read once more.
-CellTable read_cells(const std::string& path, const SceneDescription& scene, const LogRules& rules) {
-  CellTable cells(scene.cables.size());
+// Shows every possible reading of a cell to `visit`.
+template <class Visit>
+void for_each_reading(const std::string& path, const SceneDescription& scene, const LogRules& rules,
+                      CellTable& cells, const Visit& visit) {
   std::ifstream stream = open_log(path);
   LogReader log(stream, path, scene, rules);
-  if (is_all_said(log, scene)) return cells;
   LogRow row = log.first_row();
   while (log.next(row))
     for (std::size_t c = 0; c < cells.size(); ++c)
       for (std::size_t end = 0; end < 2; ++end)
-        if (const auto& reading = row.cables[c][end].reading;
-            reading && rules.is_possible_force(c, *reading)) {
-          CellReadings& cell = cells[c][end];
-          if (cell.count == 0) cell.noise.start(least_noise * std::fabs(*reading));
-          cell.take(*reading, row.time);
-        }
+        if (const auto& reading = row.cables[c][end].reading; reading && rules.is_possible_force(c, *reading))
+          visit(cells[c][end], *reading, row.time);
+}
+
+// Without readings if nothing is missing, so that a long log is not read twice more.
+CellTable read_cells(const std::string& path, const SceneDescription& scene, const LogRules& rules) {
+  CellTable cells(scene.cables.size());
+  std::ifstream stream = open_log(path);
+  if (is_all_said(LogReader(stream, path, scene, rules), scene)) return cells;
+  for_each_reading(path, scene, rules, cells, [](CellReadings& cell, double reading, double) {
+    cell.largest = std::max(cell.largest, std::fabs(reading));
+  });
+  // From the least that is taken on: a level that begins with a first reading near zero does not come up to
+  // the noise of a thousand rows.
+  for (auto& cable : cells)
+    for (CellReadings& cell : cable) cell.noise.start(least_noise * cell.largest);
+  for_each_reading(path, scene, rules, cells,
+                   [](CellReadings& cell, double reading, double time) { cell.take(reading, time); });
   return cells;
 }
 
