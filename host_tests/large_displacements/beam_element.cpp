@@ -50,8 +50,9 @@ Jet<N> bowing(const Jet<N>& at_a, const Jet<N>& at_b) {
 }
 
 template <int N>
-Jet<N> energy(const BeamElement& beam, const Jets<N>& from_a_to_b, const Jets<N>& w_a, const Jets<N>& w_b,
-              const Eigen::Matrix3d& axes_a, const Eigen::Matrix3d& axes_b, double& axial) {
+Jet<N> energy(const BeamElement& beam, const Jets<N>& from_a_to_b, double longer, const Jets<N>& w_a,
+              const Jets<N>& w_b, const Eigen::Matrix3d& axes_a, const Eigen::Matrix3d& axes_b,
+              double& axial) {
   const Jet<N> length = sqrt(dot(from_a_to_b, from_a_to_b));
   std::array<Jets<N>, 3> end_a, end_b, r;
   for (int k = 0; k < 3; ++k) {
@@ -65,7 +66,9 @@ Jet<N> energy(const BeamElement& beam, const Jets<N>& from_a_to_b, const Jets<N>
   r[2] = scaled(r[2], inverse(sqrt(dot(r[2], r[2]))));
   r[1] = cross(r[2], r[0]);
   const Jets<N> a = rotation(r, end_a), b = rotation(r, end_b);
-  const Jet<N> strain = length * (1 / beam.length) - Jet<N>(1) + bowing(a[1], b[1]) + bowing(a[2], b[2]);
+  Jet<N> stretch = length * (1 / beam.length);
+  stretch.value = longer / beam.length;
+  const Jet<N> strain = stretch + bowing(a[1], b[1]) + bowing(a[2], b[2]);
   const Jet<N> twist = b[0] - a[0];
   axial = beam.EA * strain.value;
   return strain * strain * (0.5 * beam.EA * beam.length) +
@@ -74,20 +77,18 @@ Jet<N> energy(const BeamElement& beam, const Jets<N>& from_a_to_b, const Jets<N>
 }
 
 template <int N>
-BeamForces forces(const BeamElement& beam, const Vector& at_a, const Vector& at_b,
+BeamForces forces(const BeamElement& beam, const Vector& initial, const Vector& moved,
                   const Eigen::Matrix3d& turned_a, const Eigen::Matrix3d& turned_b,
                   const std::array<int, N>& place) {
   std::array<Jets<N>, 4> given;  // displacements and spins of both ends
-  for (int i = 0; i < 3; ++i) {
-    given[0][i] = Jet<N>(at_a[i]);
-    given[2][i] = Jet<N>(at_b[i]);
-  }
   for (int k = 0; k < N; ++k) given[place[k] / 3][place[k] % 3].first[k] = 1;
   Jets<N> chord;
-  for (int i = 0; i < 3; ++i) chord[i] = given[2][i] - given[0][i];
+  for (int i = 0; i < 3; ++i) chord[i] = Jet<N>(initial[i] + moved[i]) + given[2][i] - given[0][i];
   BeamForces found;
   const Eigen::Matrix3d axes_a = turned_a * beam.axes, axes_b = turned_b * beam.axes;
-  const Jet<N> e = energy(beam, chord, given[1], given[3], axes_a, axes_b, found.axial);
+  // Lengths are not subtracted, for that costs digits.
+  const double longer = (2 * initial + moved).dot(moved) / ((initial + moved).norm() + beam.length);
+  const Jet<N> e = energy(beam, chord, longer, given[1], given[3], axes_a, axes_b, found.axial);
   for (int i = 0, k = 0; i < N; ++i) {
     found.force[place[i]] = e.first[i];
     for (int j = 0; j <= i; ++j, ++k) {
@@ -100,10 +101,10 @@ BeamForces forces(const BeamElement& beam, const Vector& at_a, const Vector& at_
 
 }  // namespace
 
-BeamForces beam_forces(const BeamElement& beam, const Vector& at_a, const Vector& at_b,
+BeamForces beam_forces(const BeamElement& beam, const Vector& initial, const Vector& moved,
                        const Eigen::Matrix3d& turned_a, const Eigen::Matrix3d& turned_b, bool plane) {
-  if (plane) return forces<6>(beam, at_a, at_b, turned_a, turned_b, {0, 1, 5, 6, 7, 11});
-  return forces<12>(beam, at_a, at_b, turned_a, turned_b, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+  if (plane) return forces<6>(beam, initial, moved, turned_a, turned_b, {0, 1, 5, 6, 7, 11});
+  return forces<12>(beam, initial, moved, turned_a, turned_b, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
 }
 
 }  // namespace large_displacements

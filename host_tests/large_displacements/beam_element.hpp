@@ -22,8 +22,9 @@ struct BeamForces {
   double axial = 0;
 };
 
-/// `plane`: derivatives by ux, uy and wz alone, the others stay zero.
-BeamForces beam_forces(const BeamElement& beam, const Vector& at_a, const Vector& at_b,
+/// `initial`: from a to b; `moved`: by how much that has changed. `plane`: derivatives by ux, uy and wz
+/// alone, the others stay zero.
+BeamForces beam_forces(const BeamElement& beam, const Vector& initial, const Vector& moved,
                        const Eigen::Matrix3d& turned_a, const Eigen::Matrix3d& turned_b, bool plane);
 
 }  // namespace large_displacements

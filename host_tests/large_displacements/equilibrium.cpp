@@ -220,11 +220,11 @@ double Equilibrium::strut_force(const State& state, int s) const {
   return EA * longer * (length + distance) / (2 * distance * distance) * (length / distance);
 }
 double Equilibrium::beam_axial(const State& state, int beam, int piece) const {
-  const BeamElement& element = elements_[first_element_[beam] + piece];
-  return beam_forces(element, at_[element.a] + state.moved[element.a],
-                     at_[element.b] + state.moved[element.b], state.turned[element.frame_a],
-                     state.turned[element.frame_b], model_.dimension == 2)
-      .axial;
+  return forces_of(state, elements_[first_element_[beam] + piece]).axial;
+}
+BeamForces Equilibrium::forces_of(const State& state, const BeamElement& beam) const {
+  return beam_forces(beam, at_[beam.b] - at_[beam.a], state.moved[beam.b] - state.moved[beam.a],
+                     state.turned[beam.frame_a], state.turned[beam.frame_b], model_.dimension == 2);
 }
 JointFriction Equilibrium::friction(const State& state, int c, int j) const {
   const Cable& cable = model_.cables[c];
@@ -273,6 +273,11 @@ void Equilibrium::assemble(const State& state, const State& from, const Inputs& 
   system.tangent.setZero(size, size);
   system.rest.setZero(size);
   system.scale = 0;
+  system.rounding = 0;
+  const auto round = [&](double EA, double length, int a, int b) {
+    const double moved = std::max(state.moved[a].norm(), state.moved[b].norm());
+    system.rounding = std::max(system.rounding, 1e-15 * EA / length * moved);
+  };
   system.wish.assign(materials_, 0);
 
   for (std::size_t s = 0; s < model_.struts.size(); ++s) {
@@ -283,14 +288,14 @@ void Equilibrium::assemble(const State& state, const State& from, const Inputs& 
     const double by_length = model_.strut_strain == Strain::engineering
                                  ? EA / distance
                                  : EA / distance * (3 * ratio * ratio - 1) / 2;
+    round(EA, distance, strut.a, strut.b);
     add_axial(system, strut.a, strut.b, way / length, length, strut_force(state, static_cast<int>(s)),
               by_length);
   }
 
   for (const BeamElement& beam : elements_) {
-    const BeamForces found =
-        beam_forces(beam, position(state, beam.a), position(state, beam.b), state.turned[beam.frame_a],
-                    state.turned[beam.frame_b], model_.dimension == 2);
+    const BeamForces found = forces_of(state, beam);
+    round(beam.EA, beam.length, beam.a, beam.b);
     std::array<int, 12> places;
     for (int i = 0; i < 3; ++i) {
       places[i] = place_[beam.a][i];
@@ -344,7 +349,10 @@ void Equilibrium::assemble(const State& state, const State& from, const Inputs& 
     for (int i = 0; i < cable.segments(); ++i) {
       segments.push_back(segment(state, inputs, c, i));
       const Segment& s = segments.back();
-      if (s.T <= 0) continue;
+      system.scale = std::max(system.scale, std::fabs(s.T));
+      round(cable.E * cable.A, s.length, s.a, s.b);
+      // What is just tight counts, for a cable at rest has to begin somewhere.
+      if (s.T < -1e-12 * cable.E * cable.A) continue;
       add_axial(system, s.a, s.b, s.direction, s.length, s.T, s.by_length);
       for (int k = 0; k < 4; ++k) {
         if (s.material[k] < 0) continue;
@@ -368,7 +376,7 @@ void Equilibrium::assemble(const State& state, const State& from, const Inputs& 
       if (choose) {
         if (rho <= 0)
           modes[material] = Mode::stick;
-        else if (std::max(before.T, behind.T) <= 0)
+        else if (std::max(before.T, behind.T) < -1e-12 * cable.E * cable.A)
           modes[material] = Mode::open;
         else if (to_forward > 0 && (to_backward >= 0 || to_forward > -to_backward))
           modes[material] = Mode::forward;
@@ -450,7 +458,8 @@ bool Equilibrium::iterate(const State& from, const Inputs& inputs, bool choose, 
   double last = HUGE_VAL;
   const int limit = choose ? choosing_iterations : iterations_of_a_set;
   for (int i = 0; i < limit; ++i) {
-    assemble(state, from, inputs, choose, state.modes, system);
+    // What sticks at first is tried to stick: a sliding start from no tension would find struts that lean.
+    assemble(state, from, inputs, choose && i > 0, state.modes, system);
     const double off = system.rest.size() ? system.rest.cwiseAbs().maxCoeff() : 0;
     if (!(off < HUGE_VAL)) return false;
     const bool same = !choose || state.modes == before;
@@ -492,25 +501,26 @@ bool Equilibrium::flip_one(const State& from, const Inputs& inputs, State& state
   return true;
 }
 
-double Equilibrium::smallest_eigenvalue(const Eigen::MatrixXd& tangent, double& largest) const {
-  largest = 0;
-  if (displacements_ == 0) return 0;
+/// Of the tangent by the displacements and rotations, of a unit diagonal where they are stuck.
+double Equilibrium::smallest_eigenvalue(const Eigen::MatrixXd& tangent) const {
+  if (displacements_ == 0) return 1;
   const int d = displacements_, m = materials_;
   Eigen::MatrixXd reduced = tangent.topLeftCorner(d, d);
+  const Eigen::VectorXd diagonal = reduced.diagonal().cwiseAbs();
+  const double least = 1e-14 * diagonal.maxCoeff();
+  if (!(least > 0)) return 0;
   if (m > 0)
     reduced -= tangent.topRightCorner(d, m) *
                tangent.bottomRightCorner(m, m).partialPivLu().solve(tangent.bottomLeftCorner(m, d));
-  const Eigen::VectorXcd values = reduced.eigenvalues();
-  largest = values.cwiseAbs().maxCoeff();
-  return values.real().minCoeff();
+  const Eigen::VectorXd scale = diagonal.cwiseMax(least).cwiseSqrt().cwiseInverse();
+  return (scale.asDiagonal() * reduced * scale.asDiagonal()).eval().eigenvalues().real().minCoeff();
 }
 
 double Equilibrium::stability(const State& state, const Inputs& inputs) const {
   System system;
   std::vector<Mode> modes = state.modes;
   assemble(state, state, inputs, false, modes, system);
-  double largest = 0;
-  return smallest_eigenvalue(system.tangent, largest);
+  return smallest_eigenvalue(system.tangent);
 }
 double Equilibrium::imbalance(const State& state, const Inputs& inputs) const {
   System system;
@@ -539,10 +549,7 @@ bool Equilibrium::step(State& state, const Inputs& inputs) {
   const Eigen::VectorXd pivots = factors.matrixLU().diagonal();
   bool negative = factors.permutationP().determinant() < 0;
   for (const double pivot : pivots) negative = negative != (pivot < 0);
-  if (negative) {
-    double largest = 0;
-    if (smallest_eigenvalue(system.tangent, largest) < -1e-9 * largest) return false;
-  }
+  if (negative && smallest_eigenvalue(system.tangent) < -1e-12) return false;
   state = next;
   return true;
 }

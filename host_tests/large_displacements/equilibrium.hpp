@@ -57,12 +57,13 @@ class Equilibrium {
   int payout(int cable, int end) const { return first_[cable] + model_.cables[cable].joints() + end; }
 
   /// Smallest real part of an eigenvalue of the tangent by the displacements and rotations: jacks keep their
-  /// forces, joints that slide keep sliding. Negative: the equilibrium is unstable.
+  /// forces, joints that slide keep sliding. Scaled to a unit diagonal. Negative: the equilibrium is
+  /// unstable.
   double stability(const State& state, const Inputs& inputs) const;
   /// Largest part of equilibrium, friction and jack forces that is missing, of the largest force.
   double imbalance(const State& state, const Inputs& inputs) const;
 
-  double step_limit = 0.05;  ///< displacement of one step, of the size of the structure
+  double step_limit = 0.01;  ///< displacement of one step, of the size of the structure
   int nodes() const { return static_cast<int>(at_.size()); }
 
  private:
@@ -76,7 +77,8 @@ class Equilibrium {
   struct System {
     Eigen::MatrixXd tangent;
     Eigen::VectorXd rest;
-    double scale = 0;
+    double scale = 0;     ///< largest force
+    double rounding = 0;  ///< what forces may be off by because displacements are rounded
     std::vector<double>
         wish;  ///< of each joint: its slip in the step, and what it lacks to its cone, as a slip
   };
@@ -85,6 +87,7 @@ class Equilibrium {
   void number();
   void assemble(const State& state, const State& from, const Inputs& inputs, bool choose,
                 std::vector<Mode>& modes, System& system) const;
+  BeamForces forces_of(const State& state, const BeamElement& beam) const;
   Segment segment(const State& state, const Inputs& inputs, int cable, int i) const;
   void add_axial(System& system, int a, int b, const Vector& direction, double length, double force,
                  double by_length) const;
@@ -92,7 +95,7 @@ class Equilibrium {
   void add_point(System& system, int row, int node, const Vector& gradient) const;
   void move(State& state, const Eigen::VectorXd& by) const;
   double imposed_strain(const Inputs& inputs, int cable, int i) const;
-  double smallest_eigenvalue(const Eigen::MatrixXd& tangent, double& largest) const;
+  double smallest_eigenvalue(const Eigen::MatrixXd& tangent) const;
   bool iterate(const State& from, const Inputs& inputs, bool choose, State& state) const;
   bool flip_one(const State& from, const Inputs& inputs, State& state) const;
 

@@ -1,0 +1,47 @@
+// Structures as they are built, and the logs of their jackings.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "large_displacements/scene_file.hpp"
+
+namespace large_displacements {
+
+struct Jacking {
+  Model model;
+  Target target;
+  std::vector<Row> rows;
+};
+
+enum class Struts { vertical, radial, v };
+
+/// A roof beam on a pin and a roller with a cable below it from end to end, jacked at the roller.
+struct BeamString {
+  double span = 80;  ///< [m]
+  int struts = 9;
+  double mu = 0.1;
+  Struts kind = Struts::radial;  ///< radial: along the bisector of the cable's angle
+  double sag = 1.0 / 12;         ///< of the span; the cable is a parabola
+  double rise = 0;               ///< of the roof beam, of the span
+  Law law = Law::point;
+};
+Jacking beam_string(const BeamString& given);
+
+/// A hoop of a suspen-dome: at each node a strut that stands under the roof, and one or two rods outwards.
+struct DomeHoop {
+  int nodes = 16, rods = 1;
+  double mu = 0.1;
+  bool jacked = false;  ///< from node 0 all around to itself, jacked there; otherwise closed, with prestrain
+};
+Jacking dome_hoop(const DomeHoop& given);
+
+/// Ramp to the target, `over` more, release to the target, lock-off, then the second load pattern if there is
+/// one. The first load pattern grows along with the jacks.
+std::vector<Row> ramp_and_lock(const Model& model, const Target& target, double over);
+
+/// All of the above by name, such as beam-string-80-9-radial-0.1 and dome-hoop-1-jacked-0.1.
+std::vector<std::string> scene_names();
+Jacking scene_by_name(const std::string& name);  ///< throws std::out_of_range
+
+}  // namespace large_displacements
