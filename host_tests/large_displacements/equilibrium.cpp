@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 namespace large_displacements {
@@ -10,7 +11,7 @@ namespace {
 
 constexpr double exact = 1e-10;       // of the largest force
 constexpr double good_enough = 1e-8;  // if iterations bring no more
-constexpr int choosing_iterations = 40, iterations_of_a_set = 25;
+constexpr int choosing_iterations = 25, iterations_of_a_set = 25;
 
 /// present - initial, without the digits that subtracting lengths would cost
 double lengthening(const Vector& initial, const Vector& moved, double length) {
@@ -119,6 +120,12 @@ void Equilibrium::number() {
     high = high.cwiseMax(at_[n]);
   }
   size_ = (high - low).norm();
+  shortest_ = size_;
+  for (const Strut& strut : model_.struts)
+    shortest_ = std::min(shortest_, (at_[strut.b] - at_[strut.a]).norm());
+  for (const Cable& cable : model_.cables)
+    for (int i = 0; i < cable.segments(); ++i)
+      shortest_ = std::min(shortest_, (at_[cable.on_path(i + 1)] - at_[cable.on_path(i)]).norm());
   for (const auto& held : frame_held_) {
     std::array<int, 3> place{-1, -1, -1};
     for (int axis = 0; axis < 3; ++axis)
@@ -532,16 +539,21 @@ double Equilibrium::imbalance(const State& state, const Inputs& inputs) const {
 bool Equilibrium::step(State& state, const Inputs& inputs) {
   State next = state;
   if (!iterate(state, inputs, true, next)) {
-    // One joint at a time: all at once can go round in circles.
+    // Where the load turns, what slid before is no good guess.
     next = state;
-    int flips = 4 * materials_ + 20;
-    while (true) {
-      if (--flips < 0 || !iterate(state, inputs, false, next)) return false;
-      if (!flip_one(state, inputs, next)) break;
+    std::fill(next.modes.begin(), next.modes.end(), Mode::stick);
+    const State stuck = next;
+    if (!iterate(state, inputs, true, next)) {
+      // One joint at a time: all at once can go round in circles.
+      next = stuck;
+      std::set<std::vector<Mode>> seen;
+      do {
+        if (!seen.insert(next.modes).second || !iterate(state, inputs, false, next)) return false;
+      } while (flip_one(state, inputs, next));
     }
   }
   for (int n = 0; n < nodes(); ++n)
-    if (!((next.moved[n] - state.moved[n]).norm() <= step_limit * size_)) return false;
+    if (!((next.moved[n] - state.moved[n]).norm() <= step_limit * shortest_)) return false;
   System system;
   std::vector<Mode> modes = next.modes;
   assemble(next, next, inputs, false, modes, system);
@@ -549,7 +561,7 @@ bool Equilibrium::step(State& state, const Inputs& inputs) {
   const Eigen::VectorXd pivots = factors.matrixLU().diagonal();
   bool negative = factors.permutationP().determinant() < 0;
   for (const double pivot : pivots) negative = negative != (pivot < 0);
-  if (negative && smallest_eigenvalue(system.tangent) < -1e-12) return false;
+  if ((negative || always_check_stability) && smallest_eigenvalue(system.tangent) < -1e-12) return false;
   state = next;
   return true;
 }

@@ -63,7 +63,9 @@ class Equilibrium {
   /// Largest part of equilibrium, friction and jack forces that is missing, of the largest force.
   double imbalance(const State& state, const Inputs& inputs) const;
 
-  double step_limit = 0.01;  ///< displacement of one step, of the size of the structure
+  /// Largest displacement of one step, of the shortest strut or segment: what goes on for more is a jump.
+  double step_limit = 0.02;
+  bool always_check_stability = false;  ///< otherwise only where the determinant has changed its sign
   int nodes() const { return static_cast<int>(at_.size()); }
 
  private:
@@ -108,7 +110,7 @@ class Equilibrium {
   std::vector<std::array<int, 3>> place_, turn_place_;  ///< of nodes and frames among the unknowns; -1: held
   std::vector<int> first_;
   int displacements_ = 0, materials_ = 0;
-  double size_ = 0;
+  double size_ = 0, shortest_ = 0;
   double loose_hinge_ = 0;
   std::vector<int> hinge_frames_;
 };

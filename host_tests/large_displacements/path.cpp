@@ -35,6 +35,20 @@ Path::Path(const Model& model, int steps_a_row) : equilibrium(model), steps(step
 }
 
 Reached Path::go(const Inputs& target) {
+  const State before = state;
+  const Inputs from = inputs;
+  const Reached reached = go_in_steps(target);
+  if (!reached || stability() > -1e-12) return reached;
+  // Two eigenvalues have become negative at once.
+  state = before;
+  inputs = from;
+  equilibrium.always_check_stability = true;
+  const Reached checked = go_in_steps(target);
+  equilibrium.always_check_stability = false;
+  return checked;
+}
+
+Reached Path::go_in_steps(const Inputs& target) {
   const Inputs from = inputs;
   Reached reached;
   double step = 1.0 / steps;

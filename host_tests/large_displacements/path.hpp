@@ -38,6 +38,9 @@ class Path {
   JointFriction friction(int cable, int joint) const { return equilibrium.friction(state, cable, joint); }
   Vector moved(int node) const { return state.moved[node]; }
   double stability() const { return equilibrium.stability(state, inputs); }
+
+ private:
+  Reached go_in_steps(const Inputs& target);
 };
 
 }  // namespace large_displacements

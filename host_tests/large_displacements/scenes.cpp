@@ -86,7 +86,7 @@ Jacking beam_string(const BeamString& given) {
       continue;
     }
     double x = foot.x();
-    if (given.kind == Struts::radial) {
+    if (given.kind == Struts::radial || given.kind == Struts::fixed) {
       const Vector up =
           ((below(i - 1) - foot).normalized() + (below(i + 1) - foot).normalized()).normalized();
       for (int k = 0; k < 50; ++k) x = foot.x() + up.x() / up.y() * (roof_at(x).y() - foot.y());
@@ -99,6 +99,15 @@ Jacking beam_string(const BeamString& given) {
   std::vector<int> cable{roof.front()};
   for (int i = 1; i <= given.struts; ++i) {
     cable.push_back(model.add_node("c" + std::to_string(i), below(i)));
+    if (given.kind == Struts::fixed) {
+      Beam strut;
+      strut.nodes = {roof[i], cable.back()};
+      strut.E = steel;
+      strut.A = 6e-3;
+      strut.Iz = 3e-5;
+      model.beams.push_back(strut);
+      continue;
+    }
     model.struts.push_back({cable.back(), roof[i], steel, 6e-3});
     if (given.kind == Struts::v) model.struts.push_back({cable.back(), roof[i + 1], steel, 6e-3});
   }
@@ -125,7 +134,7 @@ Jacking beam_string(const BeamString& given) {
       model.loads.back().forces.push_back({roof[i], Vector(0, -load * width, 0), Vector::Zero()});
     }
   }
-  const char* const kinds[] = {"vertical", "radial", "v"};
+  const char* const kinds[] = {"vertical", "radial", "v", "fixed"};
   model.name = "beam-string-" + short_number(span) + "-" + std::to_string(given.struts) + "-" +
                kinds[static_cast<int>(given.kind)] + "-" + short_number(given.mu);
   made.target = {true, {1, 0}, {{0, force}}};
@@ -186,7 +195,7 @@ void each_scene(const std::function<void(const std::function<Jacking()>&)>& see)
   const std::pair<double, int> spans[] = {{60, 7}, {80, 9}, {120, 11}};
   for (const auto& [span, struts] : spans)
     for (const double mu : {.03, .05, .1, .2, .3})
-      for (const Struts kind : {Struts::radial, Struts::vertical, Struts::v}) {
+      for (const Struts kind : {Struts::radial, Struts::vertical, Struts::v, Struts::fixed}) {
         BeamString given;
         given.span = span;
         given.struts = struts;

@@ -14,16 +14,18 @@ struct Jacking {
   std::vector<Row> rows;
 };
 
-enum class Struts { vertical, radial, v };
+/// Radial: along the bisector of the cable's angle; v: two bars a joint; fixed: radial, rigid in the roof
+/// beam. All others are pinned at both ends.
+enum class Struts { vertical, radial, v, fixed };
 
 /// A roof beam on a pin and a roller with a cable below it from end to end, jacked at the roller.
 struct BeamString {
   double span = 80;  ///< [m]
   int struts = 9;
   double mu = 0.1;
-  Struts kind = Struts::radial;  ///< radial: along the bisector of the cable's angle
-  double sag = 1.0 / 12;         ///< of the span; the cable is a parabola
-  double rise = 0;               ///< of the roof beam, of the span
+  Struts kind = Struts::radial;
+  double sag = 1.0 / 12;  ///< of the span; the cable is a parabola
+  double rise = 0;        ///< of the roof beam, of the span
   Law law = Law::point;
 };
 Jacking beam_string(const BeamString& given);
