@@ -94,14 +94,17 @@ TEST_CASE("a pinned strut leans towards the jack, and the far segment has more t
 }
 
 TEST_CASE("with little friction a pinned strut runs away, at the load of the limit point") {
-  for (const auto& [mu, expected] : {std::pair{.005, 805531.0}, {.01, 1609993.0}}) {
-    CAPTURE(mu);
-    Model model = leaning_strut(mu);
+  struct Limit {
+    double mu, F;
+  };
+  for (const Limit& limit : {Limit{.005, 805531}, Limit{.01, 1609993}}) {
+    CAPTURE(limit.mu);
+    Model model = leaning_strut(limit.mu);
     Path path(model);
     const double target = 2e6;
     const Reached reached = path.advance(at(model, target));
     CHECK_FALSE(reached);
-    CHECK(near(reached.part * target, expected, 2));
+    CHECK(near(reached.part * target, limit.F, 2));
     CHECK(reached.refused - reached.part < 1e-7);
     // It sticks up to there: to slide is to run away. Then friction is used up by the lean to the bisector.
     const auto& now = path.state;
@@ -110,7 +113,7 @@ TEST_CASE("with little friction a pinned strut runs away, at the load of the lim
     const Vector e2 = (path.equilibrium.position(now, 2) - foot).normalized();
     const Vector bisector = (e1 + e2).normalized(), strut = (Vector(0, 2, 0) - foot).normalized();
     CHECK(path.slip(0, 0) == 0);
-    CHECK(near(bisector.cross(strut).norm() / bisector.dot(strut), mu, 1e-6 * mu));
+    CHECK(near(bisector.cross(strut).norm() / bisector.dot(strut), limit.mu, 1e-6 * limit.mu));
   }
 }
 
@@ -131,4 +134,21 @@ TEST_CASE("a guided joint rises as equilibrium with friction at the present angl
     CHECK(near(path.T(0, 0), e.T1, .06));
     CHECK(near(path.payout(0, 1), e.extension, 6e-8));
   }
+}
+
+TEST_CASE("between two jacks a pinned strut is unstable beyond what a spring at its foot can hold") {
+  // With both forces kept, the cable's pull on the foot turns back less than the strut's push turns away.
+  const double spring = 2e4, l = std::sqrt(100.25), sine = .5 / l, h = 2;
+  const double limit = spring / (2 * sine * (1 / h - sine / l));
+  Model model = leaning_strut(.1);
+  model.cables[0].jacked = {true, true};
+  model.substructures.push_back({"spring", {1}, Vector(spring, 0, 0).head(2).asDiagonal()});
+  Row row = at(model, 2 * limit);
+  row.jacks[0][0].force = 2 * limit;
+  Path path(model);
+  const Reached reached = path.advance(row);
+  CHECK_FALSE(reached);
+  CHECK(near(2 * reached.part, 1, 1e-5));
+  CHECK(path.stability() > 0);
+  CHECK(path.stability() < 1e-6);
 }

@@ -356,7 +356,8 @@ void Equilibrium::assemble(const State& state, const State& from, const Inputs& 
     for (int i = 0; i < cable.segments(); ++i) {
       segments.push_back(segment(state, inputs, c, i));
       const Segment& s = segments.back();
-      system.scale = std::max(system.scale, std::fabs(s.T));
+      system.scale = std::max(system.scale, s.T);
+      system.rounding = std::max(system.rounding, -1e-12 * s.T);
       round(cable.E * cable.A, s.length, s.a, s.b);
       // What is just tight counts, for a cable at rest has to begin somewhere.
       if (s.T < -1e-12 * cable.E * cable.A) continue;
@@ -475,18 +476,25 @@ bool Equilibrium::iterate(const State& from, const Inputs& inputs, bool choose, 
     last = off;
     before = state.modes;
     Eigen::VectorXd by = system.tangent.partialPivLu().solve(-system.rest);
-    const double cap = 0.05 * size_;
-    const double stiffest = system.tangent.diagonal().head(displacements_).cwiseAbs().maxCoeff();
+    double stiffest = system.scale / size_;
+    for (int k = 0; k < displacements_; ++k) stiffest = std::max(stiffest, std::fabs(system.tangent(k, k)));
+    // Of the steps that are allowed; a cable without tension between two jacks goes through without a force.
+    const auto too_far = [&] {
+      double most = 0;
+      for (int k = 0; k < displacements_; ++k) most = std::max(most, std::fabs(by[k]) / (0.05 * size_));
+      for (int k = displacements_; k < by.size(); ++k)
+        most = std::max(most, std::fabs(by[k]) / (2e-3 * size_));
+      return most;
+    };
     // What nothing holds yet is held a little; the equilibrium that is found is the same.
-    const auto largest = [&] { return by.head(displacements_).cwiseAbs().maxCoeff(); };
-    for (double shift = 1e-9; displacements_ > 0 && (!by.allFinite() || largest() > cap) && shift < 1e-2;
-         shift *= 30) {
+    for (double shift = 1e-9; (!by.allFinite() || too_far() > 1) && shift < 1e-2; shift *= 30) {
       Eigen::MatrixXd held = system.tangent;
-      for (int k = 0; k < displacements_; ++k) held(k, k) += shift * std::max(stiffest, system.scale / size_);
+      for (int k = 0; k < displacements_; ++k) held(k, k) += shift * stiffest;
+      for (int k = displacements_; k < by.size(); ++k) held(k, k) *= 1 + 100 * shift;
       by = held.partialPivLu().solve(-system.rest);
     }
     if (!by.allFinite()) return false;
-    if (displacements_ > 0 && largest() > cap) by *= cap / largest();
+    if (too_far() > 1) by /= too_far();
     move(state, by);
   }
   return false;

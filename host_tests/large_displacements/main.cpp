@@ -1,6 +1,7 @@
 // Forces at large displacements for a scene and a log of taut:
 //
 //     large_displacements SCENE LOG [-o OUT] [--steps N] [--pieces N] [--present-length]
+//     large_displacements --compare RESULT REFERENCE
 //     large_displacements --scenes
 //     large_displacements --write NAME DIR
 //
@@ -11,6 +12,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "large_displacements/comparison.hpp"
 #include "large_displacements/result.hpp"
 #include "large_displacements/scene_file.hpp"
 #include "large_displacements/scenes.hpp"
@@ -94,6 +96,12 @@ int main(int count, char** words) try {
   const std::string first = count > 1 ? words[1] : "";
   if (first == "--scenes") {
     for (const std::string& name : scene_names()) std::printf("%s\n", name.c_str());
+    return 0;
+  }
+  if (first == "--compare" && count == 4) {
+    for (const Difference& d : compare(file_text(words[2]), file_text(words[3])))
+      std::printf("%-8s %.3g of %.6g, %s at %g\n", d.kind.c_str(), d.part, d.largest, d.column.c_str(),
+                  d.time);
     return 0;
   }
   if (first == "--write" && count == 4) {

@@ -220,10 +220,10 @@ std::string scene_text(const Model& model, const Target& target) {
   for (const Node& node : model.nodes) {
     scene["nodes"][node.name] = numbers_of(node.at, model.dimension);
     std::string held;
-    const char* const letters[6] = {"x", "y", "z", "rx", "ry", "rz"};
+    const bool turned = model.dimension == 3 && (node.held[3] || node.held[4] || node.held[5]);
+    const char* const letters[] = {"x", "y", "z", "rx", "ry", model.dimension == 3 ? "rz" : "r"};
     for (int axis = 0; axis < 6; ++axis)
-      if (node.held[axis]) held += (held.empty() ? "" : " ") + std::string(letters[axis]);
-    if (model.dimension == 2 && node.held[5]) held.pop_back();  // in the plane the letter is r
+      if (node.held[axis]) held += (turned && !held.empty() ? " " : "") + std::string(letters[axis]);
     if (!held.empty()) scene["supports"][node.name] = held;
   }
   scene["struts"] = Json::array();

@@ -168,7 +168,14 @@ Jacking dome_hoop(const DomeHoop& given) {
     }
     model.loads[0].forces.push_back({hoop.back(), Vector(0, 0, -2e4), Vector::Zero()});
   }
-  if (given.jacked) hoop.push_back(hoop.front());
+  if (given.jacked) {
+    // The jack stands at a node of its own, 1 m from the first one on the last chord, and holds on to it.
+    const Vector first = model.nodes[hoop.front()].at, last = model.nodes[hoop.back()].at;
+    const int end = model.add_node("jack", first + (last - first).normalized());
+    model.struts.push_back({hoop.front(), end, steel, 1e-2});
+    model.substructures.push_back({"chair", {end}, Vector(1e5, 1e5, 1e5).asDiagonal()});
+    hoop.push_back(end);
+  }
   const double force = 1.5e6;
   model.cables.push_back(cable_along(hoop, force / 5e8, given.mu, Law::point, !given.jacked));
   model.cables[0].jacked[1] = given.jacked;

@@ -34,7 +34,8 @@ Jacking beam_string(const BeamString& given);
 struct DomeHoop {
   int nodes = 16, rods = 1;
   double mu = 0.1;
-  bool jacked = false;  ///< from node 0 all around to itself, jacked there; otherwise closed, with prestrain
+  bool jacked =
+      false;  ///< from node 0 all around to a jack that holds on to it; otherwise closed, with prestrain
 };
 Jacking dome_hoop(const DomeHoop& given);
 

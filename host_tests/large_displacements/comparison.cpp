@@ -1,0 +1,71 @@
+#include "large_displacements/comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace large_displacements {
+namespace {
+
+using Table = std::map<std::string, std::vector<std::string>>;
+
+Table table_of(const std::string& text) {
+  Table table;
+  std::vector<std::string> header;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    std::vector<std::string> row;
+    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+    if (header.empty()) {
+      header = row;
+      continue;
+    }
+    for (std::size_t i = 0; i < header.size(); ++i) table[header[i]].push_back(i < row.size() ? row[i] : "");
+  }
+  return table;
+}
+
+/// C.T1, strut2, C.end.payout, C.slip3; empty for others.
+std::string kind_of(const std::string& column) {
+  const auto last = column.rfind('.');
+  const std::string word = last == std::string::npos ? column : column.substr(last + 1);
+  const auto numbered = [&](const std::string& stem) {
+    return word.size() > stem.size() && word.compare(0, stem.size(), stem) == 0 &&
+           std::all_of(word.begin() + static_cast<std::ptrdiff_t>(stem.size()), word.end(),
+                       [](char c) { return c >= '0' && c <= '9'; });
+  };
+  if (last == std::string::npos) return numbered("strut") ? "struts" : "";
+  if (word == "payout") return "payouts";
+  return numbered("T") ? "segments" : numbered("slip") ? "slips" : "";
+}
+
+}  // namespace
+
+std::vector<Difference> compare(const std::string& result, const std::string& reference) {
+  const Table found = table_of(result), expected = table_of(reference);
+  std::vector<Difference> differences;
+  for (const char* kind : {"segments", "struts", "payouts", "slips"}) {
+    Difference worst;
+    worst.kind = kind;
+    double most = 0;
+    for (const auto& [column, values] : expected) {
+      const auto other = found.find(column);
+      if (kind_of(column) != kind || other == found.end()) continue;
+      for (std::size_t row = 0; row < std::min(values.size(), other->second.size()); ++row) {
+        const double right = std::stod(values[row]), off = std::fabs(std::stod(other->second[row]) - right);
+        worst.largest = std::max(worst.largest, std::fabs(right));
+        if (!(off > most)) continue;
+        most = off;
+        worst.column = column;
+        worst.time = std::stod(expected.at("time")[row]);
+      }
+    }
+    if (worst.largest > 0) worst.part = most / worst.largest;
+    if (worst.largest > 0) differences.push_back(worst);
+  }
+  return differences;
+}
+
+}  // namespace large_displacements

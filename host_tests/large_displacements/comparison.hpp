@@ -1,0 +1,20 @@
+// Two results as CSV, column by column.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace large_displacements {
+
+/// The largest difference in one kind of columns, of the largest value there.
+struct Difference {
+  std::string kind;  ///< "segments", "struts", "payouts", "slips"
+  double largest = 0, part = 0;
+  std::string column;  ///< where it is
+  double time = 0;
+};
+
+/// Over the rows and columns that both have; columns of other kinds do not count.
+std::vector<Difference> compare(const std::string& result, const std::string& reference);
+
+}  // namespace large_displacements
