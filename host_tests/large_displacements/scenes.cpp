@@ -136,7 +136,8 @@ Jacking beam_string(const BeamString& given) {
   }
   const char* const kinds[] = {"vertical", "radial", "v", "fixed"};
   model.name = "beam-string-" + short_number(span) + "-" + std::to_string(given.struts) + "-" +
-               kinds[static_cast<int>(given.kind)] + "-" + short_number(given.mu);
+               (given.rise > 0 ? "arched-" : "") + kinds[static_cast<int>(given.kind)] + "-" +
+               short_number(given.mu);
   made.target = {true, {1, 0}, {{0, force}}};
   made.rows = ramp_and_lock(model, made.target, 0.05);
   return made;
@@ -211,6 +212,9 @@ void each_scene(const std::function<void(const std::function<Jacking()>&)>& see)
         // A vertical strut needs friction for its lean to the bisector: less where the cable is flatter.
         if (kind == Struts::vertical) given.sag = std::min(1.0 / 12, mu / 4.5);
         see([given] { return beam_string(given); });
+        // Under an arch the struts at the ends are longer, and lean by less.
+        given.rise = 0.05;
+        if (kind == Struts::radial) see([given] { return beam_string(given); });
       }
   for (const double mu : {.05, .1, .3})
     for (const int rods : {1, 2})
