@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "files/result_table.hpp"
@@ -21,6 +22,7 @@ namespace {
 const std::string scene = TAUT_FILES "/two_jacks.json";
 const std::string one_jack = TAUT_FILES "/one_jack.json";
 const std::string vertical_strut = TAUT_FILES "/vertical_strut.json";
+const std::string beam_string = TAUT_FILES "/beam_string.json";
 
 /// The class of a scene that all of them hold.
 template <class First, class... Larger>
@@ -101,6 +103,53 @@ TEST_CASE("check warns of a joint that sets its node free when it slides, and sa
   CHECK(outcome.err ==
         "warning: joint 1 of cable \"C\" at node \"top\": when the cable slides over it, nothing holds its "
         "node; add a second strut, a support or a substructure at that node\n");
+}
+
+TEST_CASE("check says how many beams there are and what they bring") {
+  const Scratch scratch;
+  const Outcome outcome = run_taut(scratch, "check '" + beam_string + "'");
+  CHECK(outcome.status == 0);
+  CHECK(outcome.err.empty());
+  CHECK(outcome.out.find("beam members            5 of ") != std::string::npos);
+  // Five nodes turn: not the hinge in the middle.
+  CHECK(outcome.out.find("beams                   1 beam of 5 members; 5 rotations unknown beside the "
+                         "displacements\n") != std::string::npos);
+  CHECK(run_taut(scratch, "check '" + scene + "'").out.find("\nbeams ") == std::string::npos);
+}
+
+TEST_CASE("the cable under a hinged beam has the force that moments about the hinge ask for") {
+  const Scratch scratch;
+  // A quarter of the load in the right support, 12 m beside the hinge; T sine pulls there down, and up 2 m
+  // beside the hinge.
+  const double sine = 2.5 / std::hypot(12, 2.5), T = 1e4 / 4 * 12 / (sine * (12 - 2));
+  for (const std::string method : {"tracker", "stepwise"}) {
+    CAPTURE(method);
+    const Outcome outcome = run_taut(
+        scratch, simulation(scratch, "time,weight\n1,1\n2,3\n", beam_string) + " --method " + method);
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    const Table table(outcome.out);
+    for (const auto& [row, factor] : {std::pair<std::size_t, double>{0, 1}, {1, 3}}) {
+      for (const char* segment : {"C.T1", "C.T2"})
+        CHECK(std::fabs(table.number(row, segment) - factor * T) < 1e-9 * T);
+      // The struts hold up what both segments pull down.
+      for (const char* strut : {"strut1", "strut2"})
+        CHECK(std::fabs(table.number(row, strut) + factor * T * sine * std::hypot(2, 2.5) / 2.5) < 1e-9 * T);
+    }
+  }
+}
+
+TEST_CASE("a beam in space that turns about its own axis is a mechanism, and what helps is said") {
+  const Scratch scratch;
+  std::ofstream(scratch.path / "loose.json") << R"({ "taut": 1, "name": "loose", "dimension": 3,
+    "nodes": { "a": [0, 0, 0], "b": [4, 0, 0], "c": [9, 0, 0] }, "supports": { "a": "xyz", "c": "yz" },
+    "beams": [ { "nodes": ["a", "b", "c"], "E": 2.1e11, "A": 0.02, "Iy": 4e-4, "Iz": 1e-4, "J": 9e-6 } ],
+    "cables": [ { "name": "C", "path": ["a", "c"], "E": 2e11, "A": 1e-4, "start": "anchored", "end": "anchored" } ] })";
+  const Outcome outcome = run_taut(scratch, "check " + scratch.quoted("loose.json"));
+  CHECK(outcome.status == 1);
+  CHECK(outcome.err.find("mechanism: nothing holds this node; add a strut, a support or a substructure that "
+                         "holds it, or hold the rotation of a beam that turns freely\n") !=
+        std::string::npos);
 }
 
 TEST_CASE("the method is the tracker unless another one is asked for") {

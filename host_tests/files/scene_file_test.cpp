@@ -123,6 +123,60 @@ TEST_CASE("letters of a support may come in any order") {
   const SceneDescription scene = every_key();
   CHECK(scene.nodes[3].held == held_xyz);
   CHECK(scene.nodes[2].held == held_y);
+  CHECK(scene.nodes[5].held == (held_xyz | held_rx | held_ry | held_rz));
+}
+
+TEST_CASE("every value of a beam arrives, and in the core as members with the hinges at their ends") {
+  const SceneDescription in_space = every_key();
+  REQUIRE(in_space.beams.size() == 1);
+  const auto space = make_valid_scene<3, Large>(in_space);
+  REQUIRE(space->beams.size() == 1);
+  CHECK(space->beams[0].nodes == std::array<int, 2>{4, 5});
+  CHECK(space->beams[0].hinged == std::array<bool, 2>{true, false});
+  const auto& girder = space->beams[0].section;
+  CHECK(girder.E == 2.1e11);
+  CHECK(girder.A == 0.02);
+  CHECK(girder.Iy == 4e-4);
+  CHECK(girder.Iz == 1e-4);
+  CHECK(girder.J == 9e-6);
+  CHECK(girder.G == 8e10);
+  CHECK(girder.up == std::array<double, 3>{0.5, 0.25, 1});
+
+  const SceneDescription in_plane = read_scene(R"({ "taut": 1, "name": "", "dimension": 2,
+    "nodes": { "a": [0, 0], "b": [1, 0], "c": [2, 1], "d": [2, 2] }, "supports": { "a": "r yx", "d": "xy" },
+    "beams": [ { "nodes": ["a", "b", "c"], "E": 3, "A": 2, "I": 1, "hinges": ["b"] },
+               { "nodes": ["d", "c"], "E": 6, "A": 5, "I": 4 } ] })",
+                                               "f");
+  CHECK(in_plane.nodes[0].held == (held_xy | held_r));
+  const auto plane = make_valid_scene<2, Large>(in_plane);
+  REQUIRE(plane->beams.size() == 3);
+  CHECK(plane->beams[0].hinged == std::array<bool, 2>{false, true});
+  CHECK(plane->beams[1].nodes == std::array<int, 2>{1, 2});
+  CHECK(plane->beams[1].hinged == std::array<bool, 2>{true, false});
+  CHECK(plane->beams[1].section.E == 3);
+  CHECK(plane->beams[1].section.A == 2);
+  CHECK(plane->beams[1].section.I == 1);
+  CHECK(plane->beams[2].nodes == std::array<int, 2>{3, 2});
+  CHECK(plane->beams[2].section.I == 4);
+}
+
+TEST_CASE("in space a beam has the shear modulus of steel and up along z unless it says otherwise") {
+  const SceneDescription scene = read_scene(R"({ "taut": 1, "name": "", "dimension": 3,
+    "nodes": { "a": [0, 0, 0], "b": [1, 0, 0] }, "supports": { "a": "xyzrxryrz" },
+    "beams": [ { "nodes": ["a", "b"], "E": 2.6e11, "A": 2, "Iy": 1, "Iz": 1, "J": 1 } ] })",
+                                            "f");
+  CHECK(scene.nodes[0].held == (held_xyz | held_rx | held_ry | held_rz));
+  CHECK(scene.beams[0].G == doctest::Approx(1e11).epsilon(1e-15));
+  CHECK(scene.beams[0].up == std::array<double, 3>{0, 0, 1});
+}
+
+TEST_CASE("beams fill a capacity member by member") {
+  SceneDescription scene;
+  scene.file = "big.json";
+  scene.beams.resize(2);
+  for (BeamDescription& beam : scene.beams) beam.nodes.resize(514);
+  CHECK_THROWS_WITH(require_valid(scene),
+                    "big.json: /beams: the scene has 1026 beam members; this program holds at most 1024");
 }
 
 TEST_CASE("a byte order mark before the scene does not count") {

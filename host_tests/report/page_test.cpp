@@ -103,6 +103,31 @@ TEST_CASE("names of a scene are text, whatever they hold") {
   CHECK_FALSE(has(page, "<i>"));
 }
 
+TEST_CASE("beams are drawn member by member with their hinges, and what supports hold of them is said") {
+  const Scratch scratch;
+  const std::string girder = R"({ "taut": 1, "name": "girder", "dimension": 2,
+    "nodes": { "a": [0, 0], "b": [3, 0], "c<d>": [6, 0], "e": [3, -1] },
+    "supports": { "a": "xyr", "c<d>": "y", "e": "x" },
+    "struts": [ { "nodes": ["b", "e"], "E": 2e11, "A": 1e-3 } ],
+    "beams": [ { "nodes": ["a", "b", "c<d>"], "E": 2e11, "A": 0.02, "I": 4e-4, "hinges": ["c<d>"] } ],
+    "cables": [ { "name": "C", "path": ["a", "e", "c<d>"], "E": 1.95e11, "A": 8e-4, "start": "anchored", "end": "jacked",
+                  "friction": { "law": "point", "mu": 0.1 } } ] })";
+  REQUIRE(report(scratch, girder, "time,C.end\n1,1000\n2,2000\n").status == 0);
+  const std::string page = page_of(scratch);
+  CHECK(WellFormed(page)() == "");
+  const auto looks = attributes(page, "class");
+  // Two members and one hinge, and one of each in the legend.
+  CHECK(std::count(looks.begin(), looks.end(), "beam") == 3);
+  CHECK(std::count(looks.begin(), looks.end(), "hinge") == 2);
+  CHECK(has(page, "<title>beam 1 (a\u2013b)</title>"));
+  CHECK(has(page, "<title>beam 1 (b\u2013c&lt;d&gt;)</title>"));
+  CHECK(has(page, "<title>hinge of beam 1 at node c&lt;d&gt;</title>"));
+  CHECK(has(page, "<title>support a: held in x, y, rotation</title>"));
+  // No beams, no entry of the legend.
+  REQUIRE(report(scratch, chain, chain_log(3)).status == 0);
+  CHECK_FALSE(has(page_of(scratch), "class=\"beam\""));
+}
+
 TEST_CASE("all points lie within their charts, and long logs have no more of them") {
   const Scratch scratch;
   // A strain of 13 % in the end.

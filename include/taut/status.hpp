@@ -51,6 +51,7 @@ enum class Place : std::uint8_t {
   load,
   force,
   temperature,
+  beam,
 };
 
 /// The outcome of a call. It converts to true when all is well and cannot be ignored.

@@ -6,7 +6,7 @@
 // Friction coefficients and load factors have no unit. Time, where it is asked for (Readings::dt), may be in
 // any unit, the same in every row.
 //
-// NUMBERS. Nodes, struts, cables, segments, joints and load patterns are counted from 0 over the whole
+// NUMBERS. Nodes, struts, beams, cables, segments, joints and load patterns are counted from 0 over the whole
 // scene, the segments and joints of one cable one after the other; files and messages count from 1. A cable
 // end is 0 (start) or 1 (end). Arrays have the size of the capacity; what is beyond the scene's own count
 // has no meaning. An index is not checked: one outside of the scene is undefined behaviour.

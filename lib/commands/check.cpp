@@ -25,6 +25,23 @@ std::string line(const std::string& label, const std::string& value) {
   return label + std::string(label.size() < column ? column - label.size() : 1, ' ') + value + "\n";
 }
 
+// Beams bring rotations as further unknowns.
+std::string beams(const SceneDescription& scene) {
+  if (scene.beams.empty()) return "";
+  std::vector<bool> turns(scene.nodes.size());
+  std::size_t members = 0, rotations = 0;
+  for (const BeamDescription& beam : scene.beams) {
+    members += beam.members();
+    for (const int node : beam.nodes)
+      if (!beam.has_hinge(node)) turns[static_cast<std::size_t>(node)] = true;
+  }
+  for (std::size_t i = 0; i < turns.size(); ++i)
+    for (unsigned bit = scene.dimension == 2 ? held_r : held_rx; turns[i] && bit <= held_rz; bit *= 2)
+      rotations += (scene.nodes[i].held & bit) == 0 ? 1 : 0;
+  return line("beams", counted(scene.beams.size(), "beam") + " of " + counted(members, "member") + "; " +
+                           counted(rotations, "rotation") + " unknown beside the displacements");
+}
+
 std::string head(const SceneDescription& scene) {
   return line("scene", quote(scene.name)) + line("dimension", std::to_string(scene.dimension));
 }
@@ -137,7 +154,7 @@ int check(const std::string& scene_path) {
   const SceneDescription scene = read_scene_file(scene_path);
   const CondensedArrays condensed = condense(scene, ScalarType::float64);
   OutputFile output("");
-  output.write(head(scene) + capacities(scene) + memory(scene) + cables(scene, condensed));
+  output.write(head(scene) + capacities(scene) + beams(scene) + memory(scene) + cables(scene, condensed));
   const Status stands = condensed.condensing.status ? try_start(scene) : condensed.condensing.status;
   if (!stands) {
     output.finish();

@@ -47,6 +47,23 @@ struct StrutDescription {
   InstrumentDescription gauge;  ///< of its axial force
 };
 
+/// A chain of beams between nodes that follow each other. Units: N/m2, m2, m4. In the plane I is what counts;
+/// in space Iy, Iz, J, G and up, see BeamSection.
+struct BeamDescription {
+  std::vector<int> nodes;
+  double E = 0, A = 0, I = 0;
+  double Iy = 0, Iz = 0, J = 0, G = 0;
+  std::array<double, 3> up{0, 0, 1};
+  std::vector<int> hinges;  ///< nodes at which the ends of its members are hinged
+
+  std::size_t members() const { return nodes.empty() ? 0 : nodes.size() - 1; }
+  bool has_hinge(int node) const {
+    for (const int hinge : hinges)
+      if (hinge == node) return true;
+    return false;
+  }
+};
+
 /// A cable; the fields mean what they mean in Cable.
 struct CableDescription {
   std::string name;
@@ -109,6 +126,7 @@ struct SceneDescription {
   bool plausible = true;  ///< what is surely a mistake is refused
   std::vector<NodeDescription> nodes;
   std::vector<StrutDescription> struts;
+  std::vector<BeamDescription> beams;
   std::vector<CableDescription> cables;
   std::vector<SubstructureDescription> substructures;
   std::vector<LoadDescription> loads;

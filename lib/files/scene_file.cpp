@@ -26,6 +26,7 @@ const Keys scene_keys = {
     {"nodes", true, "an object that gives every node name its coordinates [m]"},
     {"supports", false, ""},
     {"struts", false, ""},
+    {"beams", false, ""},
     {"cables", false, ""},
     {"substructures", false, ""},
     {"loads", false, ""},
@@ -36,6 +37,24 @@ const Keys strut_keys = {
     {"nodes", true, "a list of two node names"},
     {"E", true, "Young's modulus [N/m2]"},
     {"A", true, "the cross-section [m2]"},
+};
+const Keys plane_beam_keys = {
+    {"nodes", true, "a list of node names, one after the other along the beam"},
+    {"E", true, "Young's modulus [N/m2]"},
+    {"A", true, "the cross-section [m2]"},
+    {"I", true, "the second moment of area [m4]"},
+    {"hinges", false, ""},
+};
+const Keys space_beam_keys = {
+    {"nodes", true, "a list of node names, one after the other along the beam"},
+    {"E", true, "Young's modulus [N/m2]"},
+    {"A", true, "the cross-section [m2]"},
+    {"Iy", true, "the second moment of area about the beam's y [m4]"},
+    {"Iz", true, "the second moment of area about the beam's z [m4]"},
+    {"J", true, "the torsion constant [m4]"},
+    {"G", false, ""},
+    {"up", false, ""},
+    {"hinges", false, ""},
 };
 const Keys cable_keys = {
     {"name", true, "a name for the columns of the log and the result"},
@@ -79,6 +98,8 @@ class SceneReader {
     read_nodes();
     if (const auto supports = root_.find("supports")) read_supports(*supports);
     if (const auto struts = root_.find("struts")) read_struts(*struts);
+    if (const auto beams = root_.find("beams")) read_beams(*beams);
+    if (const auto supports = root_.find("supports")) require_held_rotations_to_be_there(*supports);
     if (const auto cables = root_.find("cables")) read_cables(*cables);
     if (const auto substructures = root_.find("substructures")) read_substructures(*substructures);
     if (const auto loads = root_.find("loads")) read_loads(*loads);
@@ -166,24 +187,78 @@ class SceneReader {
     }
   }
 
-  std::uint8_t read_support(const Field& field) const {
-    const std::string allowed = "write letters out of " + quote(axes()) + ", each at most once";
-    const std::string& letters = field.text("letters out of " + quote(axes()));
-    if (letters.empty()) field.refuse("the support holds nothing", allowed + ", or leave the node out");
-    unsigned held = held_none;
-    for (const char letter : letters) {
-      const std::size_t axis = axes().find(letter);
-      if (axis == std::string::npos) {
-        field.refuse(
-            quote(letters) + " is not a support in a scene of dimension " + std::to_string(scene_.dimension),
-            allowed);
-      }
-      if ((held >> axis & 1U) != 0) {
-        field.refuse("the support " + quote(letters) + " names axis " + letter + " twice", allowed);
-      }
-      held |= 1U << axis;
+  // Motions that a support can hold, as they are written; rotations only of beams.
+  struct Motion {
+    std::string name;
+    unsigned bit;
+  };
+  std::vector<Motion> motions() const {
+    std::vector<Motion> all;
+    for (std::size_t axis = 0; axis < axes().size(); ++axis) all.push_back({{axes()[axis]}, 1U << axis});
+    if (!root_.find("beams")) return all;
+    if (scene_.dimension == 2) {
+      all.push_back({"r", held_r});
+    } else {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        all.push_back({std::string("r") + "xyz"[axis], static_cast<unsigned>(held_rx) << axis});
     }
+    return all;
+  }
+  std::string letters_of_supports() const {
+    if (!root_.find("beams")) return "letters out of " + quote(axes());
+    return scene_.dimension == 2 ? "letters out of \"xyr\"" : "out of \"x y z rx ry rz\"";
+  }
+
+  std::uint8_t read_support(const Field& field) const {
+    const std::string wanted = letters_of_supports();
+    const std::string allowed = "write " + wanted + ", each at most once";
+    const std::string& letters = field.text(wanted);
+    unsigned held = held_none;
+    for (std::size_t i = 0; i < letters.size();) {
+      if (letters[i] == ' ') {
+        ++i;
+        continue;
+      }
+      const Motion motion = motion_at(field, letters, i, allowed);
+      if ((held & motion.bit) != 0) {
+        field.refuse("the support " + quote(letters) + " names " +
+                         (motion.bit < held_rx ? "axis " : "the rotation ") + motion.name + " twice",
+                     allowed);
+      }
+      held |= motion.bit;
+      i += motion.name.size();
+    }
+    if (held == held_none) field.refuse("the support holds nothing", allowed + ", or leave the node out");
     return static_cast<std::uint8_t>(held);
+  }
+
+  Motion motion_at(const Field& field, const std::string& letters, std::size_t i,
+                   const std::string& allowed) const {
+    for (const Motion& motion : motions())
+      if (letters.compare(i, motion.name.size(), motion.name) == 0) return motion;
+    if (letters[i] == 'r' && !root_.find("beams")) {
+      field.refuse("the support " + quote(letters) + " holds a rotation in a scene without beams",
+                   allowed + ", or add \"beams\"");
+    }
+    field.refuse(
+        quote(letters) + " is not a support in a scene of dimension " + std::to_string(scene_.dimension),
+        allowed);
+  }
+
+  // A node has rotations only where the end of a beam turns with it.
+  void require_held_rotations_to_be_there(const Field& field) const {
+    for (const auto& [name, held] : field.members("an object that gives node names their supports")) {
+      const int index = node(held, name);
+      if (scene_.nodes[static_cast<std::size_t>(index)].held < held_rx || turns(index)) continue;
+      held.refuse("no beam turns with node " + quote(name) + ", so it has no rotation to hold",
+                  "leave the rotation out, or let a beam without a hinge end here");
+    }
+  }
+  bool turns(int index) const {
+    for (const BeamDescription& beam : scene_.beams)
+      for (const int each : beam.nodes)
+        if (each == index && !beam.has_hinge(index)) return true;
+    return false;
   }
 
   void read_struts(const Field& field) {
@@ -199,6 +274,51 @@ class SceneReader {
       strut.E = item.at("E").amount("Young's modulus [N/m2] as a number");
       strut.A = item.at("A").amount("the cross-section [m2] as a number");
       scene_.struts.push_back(strut);
+    }
+  }
+
+  void read_beams(const Field& field) {
+    const bool in_space = scene_.dimension == 3;
+    for (const Field& item : field.elements("a list of beams")) {
+      item.require_keys(in_space ? space_beam_keys : plane_beam_keys,
+                        in_space ? "a beam: { \"nodes\": [...], \"E\": ..., \"A\": ..., \"Iy\": ..., "
+                                   "\"Iz\": ..., \"J\": ..., \"up\": [...] }"
+                                 : "a beam: { \"nodes\": [...], \"E\": ..., \"A\": ..., \"I\": ... }");
+      BeamDescription beam;
+      const Field nodes = item.at("nodes");
+      for (const Field& name : nodes.elements("a list of node names")) beam.nodes.push_back(node(name));
+      if (beam.nodes.size() < 2) {
+        nodes.refuse("the beam has " + counted(beam.nodes.size(), "node"), "write at least 2");
+      }
+      beam.E = item.at("E").amount("Young's modulus [N/m2] as a number");
+      beam.A = item.at("A").amount("the cross-section [m2] as a number");
+      if (in_space)
+        read_section_in_space(item, beam);
+      else
+        beam.I = item.at("I").amount("the second moment of area [m4] as a number");
+      if (const auto hinges = item.find("hinges")) read_hinges(*hinges, beam);
+      scene_.beams.push_back(std::move(beam));
+    }
+  }
+
+  void read_section_in_space(const Field& item, BeamDescription& beam) const {
+    constexpr double usual_ratio = 2.6;  // E / G of steel, with a Poisson's ratio of 0.3
+    beam.Iy = item.at("Iy").amount("the second moment of area about y [m4] as a number");
+    beam.Iz = item.at("Iz").amount("the second moment of area about z [m4] as a number");
+    beam.J = item.at("J").amount("the torsion constant [m4] as a number");
+    const auto G = item.find("G");
+    beam.G = G ? G->amount("the shear modulus [N/m2] as a number") : beam.E / usual_ratio;
+    if (const auto up = item.find("up")) beam.up = read_vector(*up, "any unit");
+  }
+
+  void read_hinges(const Field& field, BeamDescription& beam) const {
+    for (const Field& name : field.elements("a list of names of its nodes")) {
+      const int hinge = node(name);
+      if (std::find(beam.nodes.begin(), beam.nodes.end(), hinge) == beam.nodes.end())
+        name.refuse("node " + quote(name.text("")) + " is not on this beam", "name nodes of this beam");
+      if (beam.has_hinge(hinge))
+        name.refuse("node " + quote(name.text("")) + " comes twice", "name every hinge once");
+      beam.hinges.push_back(hinge);
     }
   }
 

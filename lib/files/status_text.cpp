@@ -1,5 +1,6 @@
 #include "lib/files/status_text.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -56,6 +57,8 @@ class PlaceFinder {
         return node(i);
       case Place::strut:
         return strut(i);
+      case Place::beam:
+        return beam(i);
       case Place::cable:
         return cable(i);
       case Place::path:
@@ -98,6 +101,27 @@ class PlaceFinder {
     if (status_.code == Code::repeated_node || status_.code == Code::coincident_nodes)
       return place(pointer + "/nodes");
     return guilty(status_.code, pointer, {{"/E", strut->E}, {"/A", strut->A}});
+  }
+
+  // The core numbers the members of all beams together.
+  Value beam(int i) const {
+    for (std::size_t b = 0; b < scene_.beams.size(); ++b) {
+      const BeamDescription& beam = scene_.beams[b];
+      if (i >= static_cast<int>(beam.members())) {
+        i -= static_cast<int>(beam.members());
+        continue;
+      }
+      const std::string pointer = "/beams" + step(static_cast<int>(b));
+      if (status_.code == Code::repeated_node || status_.code == Code::coincident_nodes)
+        return place(pointer + "/nodes" + step(i + 1));
+      if (status_.code == Code::out_of_range) return place(pointer + "/up");
+      std::vector<Value> numbers = {{"/E", beam.E}, {"/A", beam.A}, {"/I", beam.I}};
+      if (scene_.dimension == 3)
+        numbers = {{"/E", beam.E},   {"/A", beam.A}, {"/Iy", beam.Iy},
+                   {"/Iz", beam.Iz}, {"/J", beam.J}, {"/G", beam.G}};
+      return guilty(status_.code, pointer, numbers);
+    }
+    return place("/beams");
   }
 
   Value cable(int i) const {
@@ -190,11 +214,23 @@ int joint_node(const SceneDescription& scene, int c, int j) {
   return node == nullptr ? -1 : *node;
 }
 
+// The nodes of a member of a beam, by the number of the core.
+std::array<int, 2> member_nodes(const SceneDescription& scene, int member) {
+  for (const BeamDescription& beam : scene.beams) {
+    if (const int* first = item_at(beam.nodes, member); member < static_cast<int>(beam.members()))
+      return {*first, first[1]};
+    member -= static_cast<int>(beam.members());
+  }
+  return {-1, -1};
+}
+
 // The two ends of what lies between coincident nodes.
 std::string between(const Status& status, const SceneDescription& scene) {
   int first = -1;
   if (status.place == Place::strut) {
     if (const StrutDescription* strut = item_at(scene.struts, status.index)) first = strut->nodes[0];
+  } else if (status.place == Place::beam) {
+    first = member_nodes(scene, status.index)[0];
   } else if (const CableDescription* cable = item_at(scene.cables, status.cable)) {
     if (const int* node = item_at(cable->path, status.index)) first = *node;
   }
@@ -215,6 +251,10 @@ std::pair<std::string, std::string> explain(const Status& status, const SceneDes
     case Code::repeated_node:
       if (status.place == Place::strut) {
         return {"both ends are at " + node_text(scene, status.amount), "name two different nodes"};
+      }
+      if (status.place == Place::beam) {
+        return {"the beam goes from " + node_text(scene, status.amount) + " to itself",
+                "name another node here"};
       }
       return {node_text(scene, status.amount) + " comes twice", "name every node once"};
     case Code::coincident_nodes:
@@ -240,6 +280,12 @@ std::pair<std::string, std::string> explain(const Status& status, const SceneDes
     case Code::out_of_range:
       if (status.place == Place::segment) {
         return {"the prestrain " + number + " is out of range", "write a number between -1 and 1"};
+      }
+      if (status.place == Place::beam) {
+        const auto nodes = member_nodes(scene, status.index);
+        return {"up is parallel to the beam from " + node_text(scene, nodes[0]) + " to " +
+                    node_text(scene, nodes[1]),
+                "write the vector \"up\" so that it points aside; the beam's z lies in the plane of both"};
       }
       break;
     default:
@@ -288,11 +334,19 @@ std::string failure_problem(const Status& status) {
   return describe(status.code);
 }
 
-std::string failure_remedy(const Status& status) {
+bool is_on_beam(const SceneDescription& scene, const Status& status) {
+  for (const BeamDescription& beam : scene.beams)
+    for (const int node : beam.nodes)
+      if (status.place == Place::node && status.index == node) return true;
+  return false;
+}
+
+std::string failure_remedy(const Status& status, const SceneDescription& scene) {
   switch (status.code) {
     case Code::mechanism:
-      return status.place == Place::joint ? sliding_remedy
-                                          : "add a strut, a support or a substructure that holds it";
+      if (status.place == Place::joint) return sliding_remedy;
+      return std::string("add a strut, a support or a substructure that holds it") +
+             (is_on_beam(scene, status) ? ", or hold the rotation of a beam that turns freely" : "");
     case Code::pulled_through:
       return "bring the jack forces closer together, or anchor one end";
     case Code::gives_way:
@@ -323,7 +377,7 @@ std::string joint_text(const SceneDescription& scene, int cable, int joint) {
 }
 
 std::string failure_text(const Status& status, const SceneDescription& scene) {
-  return subject(status, scene) + ": " + failure_problem(status) + "; " + failure_remedy(status);
+  return subject(status, scene) + ": " + failure_problem(status) + "; " + failure_remedy(status, scene);
 }
 
 }  // namespace taut::host

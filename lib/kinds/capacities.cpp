@@ -6,9 +6,10 @@
 
 namespace taut::host {
 
-const std::array<AmountName, 11> amount_names = {{
+const std::array<AmountName, amount_count> amount_names = {{
     {"nodes", "/nodes"},
     {"struts", "/struts"},
+    {"beam members", "/beams"},
     {"cables", "/cables"},
     {"segments", "/cables"},
     {"joints", "/cables"},
@@ -22,13 +23,14 @@ const std::array<AmountName, 11> amount_names = {{
 
 Amounts needs(const SceneDescription& scene) {
   Amounts needed{};
-  auto& [nodes, struts, cables, segments, joints, substructures, on_nodes, entries, loads, forces,
+  auto& [nodes, struts, beams, cables, segments, joints, substructures, on_nodes, entries, loads, forces,
          temperatures] = needed;
   nodes = scene.nodes.size();
   struts = scene.struts.size();
   cables = scene.cables.size();
   substructures = scene.substructures.size();
   loads = scene.loads.size();
+  for (const BeamDescription& beam : scene.beams) beams += beam.members();
   for (const CableDescription& cable : scene.cables) {
     segments += cable.segments();
     joints += cable.joints();

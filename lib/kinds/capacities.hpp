@@ -12,7 +12,7 @@ namespace taut::host {
 
 struct Small : Capacity {
   static constexpr const char* name = "small";
-  static constexpr int nodes = 24, struts = 64, cables = 4, segments = 16, joints = 12;
+  static constexpr int nodes = 24, struts = 64, beams = 32, cables = 4, segments = 16, joints = 12;
   static constexpr int substructures = 4, substructure_nodes = 8, substructure_entries = 576;
   static constexpr int loads = 8, forces = 64, temperatures = 8;
   using Account = FrictionAccount;
@@ -20,7 +20,7 @@ struct Small : Capacity {
 
 struct Large : Capacity {
   static constexpr const char* name = "large";
-  static constexpr int nodes = 512, struts = 2048, cables = 64, segments = 256, joints = 128;
+  static constexpr int nodes = 512, struts = 2048, beams = 1024, cables = 64, segments = 256, joints = 128;
   static constexpr int substructures = 128, substructure_nodes = 256, substructure_entries = 147456;
   static constexpr int loads = 32, forces = 2048, temperatures = 512;
   using Account = FrictionAccount;
@@ -38,14 +38,15 @@ using LargestCapacity = CapacityList<Large>;
 constexpr int most_unknown_cells = 32;
 
 /// Numbers of everything that a capacity counts, in the order of `amount_names`.
-using Amounts = std::array<std::size_t, 11>;
+constexpr std::size_t amount_count = 12;
+using Amounts = std::array<std::size_t, amount_count>;
 
 /// What is counted, in words, and where it is in a scene file.
 struct AmountName {
   const char* noun;
   const char* place;
 };
-extern const std::array<AmountName, 11> amount_names;
+extern const std::array<AmountName, amount_count> amount_names;
 
 /// What a scene needs.
 Amounts needs(const SceneDescription& scene);
@@ -53,9 +54,10 @@ Amounts needs(const SceneDescription& scene);
 /// What a capacity holds.
 template <class Cap>
 constexpr Amounts holds() {
-  const std::array<int, 11> counts = {
+  const std::array<int, amount_count> counts = {
       Cap::nodes,
       Cap::struts,
+      Cap::beams,
       Cap::cables,
       Cap::segments,
       Cap::joints,

@@ -7,19 +7,20 @@
 namespace taut::host {
 
 /// The same capacity for rigid saddles. Condensed with it, a scene has the bits that a device finds for a
-/// capacity without struts and substructures.
+/// capacity without struts, beams and substructures.
 template <class Cap>
 struct Rigid : Cap {
-  static constexpr int struts = 0;
+  static constexpr int struts = 0, beams = 0;
   static constexpr int substructures = 0, substructure_nodes = 0, substructure_entries = 0;
 };
 
-/// Whether nothing of the scene is elastic but its cables: no struts, no substructures, all nodes held.
+/// Whether nothing of the scene is elastic but its cables: no struts, no beams, no substructures, all nodes
+/// held.
 inline bool is_rigid(const SceneDescription& scene) {
   const unsigned all = (1U << scene.dimension) - 1U;
   for (const NodeDescription& node : scene.nodes)
     if ((node.held & all) != all) return false;
-  return scene.struts.empty() && scene.substructures.empty();
+  return scene.struts.empty() && scene.beams.empty() && scene.substructures.empty();
 }
 
 /// As with_capacity(), for the capacity that the scene is condensed with.

@@ -11,8 +11,8 @@ namespace taut::host {
 /// The counts of a capacity that fits a condensed scene exactly. Nodes are not needed any more.
 struct CondensedCounts {
   int cables = 0, jacks = 0, segments = 0, joints = 0, loads = 0, struts = 0;
-  /// Zero means rigid saddles: no coupling between segments is stored. A structure that consists of cables
-  /// alone counts as one substructure.
+  /// Zero means rigid saddles: no coupling between segments is stored. Beams count as a substructure, and so
+  /// does a structure that consists of cables alone.
   int substructures = 0;
   /// Of several scenes with a structure, some lie on rigid saddles.
   bool saddles = false;

@@ -82,6 +82,25 @@ void build_load(const LoadDescription& described, Scene<double, Dimension, Cap>&
   }
 }
 
+/// The section of a beam.
+template <int Dimension>
+BeamSection<double, Dimension> beam_section(const BeamDescription& described) {
+  if constexpr (Dimension == 2)
+    return {described.E, described.A, described.I};
+  else
+    return {described.E, described.A, described.Iy, described.Iz, described.J, described.G, described.up};
+}
+
+/// Adds the members of a beam.
+template <class Cap, int Dimension>
+void build_beam(const BeamDescription& described, Scene<double, Dimension, Cap>& scene) {
+  const auto section = beam_section<Dimension>(described);
+  for (std::size_t i = 0; i < described.members(); ++i) {
+    const int from = described.nodes[i], to = described.nodes[i + 1];
+    scene.add_beam(from, to, section, {described.has_hinge(from), described.has_hinge(to)});
+  }
+}
+
 /// Fills an empty scene in the order of the file. What does not fit is left for validate() to report.
 template <int Dimension, class Cap>
 void build(const SceneDescription& described, Scene<double, Dimension, Cap>& scene) {
@@ -90,6 +109,8 @@ void build(const SceneDescription& described, Scene<double, Dimension, Cap>& sce
   for (const StrutDescription& strut : described.struts) {
     scene.add_strut(strut.nodes[0], strut.nodes[1], strut.E, strut.A);
   }
+  if constexpr (Cap::beams > 0)
+    for (const BeamDescription& beam : described.beams) build_beam(beam, scene);
   for (const CableDescription& cable : described.cables) build_cable(cable, scene);
   for (const SubstructureDescription& substructure : described.substructures) {
     scene.add_substructure(substructure.nodes.data(), static_cast<int>(substructure.nodes.size()),

@@ -62,6 +62,8 @@ transform-origin:14px 6px}
 .structure line,.sample .strut{vector-effect:non-scaling-stroke;stroke-linecap:round}
 .structure .hit{stroke:transparent;stroke-width:16}
 .structure .strut,.sample .strut{stroke:var(--strut);stroke-width:1.5}
+.structure .beam,.sample .beam{stroke:var(--strut);stroke-width:6}
+.hinge{fill:var(--paper);stroke:var(--strut);stroke-width:1.5}
 .structure .tension,.sample .tension{stroke-dasharray:5 4}
 .structure .casing{stroke:var(--ink);stroke-width:7}
 .structure .cable{stroke:var(--c,var(--paper));stroke-width:4.5}

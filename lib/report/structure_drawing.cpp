@@ -1,5 +1,6 @@
 #include "lib/report/structure_drawing.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -32,6 +33,8 @@ std::string turned(const CurvePoint& at, const CurvePoint& along) {
   return moved_to(at) + " rotate(" + coordinate(degrees) + ")";
 }
 
+constexpr const char* hinge_outline = "M-4,0 a4,4 0 1,0 8,0 a4,4 0 1,0 -8,0 z";
+
 CurvePoint difference(const CurvePoint& a, const CurvePoint& b) { return {a.x - b.x, a.y - b.y}; }
 
 class StructureDrawing {
@@ -42,7 +45,7 @@ class StructureDrawing {
 
   std::string operator()() const {
     const std::string says = "The structure " + scene_.name + " with cables coloured by force";
-    std::string parts = substructures() + struts() + supports();
+    std::string parts = substructures() + beams() + struts() + supports();
     for (std::size_t c = 0; c < scene_.cables.size(); ++c) parts += segments(c);
     for (std::size_t c = 0; c < scene_.cables.size(); ++c) parts += jacks(c) + joints(c);
     if (scene_.dimension == 3) parts += axes();
@@ -74,6 +77,26 @@ class StructureDrawing {
     return drawn;
   }
 
+  // Members, and a ring at every hinge.
+  std::string beams() const {
+    std::string drawn, hinges;
+    for (std::size_t b = 0; b < scene_.beams.size(); ++b) {
+      const BeamDescription& beam = scene_.beams[b];
+      const std::string name = "beam " + std::to_string(b + 1);
+      for (std::size_t i = 0; i < beam.members(); ++i) {
+        const int from = beam.nodes[i], to = beam.nodes[i + 1];
+        const std::string span = node_name(scene_, from) + "\u2013" + node_name(scene_, to);
+        drawn += element("g", {},
+                         line("beam", points_.at(from), points_.at(to)) + title(name + " (" + span + ")"));
+      }
+      for (const int node : beam.hinges)
+        hinges += element("g", {{"transform", moved_to(points_.at(node))}},
+                          element("path", {{"class", "hinge"}, {"d", hinge_outline}},
+                                  title("hinge of " + name + " at node " + node_name(scene_, node))));
+    }
+    return drawn + hinges;
+  }
+
   std::string supports() const {
     std::string drawn;
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
@@ -82,14 +105,25 @@ class StructureDrawing {
       std::string axes;
       for (std::size_t axis = 0; axis < 3; ++axis)
         if ((node.held >> axis & 1) != 0) axes += std::string(axes.empty() ? "" : ", ") + "xyz"[axis];
+      axes += held_rotations(node.held, axes.empty());
       drawn += element("g", {{"transform", moved_to(points_.at(static_cast<int>(i)))}},
                        element("path", {{"class", "support"}, {"d", support_outline(node.held)}},
                                title("support " + node.name + ": held in " + axes)));
     }
     return drawn;
   }
+  std::string held_rotations(std::uint8_t held, bool is_first) const {
+    std::string rotations;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      if ((held & static_cast<unsigned>(held_rx) << axis) == 0) continue;
+      rotations += (is_first && rotations.empty() ? "rotation" : ", rotation") +
+                   (scene_.dimension == 2 ? "" : std::string(" about ") + "xyz"[axis]);
+    }
+    return rotations;
+  }
   // A triangle where a node is held; one on a line where it can move along the line.
-  const char* support_outline(std::uint8_t held) const {
+  const char* support_outline(std::uint8_t motions) const {
+    const unsigned held = motions & held_xyz;
     if (held == (scene_.dimension == 2 ? held_xy : held_xyz)) return "M0,0 L-8,13 L8,13 z";
     if (scene_.dimension == 2 && held == held_x) return "M0,0 L-13,-8 L-13,8 z M-17,-9 V9";
     return "M0,0 L-8,13 L8,13 z M-9,17 H9";
@@ -232,6 +266,10 @@ std::string structure_legend(const SceneDescription& scene) {
     entries += symbol(line("strut", {-13, 0}, {13, 0}), "strut in compression") +
                symbol(line("strut tension", {-13, 0}, {13, 0}), "strut in tension");
   }
+  if (!scene.beams.empty()) entries += symbol(line("beam", {-13, 0}, {13, 0}), "beam");
+  const auto has_hinge = [](const BeamDescription& beam) { return !beam.hinges.empty(); };
+  if (std::any_of(scene.beams.begin(), scene.beams.end(), has_hinge))
+    entries += symbol(element("path", {{"class", "hinge"}, {"d", hinge_outline}}), "hinge of a beam");
   const auto has_jack = [](const CableDescription& cable) {
     return cable.is_jacked(0) || cable.is_jacked(1);
   };

@@ -16,7 +16,7 @@ namespace taut {
 
 /// Whether scenes of this capacity have nothing elastic but their cables.
 template <class Cap>
-constexpr bool has_rigid_saddles = Cap::struts == 0 && Cap::substructures == 0;
+constexpr bool has_rigid_saddles = Cap::struts == 0 && Cap::beams == 0 && Cap::substructures == 0;
 
 /// Tensions of all segments from elongations imposed on them, all joints stuck: the symmetric matrix C of
 /// Eq. (8) [N/m].

@@ -12,7 +12,10 @@
 
 namespace taut {
 
-/// Linear response, Eq. (7), of struts, substructures and cable segments as bars between nodes.
+/// Linear response, Eq. (7), of struts, beams, substructures and cable segments as bars between nodes.
+///
+/// Of a node, unknown are its displacements and then, where beams turn with it, the rotations as
+/// BeamElement has them.
 ///
 /// Displacements are kept in double words and corrected with residuals taken element by element, so that
 /// forces come out to the last digits of Scalar although elongations cancel; a correction costs one
@@ -22,7 +25,11 @@ class Structure {
  public:
   using Cap = typename SceneType::Capacity;
   static constexpr int dimension = SceneType::dimension;
-  static constexpr int max_unknowns = dimension * Cap::nodes;
+  static constexpr int per_node = SceneType::motions_of_node;
+  /// Both ends of a beam may have rotations.
+  static constexpr int max_unknowns =
+      dimension * Cap::nodes +
+      (per_node - dimension) * (Cap::nodes < 2 * Cap::beams ? Cap::nodes : 2 * Cap::beams);
   /// Entries of the factor: what the capacity says, or enough for any structure.
   static constexpr int max_profile = Cap::profile > 0 ? Cap::profile : max_unknowns*(max_unknowns + 1) / 2;
 
@@ -64,8 +71,17 @@ class Structure {
   Scalar strut_force(int strut) const {
     return is_unresisted() ? Scalar(0) : force_of(elements_.struts[strut], Scalar(0));
   }
+  /// Axial force of a beam in the last solution [N], tension positive.
+  Scalar beam_force(int beam) const {
+    return is_unresisted() ? Scalar(0) : force_of(elements_.beams[beam], Scalar(0));
+  }
   /// Displacement of a node in the last solution [m].
   Scalar node_displacement(int node, int axis) const { return displacement(node, axis).value(); }
+  /// Rotation of a node in the last solution [rad]: the one in the plane, in space about an axis. Zero where
+  /// no beam turns with it.
+  Scalar node_rotation(int node, int axis) const {
+    return displacement(node, dimension + axis).value() / elements_.beams[0].arm;
+  }
 
   const Elements<Scalar, SceneType>& elements() const { return elements_; }
   /// Digits lost in the factorization, as their inverse: ill-conditioned towards 1/epsilon.
@@ -84,23 +100,23 @@ class Structure {
     order.make(*scene_);
     count_ = 0;
     for (int place = 0; place < scene_->nodes.size(); ++place)
-      for (int axis = 0; axis < dimension; ++axis) {
+      for (int axis = 0; axis < per_node; ++axis) {
         const int node = order.node(place);
-        unknown_[node * dimension + axis] = scene_->nodes[node].is_held(axis) ? -1 : count_++;
+        unknown_[node * per_node + axis] = scene_->is_fixed(node, axis) ? -1 : count_++;
       }
     for (int node = 0; node < scene_->nodes.size(); ++node) {
       int leftmost = leftmost_of(node, count_);
       NodeOrder<SceneType>::for_each_neighbour(*scene_, node,
                                                [&](int other) { leftmost = leftmost_of(other, leftmost); });
-      for (int axis = 0; axis < dimension; ++axis) {
-        const int unknown = unknown_[node * dimension + axis];
+      for (int axis = 0; axis < per_node; ++axis) {
+        const int unknown = unknown_[node * per_node + axis];
         if (unknown >= 0) first_[unknown] = leftmost < unknown ? leftmost : unknown;
       }
     }
   }
   int leftmost_of(int node, int so_far) const {
-    for (int axis = 0; axis < dimension; ++axis) {
-      const int unknown = unknown_[node * dimension + axis];
+    for (int axis = 0; axis < per_node; ++axis) {
+      const int unknown = unknown_[node * per_node + axis];
       if (unknown >= 0 && unknown < so_far) so_far = unknown;
     }
     return so_far;
@@ -113,26 +129,41 @@ class Structure {
       for (int k = 0; k < 2 * dimension; ++k)
         add(unknown_of(bar.nodes, i), unknown_of(bar.nodes, k), K(i, k));
   }
+  /// A matrix on the unknowns of both nodes.
+  template <class Beam, class Matrix>
+  void assemble_beam(const Beam& beam, const Matrix& K) {
+    for (int i = 0; i < 2 * per_node; ++i)
+      for (int k = 0; k < 2 * per_node; ++k)
+        add(unknown_[place_of(beam, i)], unknown_[place_of(beam, k)], K(i, k));
+  }
+  /// In unknown_, of unknown `i` of a beam.
+  template <class Beam>
+  static int place_of(const Beam& beam, int i) {
+    return beam.nodes[static_cast<std::size_t>(i / per_node)] * per_node + i % per_node;
+  }
   int unknown_of(const std::array<int, 2>& nodes, int i) const {
-    return unknown_[nodes[static_cast<std::size_t>(i / dimension)] * dimension + i % dimension];
+    return unknown_[nodes[static_cast<std::size_t>(i / dimension)] * per_node + i % dimension];
   }
   void add(int row, int column, Scalar value) {
     if (row >= 0 && column >= 0) stiffness_.add(row, column, value);
   }
   void assemble() {
     for (int i = 0; i < scene_->struts.size(); ++i) assemble_bar(elements_.struts[i]);
+    if constexpr (Cap::beams > 0)
+      for (int i = 0; i < scene_->beams.size(); ++i)
+        assemble_beam(elements_.beams[i], elements_.beams[i].stiffness());
     for (int i = 0; i < segments(); ++i) assemble_bar(elements_.segments[i]);
     for (int i = 0; i < scene_->substructures.size(); ++i) {
       const SubstructureElement<SceneType> K(*scene_, i);
       for (int row = 0; row < K.size(); ++row)
         for (int column = 0; column < K.size(); ++column)
-          add(unknown_[K.node(row) * dimension + K.axis(row)],
-              unknown_[K.node(column) * dimension + K.axis(column)], static_cast<Scalar>(K(row, column)));
+          add(unknown_[K.node(row) * per_node + K.axis(row)],
+              unknown_[K.node(column) * per_node + K.axis(column)], static_cast<Scalar>(K(row, column)));
     }
   }
 
   Word displacement(int node, int axis) const {
-    const int unknown = unknown_[node * dimension + axis];
+    const int unknown = unknown_[node * per_node + axis];
     return unknown < 0 ? Word{} : u_[unknown];
   }
   Word elongation(const std::array<int, 2>& nodes, const Line<Scalar, dimension>& line) const {
@@ -150,7 +181,7 @@ class Structure {
   bool is_unresisted() const { return largest_ <= 16 * epsilon * epsilon * coarsest_; }
 
   void push(int node, int axis, Scalar force) {
-    const int unknown = unknown_[node * dimension + axis];
+    const int unknown = unknown_[node * per_node + axis];
     largest_ = std::fmax(largest_, std::fabs(force));
     if (unknown >= 0) residual_[unknown] += force;
   }
@@ -166,6 +197,20 @@ class Structure {
     }
   }
 
+  template <class Beam>
+  auto displacements_of(const Beam& beam) const {
+    return [this, &beam](int i) { return displacement(place_of(beam, i) / per_node, i % per_node); };
+  }
+  template <class Beam>
+  void bend(const Beam& beam) {
+    const auto forces = beam.end_forces(displacements_of(beam));
+    for (int i = 0; i < 2 * per_node; ++i) {
+      const int node = place_of(beam, i) / per_node, axis = i % per_node;
+      coarsest_ = std::fmax(coarsest_, beam.stiffest * std::fabs(displacement(node, axis).hi));
+      push(node, axis, -forces[static_cast<std::size_t>(i)]);
+    }
+  }
+
   /// Puts loads minus element forces into residual_; returns the largest part relative to the largest force,
   /// or zero if there is none but rounding.
   template <class Forces, class Elongations>
@@ -175,6 +220,8 @@ class Structure {
     for (int node = 0; node < scene_->nodes.size(); ++node)
       for (int axis = 0; axis < dimension; ++axis) push(node, axis, force(node, axis));
     for (int i = 0; i < scene_->struts.size(); ++i) pull(elements_.struts[i], Scalar(0));
+    if constexpr (Cap::beams > 0)
+      for (int i = 0; i < scene_->beams.size(); ++i) bend(elements_.beams[i]);
     for (int i = 0; i < segments(); ++i) pull(elements_.segments[i], imposed(i));
     for (int i = 0; i < scene_->substructures.size(); ++i) {
       const SubstructureElement<SceneType> K(*scene_, i);
@@ -194,10 +241,10 @@ class Structure {
     if (imbalance <= accepted) return Status::success();
     int worst = 0;
     Scalar most = 0;
-    for (int i = 0; i < scene_->nodes.size() * dimension; ++i) {
+    for (int i = 0; i < scene_->nodes.size() * per_node; ++i) {
       if (unknown_[i] < 0 || std::fabs(residual_[unknown_[i]]) <= most) continue;
       most = std::fabs(residual_[unknown_[i]]);
-      worst = i / dimension;
+      worst = i / per_node;
     }
     return Status::at(Code::ill_conditioned, Place::node, worst);
   }
@@ -210,7 +257,7 @@ class Structure {
     int mover = 0;
     Scalar most = 0, strained = 0;
     for (int node = 0; node < scene_->nodes.size(); ++node)
-      for (int axis = 0; axis < dimension; ++axis)
+      for (int axis = 0; axis < per_node; ++axis)
         if (std::fabs(displacement(node, axis).hi) > most) {
           most = std::fabs(displacement(node, axis).hi);
           mover = node;
@@ -219,6 +266,11 @@ class Structure {
       const auto& bar = elements_.struts[i];
       strained = std::fmax(strained, std::fabs(elongation(bar.nodes, bar.line).value()));
     }
+    if constexpr (Cap::beams > 0)
+      for (int i = 0; i < scene_->beams.size(); ++i) {
+        const auto& beam = elements_.beams[i];
+        strained = std::fmax(strained, beam.largest_deformation(displacements_of(beam)));
+      }
     for (int i = 0; i < segments(); ++i) {
       const auto& bar = elements_.segments[i];
       strained = std::fmax(strained, std::fabs(elongation(bar.nodes, bar.line).value()));
@@ -231,7 +283,7 @@ class Structure {
   Elements<Scalar, SceneType> elements_;
   NodeOrder<SceneType> order_;
   Skyline<Scalar, max_unknowns, max_profile> stiffness_;
-  FixedArray<int, max_unknowns> unknown_;
+  FixedArray<int, per_node * Cap::nodes> unknown_;
   FixedArray<int, max_unknowns> first_;
   FixedArray<Word, max_unknowns> u_;
   FixedArray<Scalar, max_unknowns> residual_;

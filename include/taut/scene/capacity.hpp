@@ -23,11 +23,12 @@ struct Unaccounted {
 ///       static constexpr int nodes = 40, struts = 90, cables = 1, segments = 12, joints = 11, loads = 2;
 ///     };
 ///
-/// What is left at zero has no storage and cannot be used. Without struts and substructures the saddles are
-/// rigid: all nodes must be held, and nothing elastic but the cables is stored or computed.
+/// What is left at zero has no storage and cannot be used. Without struts, beams and substructures the
+/// saddles are rigid: all nodes must be held, and nothing elastic but the cables is stored or computed.
 struct Capacity {
   static constexpr int nodes = 16;
   static constexpr int struts = 0;
+  static constexpr int beams = 0;  ///< members between two nodes
   static constexpr int cables = 1;
   static constexpr int jacks = -1;    ///< jacked ends of all cables together; -1: both ends of every cable
   static constexpr int segments = 8;  ///< of all cables together
@@ -39,7 +40,8 @@ struct Capacity {
   static constexpr int forces = 0;                ///< nodal forces of all load patterns together
   static constexpr int temperatures = 0;          ///< cable temperatures of all load patterns together
   static constexpr int displacements = 0;  ///< that a condensed scene gives, see CondensedDisplacements
-  /// Although there are struts or substructures, some condensed scenes of this capacity lie on rigid saddles.
+  /// Although there are struts, beams or substructures, some condensed scenes of this capacity lie on rigid
+  /// saddles.
   static constexpr bool saddles = false;
   static constexpr int profile = 0;  ///< entries of the structure's factor; 0: enough for any structure
   using Watch = Unwatched;           ///< another type with a static took(Route) is called at every event

@@ -36,6 +36,7 @@ class NodeOrder {
       if (b == node && a != node) visit(a);
     };
     for (const auto& strut : scene.struts) edge(strut.nodes[0], strut.nodes[1]);
+    for (const auto& beam : scene.beams) edge(beam.nodes[0], beam.nodes[1]);
     for (const auto& cable : scene.cables)
       for (int i = 0; i < cable.segments(); ++i) {
         const auto ends = scene.segment_nodes(cable, i);

@@ -1,4 +1,4 @@
-// What is modelled: nodes, struts, cables with friction joints, substructures and load patterns.
+// What is modelled: nodes, struts, beams, cables with friction joints, substructures and load patterns.
 #pragma once
 
 #include <array>
@@ -10,8 +10,20 @@
 
 namespace taut {
 
-/// Bits of Node::held: a set bit holds the displacement along that axis at zero.
-enum Axis : std::uint8_t { held_none = 0, held_x = 1, held_y = 2, held_z = 4, held_xy = 3, held_xyz = 7 };
+/// Bits of Node::held: a set bit holds the displacement along that axis at zero, or the rotation about it. In
+/// the plane there is one rotation, held_r, about z.
+enum Axis : std::uint8_t {
+  held_none = 0,
+  held_x = 1,
+  held_y = 2,
+  held_z = 4,
+  held_xy = 3,
+  held_xyz = 7,
+  held_rx = 8,
+  held_ry = 16,
+  held_rz = 32,
+  held_r = held_rz,
+};
 
 /// A point of the structure.
 template <class Scalar, int Dimension>
@@ -20,7 +32,13 @@ struct Node {
   std::uint8_t held = held_none;                                 ///< supports, see Axis
 
   constexpr bool is_held(int axis) const { return (held >> axis & 1) != 0; }
+  /// Rotation `i` of those that there are: one in the plane, in space about x, y and z.
+  constexpr bool is_rotation_held(int i) const { return (held >> (Dimension == 2 ? 5 : 3 + i) & 1) != 0; }
 };
+
+/// How many rotations a node has.
+template <int Dimension>
+constexpr int rotations_of_node = Dimension == 2 ? 1 : 3;
 
 /// A pin-ended bar between two nodes, in tension or compression.
 template <class Scalar>
@@ -28,6 +46,46 @@ struct Strut {
   std::array<int, 2> nodes{};
   Scalar E = 0;  ///< Young's modulus [N/m2]
   Scalar A = 0;  ///< cross-section [m2]
+};
+
+/// Stiffness of a beam of the plane.
+template <class Scalar, int Dimension>
+struct BeamSection {
+  Scalar E = 0;  ///< Young's modulus [N/m2]
+  Scalar A = 0;  ///< cross-section [m2]
+  Scalar I = 0;  ///< second moment of area [m4]
+};
+/// Stiffness of a beam in space. Its own axes: x from the first to the second node, z in the plane of x and
+/// `up`, y square to both.
+template <class Scalar>
+struct BeamSection<Scalar, 3> {
+  Scalar E = 0;   ///< Young's modulus [N/m2]
+  Scalar A = 0;   ///< cross-section [m2]
+  Scalar Iy = 0;  ///< second moment of area about y, for deflections along z [m4]
+  Scalar Iz = 0;  ///< about z, for deflections along y [m4]
+  Scalar J = 0;   ///< torsion constant [m4]
+  Scalar G = 0;   ///< shear modulus [N/m2]
+  std::array<Scalar, 3> up{0, 0, 1};
+};
+
+/// An Euler-Bernoulli member between two nodes, straight and without shear deformation. Beams that share a
+/// node are rigid there; a hinged end carries no moment, in space neither bending nor torsion.
+template <class Scalar, int Dimension>
+struct Beam {
+  std::array<int, 2> nodes{};
+  BeamSection<Scalar, Dimension> section;
+  std::array<bool, 2> hinged{};  ///< at its first and second node
+};
+
+/// The beams of a scene.
+template <class Scalar, int Dimension, int Capacity>
+struct BeamList {
+  FixedList<Beam<Scalar, Dimension>, Capacity> beams;
+};
+/// Where a scene can have none, there is not even room for their number.
+template <class Scalar, int Dimension>
+struct BeamList<Scalar, Dimension, 0> {
+  static constexpr FixedList<Beam<Scalar, Dimension>, 0> beams{};
 };
 
 enum class End : std::uint8_t { anchored, jacked };
@@ -116,12 +174,12 @@ struct Temperature {
 /// A cable-supported structure, in SI units, with storage for `Cap` inside itself.
 ///
 /// It is filled by the add functions, at run time or as a constant expression; validate() then says
-/// whether it can be used. Nodes, struts, segments and joints are numbered from 0 in the order of addition;
-/// the joints and segments of one cable follow one another. Joint j of an open cable (from 0) lies at path
-/// node j+1, between segments j and j+1. In a closed hoop joint j is path node j, between segment j-1 (the
-/// last one for j = 0) and segment j.
+/// whether it can be used. Nodes, struts, beams, segments and joints are numbered from 0 in the order of
+/// addition; the joints and segments of one cable follow one another. Joint j of an open cable (from 0) lies
+/// at path node j+1, between segments j and j+1. In a closed hoop joint j is path node j, between segment j-1
+/// (the last one for j = 0) and segment j.
 template <class Scalar_, int Dimension, class Cap>
-struct Scene {
+struct Scene : BeamList<Scalar_, Dimension, Cap::beams> {
   static_assert(Dimension == 2 || Dimension == 3, "a scene is plane or spatial");
   using Scalar = Scalar_;
   using Capacity = Cap;
@@ -147,6 +205,14 @@ struct Scene {
 
   /// Adds a strut; returns its number, -1 if there is no room.
   constexpr int add_strut(int from, int to, Scalar E, Scalar A) { return struts.add({{from, to}, E, A}); }
+
+  /// Adds a beam, hinged where `hinged` says so; returns its number, -1 if there is no room. Only where the
+  /// capacity has room for beams at all.
+  constexpr int add_beam(int from, int to, const BeamSection<Scalar, Dimension>& section,
+                         std::array<bool, 2> hinged = {}) {
+    static_assert(Cap::beams > 0, "Capacity::beams says how many beams there can be");
+    return this->beams.add({{from, to}, section, hinged});
+  }
 
   /// Adds a cable over `count` nodes; `properties.mu` and `.prestrain` go to its joints and segments, where
   /// they can be changed one by one. Returns its number, -1 if there is no room.
@@ -205,6 +271,24 @@ struct Scene {
   constexpr std::array<int, 2> segment_nodes(const Cable<Scalar>& cable, int i) const {
     const int next = i + 1 == cable.nodes ? 0 : i + 1;
     return {path[cable.first_path + i], path[cable.first_path + next]};
+  }
+
+  /// Displacements of a node, and the rotations if there can be beams.
+  static constexpr int motions_of_node = Dimension + (Cap::beams > 0 ? rotations_of_node<Dimension> : 0);
+
+  /// Whether the end of a beam turns with a node.
+  constexpr bool can_turn(int node) const {
+    for (const auto& beam : this->beams)
+      for (std::size_t end = 0; end < 2; ++end)
+        if (beam.nodes[end] == node && !beam.hinged[end]) return true;
+    return false;
+  }
+  /// Whether a motion of a node (displacements first, then rotations) is no unknown of the structure: held by
+  /// a support, or a rotation of which nobody knows.
+  constexpr bool is_fixed(int node, int motion) const {
+    if constexpr (Cap::beams > 0)
+      if (motion >= Dimension) return nodes[node].is_rotation_held(motion - Dimension) || !can_turn(node);
+    return nodes[node].is_held(motion);
   }
 
   static constexpr std::array<int, 2> joint_segments(const Cable<Scalar>& cable, int j) {

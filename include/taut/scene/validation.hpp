@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "taut/elements/beam.hpp"
 #include "taut/elements/friction_element.hpp"
 #include "taut/elements/substructure.hpp"
 #include "taut/scene/path.hpp"
@@ -25,6 +26,8 @@ class SceneCheck {
     Status status = capacities();
     if (status) status = nodes();
     if (status) status = struts();
+    if constexpr (has_room_for_beams)
+      if (status) status = beams();
     for (int c = 0; status && c < scene_.cables.size(); ++c) status = cable(c);
     for (int i = 0; status && i < scene_.substructures.size(); ++i) status = substructure(i);
     if (status) status = loads();
@@ -36,6 +39,7 @@ class SceneCheck {
   using Real = typename SceneType::Scalar;
   static constexpr int dimension = SceneType::dimension;
   static constexpr int jacks = max_jacks<typename SceneType::Capacity>;
+  static constexpr bool has_room_for_beams = SceneType::Capacity::beams > 0;
   static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
 
   Status capacities() const {
@@ -60,6 +64,10 @@ class SceneCheck {
     };
     for (const auto& list : lists)
       if (list.excess > 0) return Status::at(Code::capacity_exceeded, list.place, list.capacity, list.excess);
+    if constexpr (has_room_for_beams)
+      if (scene_.beams.excess() > 0)
+        return Status::at(Code::capacity_exceeded, Place::beam, scene_.beams.capacity(),
+                          scene_.beams.excess());
     return Status::success();
   }
 
@@ -73,10 +81,12 @@ class SceneCheck {
     for (int i = 0; i < scene_.nodes.size(); ++i) {
       for (const Real x : scene_.nodes[i].at)
         if (!std::isfinite(x)) return Status::at(Code::not_finite, Place::node, i);
-      if (scene_.nodes[i].held >> dimension != 0) return Status::at(Code::out_of_range, Place::node, i);
+      const unsigned held = has_room_for_beams ? scene_.nodes[i].held & ~rotations : scene_.nodes[i].held;
+      if (held >> dimension != 0) return Status::at(Code::out_of_range, Place::node, i);
     }
     return Status::success();
   }
+  static constexpr unsigned rotations = dimension == 2 ? held_r : held_rx | held_ry | held_rz;
 
   /// Finite and greater than zero, or the code that says which it is not.
   static Code positive(Real x) {
@@ -115,6 +125,43 @@ class SceneCheck {
       if (stiff != Code::ok) return Status::at(stiff, Place::strut, i);
     }
     return Status::success();
+  }
+
+  Status beams() const {
+    for (int i = 0; i < scene_.beams.size(); ++i) {
+      const auto& beam = scene_.beams[i];
+      for (const int node : beam.nodes)
+        if (!is_node(node)) return Status::at(Code::unknown_node, Place::beam, i, node);
+      if (beam.nodes[0] == beam.nodes[1])
+        return Status::at(Code::repeated_node, Place::beam, i, beam.nodes[0]);
+      if (coincide(beam.nodes[0], beam.nodes[1]))
+        return Status::at(Code::coincident_nodes, Place::beam, i, beam.nodes[1]);
+      const Code stiff = stiffness_of(beam.section);
+      if (stiff != Code::ok) return Status::at(stiff, Place::beam, i);
+      if constexpr (dimension == 3)
+        if (!points_aside(beam)) return Status::at(Code::out_of_range, Place::beam, i);
+    }
+    return Status::success();
+  }
+  static Code stiffness_of(const BeamSection<Real, dimension>& section) {
+    Code code = first_failure(positive(section.E), positive(section.A));
+    if constexpr (dimension == 2) {
+      code = first_failure(code, positive(section.I));
+    } else {
+      for (const Real x : {section.Iy, section.Iz, section.J, section.G})
+        code = first_failure(code, positive(x));
+      for (const Real x : section.up)
+        if (!std::isfinite(x)) code = first_failure(code, Code::not_finite);
+    }
+    return code;
+  }
+  /// Whether `up` is there and not along the beam.
+  bool points_aside(const Beam<Real, 3>& beam) const {
+    const auto& up = beam.section.up;
+    const auto along =
+        Line<Real, 3>::between(scene_.nodes[beam.nodes[0]], scene_.nodes[beam.nodes[1]]).direction;
+    const Vector unit = Vector(up[0], up[1], up[2]).stableNormalized();
+    return along.cross(unit).norm() > Real(1e-6);
   }
 
   Status cable(int c) const {
@@ -288,6 +335,10 @@ class SceneCheck {
       const Motions R = rigid_motions(position(i, middle, size));
       for (int axis = 0; axis < dimension; ++axis)
         if (scene_.nodes[i].is_held(axis)) resistance += R.row(axis).transpose().lazyProduct(R.row(axis));
+      // The last of the motions are the rotations.
+      for (int k = 0; k < SceneType::motions_of_node - dimension; ++k)
+        if (scene_.nodes[i].is_rotation_held(k) && scene_.can_turn(i))
+          resistance(dimension + k, dimension + k) += 1;
     }
     for (int index = 0; index < scene_.substructures.size(); ++index) {
       const SubstructureElement<SceneType> K(scene_, index);

@@ -35,6 +35,9 @@ class System {
     peak_ = 0;
     stiffest_ = 0;
     for (int i = 0; i < scene.struts.size(); ++i) stiffest_ = std::fmax(stiffest_, elements_.struts[i].axial);
+    if constexpr (Cap::beams > 0)
+      for (int i = 0; i < scene.beams.size(); ++i)
+        stiffest_ = std::fmax(stiffest_, elements_.beams[i].stiffest);
     for (int i = 0; i < segments(); ++i) stiffest_ = std::fmax(stiffest_, elements_.segments[i].axial);
     for (const auto entry : scene.substructure_entries)
       stiffest_ = std::fmax(stiffest_, std::fabs(static_cast<Scalar>(entry)));
@@ -95,6 +98,7 @@ class System {
 
  private:
   using Point = Eigen::Matrix<Scalar, dimension, 1>;
+  static constexpr int per_node = SceneType::motions_of_node;
   static constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
   static constexpr Scalar accepted = sizeof(Scalar) == sizeof(float) ? Scalar(2e-6) : Scalar(2e-12);
   static constexpr int max_corrections = 12;
@@ -189,6 +193,21 @@ class System {
       unknowns[static_cast<std::size_t>(i)] = end_unknown(bar, i < dimension ? 0 : 1, i % dimension);
     return unknowns;
   }
+  template <class Beam>
+  std::array<int, 2 * per_node> beam_unknowns(const Beam& beam) const {
+    std::array<int, 2 * per_node> unknowns{};
+    for (int i = 0; i < 2 * per_node; ++i)
+      unknowns[static_cast<std::size_t>(i)] =
+          numbering_.displacement(beam.nodes[static_cast<std::size_t>(i / per_node)], i % per_node);
+    return unknowns;
+  }
+  template <class Beam>
+  auto beam_displacements(const Beam& beam) const {
+    return [this, unknowns = beam_unknowns(beam)](int i) {
+      const int unknown = unknowns[static_cast<std::size_t>(i)];
+      return unknown < 0 ? Word{} : x_[unknown];
+    };
+  }
   template <class Unknowns, class Matrix>
   void add_element(const Unknowns& unknowns, const Matrix& K) {
     for (std::size_t i = 0; i < unknowns.size(); ++i)
@@ -200,6 +219,9 @@ class System {
     lu_.reset(numbering_.count(), numbering_.band());
     for (int i = 0; i < scene_->struts.size(); ++i)
       add_element(bar_unknowns(elements_.struts[i]), elements_.struts[i].stiffness());
+    if constexpr (Cap::beams > 0)
+      for (int i = 0; i < scene_->beams.size(); ++i)
+        add_element(beam_unknowns(elements_.beams[i]), elements_.beams[i].stiffness());
     for (int i = 0; i < scene_->substructures.size(); ++i) {
       const SubstructureElement<SceneType> K(*scene_, i);
       for (int row = 0; row < K.size(); ++row)
@@ -216,8 +238,13 @@ class System {
 
   /// Columns are scaled to displacements that change forces by the same amount.
   void set_scales() {
-    for (int node = 0; node < scene_->nodes.size(); ++node)
+    for (int node = 0; node < scene_->nodes.size(); ++node) {
       set_point_scale([this, node](int axis) { return numbering_.displacement(node, axis); });
+      if constexpr (per_node > dimension)
+        set_point_scale([this, node](int axis) {
+          return dimension + axis < per_node ? numbering_.displacement(node, dimension + axis) : -1;
+        });
+    }
     for (int joint = 0; joint < joints(); ++joint) {
       const Scalar scale =
           set_point_scale([this, joint](int axis) { return numbering_.cable_point(joint, axis); });
@@ -303,6 +330,8 @@ class System {
         push(numbering_.displacement(given.node, axis), force);
       }
     for (int i = 0; i < scene_->struts.size(); ++i) pull(elements_.struts[i], strut_force(i));
+    if constexpr (Cap::beams > 0)
+      for (int i = 0; i < scene_->beams.size(); ++i) bend(elements_.beams[i]);
     for (int i = 0; i < segments(); ++i) {
       pull(elements_.segments[i], tension(i, assumed, loads));
       force_scale_ = std::fmax(force_scale_, std::fabs(locked_in_force(i, loads)));
@@ -316,7 +345,7 @@ class System {
   Scalar largest_displacement() const {
     Scalar most = 0;
     for (int node = 0; node < scene_->nodes.size(); ++node)
-      for (int axis = 0; axis < dimension; ++axis)
+      for (int axis = 0; axis < per_node; ++axis)
         most = std::fmax(most, std::fabs(displacement(node, axis).hi));
     return most;
   }
@@ -329,6 +358,15 @@ class System {
     for (int axis = 0; axis < dimension; ++axis) {
       push(end_unknown(bar, 0, axis), bar.line.direction[axis] * force);
       push(end_unknown(bar, 1, axis), -bar.line.direction[axis] * force);
+    }
+  }
+  template <class Beam>
+  void bend(const Beam& beam) {
+    const auto unknowns = beam_unknowns(beam);
+    const auto forces = beam.end_forces(beam_displacements(beam));
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      force_scale_ = std::fmax(force_scale_, std::fabs(forces[i]));
+      push(unknowns[i], -forces[i]);
     }
   }
   void hold(const SubstructureElement<SceneType>& K) {
@@ -395,7 +433,7 @@ class System {
   Scalar worst(Scalar gap) {
     Scalar most = gap;
     for (int node = 0; node < scene_->nodes.size(); ++node)
-      for (int axis = 0; axis < dimension; ++axis) {
+      for (int axis = 0; axis < per_node; ++axis) {
         const int unknown = numbering_.displacement(node, axis);
         if (unknown < 0 || std::fabs(correction_[unknown]) <= most) continue;
         most = std::fabs(correction_[unknown]);
@@ -423,12 +461,17 @@ class System {
       mover = node;
     };
     for (int node = 0; node < scene_->nodes.size(); ++node)
-      for (int axis = 0; axis < dimension; ++axis) consider(node, displacement(node, axis).hi);
+      for (int axis = 0; axis < per_node; ++axis) consider(node, displacement(node, axis).hi);
     for (int joint = 0; joint < joints(); ++joint)
       for (int axis = 0; axis < dimension; ++axis)
         consider(elements_.joints[joint].node, x_[numbering_.cable_point(joint, axis)].hi);
     for (int i = 0; i < scene_->struts.size(); ++i)
       strained = std::fmax(strained, std::fabs(elongation(elements_.struts[i]).value()));
+    if constexpr (Cap::beams > 0)
+      for (int i = 0; i < scene_->beams.size(); ++i) {
+        const auto& beam = elements_.beams[i];
+        strained = std::fmax(strained, beam.largest_deformation(beam_displacements(beam)));
+      }
     for (int i = 0; i < segments(); ++i)
       if (law_of(i, assumed, loads) == Law::elastic)
         strained = std::fmax(strained, std::fabs(bar_elongation(i)));
