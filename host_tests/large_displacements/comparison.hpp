@@ -1,6 +1,7 @@
 // Two results as CSV, column by column.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ struct Difference {
   double time = 0;
 };
 
-/// Over the rows and columns that both have; columns of other kinds do not count.
-std::vector<Difference> compare(const std::string& result, const std::string& reference);
+/// Over the rows up to a time [s] and the columns that both have; columns of other kinds do not count.
+std::vector<Difference> compare(const std::string& result, const std::string& reference,
+                                double until = std::numeric_limits<double>::infinity());
 
 }  // namespace large_displacements

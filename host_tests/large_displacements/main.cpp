@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <stdexcept>
 
 #include "large_displacements/comparison.hpp"
@@ -98,8 +99,9 @@ int main(int count, char** words) try {
     for (const std::string& name : scene_names()) std::printf("%s\n", name.c_str());
     return 0;
   }
-  if (first == "--compare" && count == 4) {
-    for (const Difference& d : compare(file_text(words[2]), file_text(words[3])))
+  if (first == "--compare" && (count == 4 || count == 5)) {
+    const double until = count == 5 ? std::stod(words[4]) : std::numeric_limits<double>::infinity();
+    for (const Difference& d : compare(file_text(words[2]), file_text(words[3]), until))
       std::printf("%-8s %.3g of %.6g, %s at %g\n", d.kind.c_str(), d.part, d.largest, d.column.c_str(),
                   d.time);
     return 0;

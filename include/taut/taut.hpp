@@ -58,6 +58,15 @@
 // L x n [N a unit factor]; rho J, 0 < rho <= 1, or 0 where the joint is self-locking. On request rows for
 // strut forces [N] (CondensedStruts) and displacements [m] (CondensedDisplacements), 1 + L + n numbers each.
 //
+// SecondOrderCondensation<Scalar, Scene>: the same in second-order theory, to SecondOrder, which takes the
+// place of Condensed in Tracker and Estimator.
+//
+//   run() takes the loads and jack forces of the target besides. It fails as Condensation does, there also
+//   with `mechanism` where tension and thrust at the target leave a node without stiffness, and with
+//   `out_of_range` if no cable has tension there. Costs eight condensations, with a solve more for every
+//   strut and beam, and three paths to the target. A tracker has n^2 numbers more, and n^2 operations for
+//   every bar where its level changes by a 32nd.
+//
 // Tracker<Condensed, Parameters>: exact from sample to sample. The condensed scene must outlive it. start(),
 // then advance() for every Sample: factors of the L load patterns, force [N] and lock of both ends of every
 // cable.
@@ -140,5 +149,6 @@
 #include "taut/scene/validation.hpp"
 #include "taut/status.hpp"
 #include "taut/stepwise/stepwise.hpp"
+#include "taut/tracking/target_state.hpp"
 #include "taut/tracking/tracker.hpp"
 #include "taut/tracking/verify.hpp"

@@ -14,6 +14,7 @@
 #include "lib/files/text.hpp"
 #include "lib/kinds/capacities.hpp"
 #include "lib/kinds/condensed_arrays.hpp"
+#include "lib/kinds/condensed_kind.hpp"
 #include "lib/kinds/condensed_size.hpp"
 #include "lib/kinds/make_model.hpp"
 
@@ -133,6 +134,23 @@ std::string condition(double number) {
   return line("condition number", digits.data());
 }
 
+// The state whose geometric stiffness is taken.
+std::string theory(const SceneDescription& scene) {
+  if (!scene.second_order) return "";
+  std::string target;
+  for (std::size_t i = 0; i < scene.loads.size(); ++i)
+    if (scene.second_order->factor[i] != 0)
+      target += ", " + quote(scene.loads[i].name) + " " + plain(scene.second_order->factor[i]);
+  for (std::size_t c = 0; c < scene.cables.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end)
+      if (scene.second_order->force[c][end] > 0)
+        target += ", " + scene.cables[c].name + "." + end_name(end) + " " +
+                  plain(scene.second_order->force[c][end]) + " N";
+  return line("theory", is_rigid(scene)
+                            ? "linear: nothing leans between rigid saddles"
+                            : "second order, with the geometric stiffness at the target" + target);
+}
+
 std::string mechanisms(std::size_t loose) {
   const std::string none = "none before any load";
   return line("mechanisms", loose == 0 ? none : none + "; " + counted(loose, "joint") + " free to slide");
@@ -154,7 +172,8 @@ int check(const std::string& scene_path) {
   const SceneDescription scene = read_scene_file(scene_path);
   const CondensedArrays condensed = condense(scene, ScalarType::float64);
   OutputFile output("");
-  output.write(head(scene) + capacities(scene) + beams(scene) + memory(scene) + cables(scene, condensed));
+  output.write(head(scene) + theory(scene) + capacities(scene) + beams(scene) +
+               (scene.second_order ? "" : memory(scene)) + cables(scene, condensed));
   const Status stands = condensed.condensing.status ? try_start(scene) : condensed.condensing.status;
   if (!stands) {
     output.finish();

@@ -98,6 +98,7 @@ struct SubstructureDescription {
   std::string name;
   std::vector<int> nodes;
   std::vector<double> stiffness;
+  std::vector<double> geometric_stiffness;  ///< at the target of second-order theory; empty: none
 };
 
 /// A force [N a unit factor] of a load pattern.
@@ -118,6 +119,12 @@ struct LoadDescription {
   std::vector<TemperatureDescription> temperatures;
 };
 
+/// The state at which second-order theory takes its geometric stiffness.
+struct TargetDescription {
+  std::vector<double> factor;                ///< of every load pattern
+  std::vector<std::array<double, 2>> force;  ///< of the jacks of every cable [N]
+};
+
 /// A whole scene file. References are indices into `nodes` and `cables`.
 struct SceneDescription {
   std::string file;  ///< where it comes from, for messages
@@ -130,6 +137,7 @@ struct SceneDescription {
   std::vector<CableDescription> cables;
   std::vector<SubstructureDescription> substructures;
   std::vector<LoadDescription> loads;
+  std::optional<TargetDescription> second_order;  ///< absent: linear theory
 };
 
 /// `start` or `end`.

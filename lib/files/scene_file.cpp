@@ -31,6 +31,7 @@ const Keys scene_keys = {
     {"substructures", false, ""},
     {"loads", false, ""},
     {"sensors", false, ""},
+    {"second_order", false, ""},
     {"plausible", false, ""},
 };
 const Keys strut_keys = {
@@ -85,7 +86,12 @@ const Keys substructure_keys = {
     {"name", true, "a name for messages"},
     {"nodes", true, "a list of node names"},
     {"stiffness", true, "a symmetric matrix as a list of rows [N/m]"},
+    {"geometric_stiffness", false, ""},
 };
+const Keys second_order_keys = {
+    {"target", true, "the loads and jack forces whose geometric stiffness is taken"},
+};
+const Keys target_keys = {{"loads", false, ""}, {"forces", false, ""}};
 const Keys load_keys = {{"forces", false, ""}, {"temperature", false, ""}};
 // Turns the tree of a scene file into a description, part by part in the order in which one refers to
 // another.
@@ -104,6 +110,7 @@ class SceneReader {
     if (const auto substructures = root_.find("substructures")) read_substructures(*substructures);
     if (const auto loads = root_.find("loads")) read_loads(*loads);
     if (const auto sensors = root_.find("sensors")) read_instruments(*sensors, scene_);
+    if (const auto second_order = root_.find("second_order")) read_second_order(*second_order);
     return std::move(scene_);
   }
 
@@ -468,23 +475,79 @@ class SceneReader {
       for (const Field& each : nodes.elements("a list of node names"))
         substructure.nodes.push_back(node(each));
       if (substructure.nodes.empty()) nodes.refuse("the substructure has no nodes", "name at least one");
-      read_stiffness(item.at("stiffness"), substructure);
+      read_stiffness(item.at("stiffness"), substructure.nodes.size(), substructure.stiffness);
+      if (const auto geometric = item.find("geometric_stiffness")) {
+        read_stiffness(*geometric, substructure.nodes.size(), substructure.geometric_stiffness);
+        require_symmetric(*geometric, substructure.geometric_stiffness);
+      }
       scene_.substructures.push_back(std::move(substructure));
     }
   }
 
-  void read_stiffness(const Field& field, SubstructureDescription& substructure) const {
-    const std::size_t size = substructure.nodes.size() * dimension();
-    const std::string shape = counted(size, "row") + " of " + counted(size, "number") + " [N/m] for " +
-                              counted(substructure.nodes.size(), "node");
+  void read_stiffness(const Field& field, std::size_t nodes, std::vector<double>& stiffness) const {
+    const std::size_t size = nodes * dimension();
+    const std::string shape =
+        counted(size, "row") + " of " + counted(size, "number") + " [N/m] for " + counted(nodes, "node");
     const auto rows = field.elements(shape);
     if (rows.size() != size) field.refuse("the matrix has " + counted(rows.size(), "row"), "write " + shape);
     for (const Field& row : rows) {
       const auto entries = row.elements("a row of " + counted(size, "number") + " [N/m]");
       if (entries.size() != size)
         row.refuse("the row has " + counted(entries.size(), "number"), "write " + shape);
-      for (const Field& entry : entries) substructure.stiffness.push_back(entry.number("a number [N/m]"));
+      for (const Field& entry : entries) stiffness.push_back(entry.number("a number [N/m]"));
     }
+  }
+  // The core looks at the stiffness itself, and never at its geometric part.
+  static void require_symmetric(const Field& field, const std::vector<double>& matrix) {
+    const auto size = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(matrix.size()))));
+    double most = 0;
+    for (const double entry : matrix) most = std::fmax(most, std::fabs(entry));
+    for (std::size_t i = 0; i < size; ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (std::fabs(matrix[i * size + k] - matrix[k * size + i]) > 1e-9 * most)
+          field.refuse("the matrix is not symmetric: row " + std::to_string(i + 1) + ", number " +
+                           std::to_string(k + 1) + " differs from row " + std::to_string(k + 1) +
+                           ", number " + std::to_string(i + 1),
+                       "write the same number in both places");
+  }
+
+  void read_second_order(const Field& field) {
+    field.require_keys(second_order_keys, "second-order theory: { \"target\": { ... } }");
+    const Field target = field.at("target");
+    target.require_keys(target_keys, "a target: { \"loads\": { ... }, \"forces\": { ... } }");
+    TargetDescription described;
+    described.factor.assign(scene_.loads.size(), 0);
+    described.force.assign(scene_.cables.size(), {0, 0});
+    if (const auto loads = target.find("loads"))
+      for (const auto& [name, factor] : loads->members("an object that gives load patterns their factors"))
+        described.factor[load(factor, name)] = factor.number("a factor as a number");
+    if (const auto forces = target.find("forces"))
+      for (const auto& [name, force] : forces->members("an object that gives jacks their forces [N]")) {
+        const auto [c, end] = jack(force, name);
+        const double newton = force.number("a force [N] as a number");
+        if (newton < 0) force.refuse("a jack force of " + plain(newton) + " N", "write zero or more");
+        described.force[c][end] = newton;
+      }
+    scene_.second_order = std::move(described);
+  }
+  std::size_t load(const Field& field, const std::string& name) const {
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < scene_.loads.size(); ++i) {
+      if (scene_.loads[i].name == name) return i;
+      known.push_back(scene_.loads[i].name);
+    }
+    field.refuse("there is no load pattern " + quote(name), suggestion(name, known, "the load patterns are"));
+  }
+  // The jack whose column of the log has this name.
+  std::pair<std::size_t, std::size_t> jack(const Field& field, const std::string& name) const {
+    std::vector<std::string> known;
+    for (std::size_t c = 0; c < scene_.cables.size(); ++c)
+      for (std::size_t end = 0; end < 2; ++end) {
+        if (!scene_.cables[c].is_jacked(end)) continue;
+        known.push_back(scene_.cables[c].name + "." + end_name(end));
+        if (known.back() == name) return {c, end};
+      }
+    field.refuse("there is no jack " + quote(name), suggestion(name, known, "the jacks are"));
   }
 
   void read_loads(const Field& field) {

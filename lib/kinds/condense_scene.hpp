@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lib/files/scene_description.hpp"
+#include "lib/kinds/condensed_kind.hpp"
 #include "taut/condensation/condensed.hpp"
 #include "taut/estimation/knowledge.hpp"
 #include "taut/status.hpp"
@@ -15,11 +16,11 @@ struct Condensing {
 };
 
 /// Condenses a scene and its strut forces; the factor of the structure is freed. Throws InputError if the
-/// scene cannot be used. `Cap` is a capacity of the program, or Rigid of one. Compiled for each dimension and
-/// capacity in a unit of its own.
+/// scene cannot be used. `Cap` is a capacity of the program, or Rigid or Leaning of one. Compiled for each
+/// dimension and capacity in a unit of its own.
 template <class Scalar, int Dimension, class Cap>
-Condensing condense_scene(const SceneDescription& scene, Condensed<Scalar, Cap>& condensed,
-                          CondensedStruts<Scalar, Cap>& struts);
+Condensing condense_scene(const SceneDescription& scene, CondensedOf<Scalar, Cap>& condensed,
+                          StrutsOf<Scalar, Cap>& struts);
 
 /// What the scene says of friction and load cells, for an Estimator. Compiled with condense_scene().
 template <class Scalar, int Dimension, class Cap>

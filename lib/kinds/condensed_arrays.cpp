@@ -30,11 +30,11 @@ std::vector<Row> rows_of(const Rows& rows, int count, int length) {
 
 template <class Coupling>
 std::vector<Row> coupling_of(const Coupling& coupling, int segments) {
-  std::vector<Row> rows(static_cast<std::size_t>(segments));
-  for (int i = 0; i < segments; ++i)
-    for (int k = 0; k < segments; ++k)
-      rows[static_cast<std::size_t>(i)].push_back(static_cast<double>(coupling(i, k)));
-  return rows;
+  std::vector<Row> columns(static_cast<std::size_t>(segments));
+  for (int k = 0; k < segments; ++k)
+    for (int i = 0; i < segments; ++i)
+      columns[static_cast<std::size_t>(k)].push_back(static_cast<double>(coupling(i, k)));
+  return columns;
 }
 
 template <class Scalar>
@@ -59,12 +59,14 @@ bool are_possible(const CondensedArrays& arrays) {
 
 template <class Scalar, int Dimension, class Cap>
 CondensedArrays condensed_arrays(const SceneDescription& scene) {
-  const auto condensed = std::make_unique<Condensed<Scalar, Cap>>();
-  const auto rows = std::make_unique<CondensedStruts<Scalar, Cap>>();
+  const auto whole = std::make_unique<CondensedOf<Scalar, Cap>>();
+  const auto whole_rows = std::make_unique<StrutsOf<Scalar, Cap>>();
   CondensedArrays arrays;
   arrays.rigid = has_rigid_saddles<Cap>;
-  arrays.condensing = condense_scene<Scalar, Dimension, Cap>(scene, *condensed, *rows);
+  arrays.condensing = condense_scene<Scalar, Dimension, Cap>(scene, *whole, *whole_rows);
   if (!arrays.condensing.status) return arrays;
+  const auto* const condensed = &linear_part(*whole);
+  const auto* const rows = &linear_part(*whole_rows);
   const int segments = condensed->segments, joints = condensed->joints, loads = condensed->loads;
   const int struts = static_cast<int>(scene.struts.size());
   for (const auto& cable : condensed->cables) arrays.cables.push_back(layout_of(cable));

@@ -18,7 +18,7 @@ struct CondensedArrays {
   Condensing condensing;  ///< on failure nothing else has a meaning; not_finite: numbers out of all range
   bool rigid = false;     ///< see is_rigid()
   std::vector<CableLayout<double>> cables;
-  std::vector<Row> coupling;  ///< of all segments
+  std::vector<Row> coupling;  ///< columns of all segments
   Row prestrain;
   std::vector<Row> load;
   Row rho, cos_alpha, sin_alpha;

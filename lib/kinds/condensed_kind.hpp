@@ -3,6 +3,7 @@
 
 #include "lib/files/scene_description.hpp"
 #include "lib/kinds/capacities.hpp"
+#include "taut/condensation/second_order.hpp"
 
 namespace taut::host {
 
@@ -14,6 +15,29 @@ struct Rigid : Cap {
   static constexpr int substructures = 0, substructure_nodes = 0, substructure_entries = 0;
 };
 
+/// The same capacity in second-order theory.
+template <class Cap>
+struct Leaning : Cap {};
+
+namespace detail {
+
+template <class Scalar, class Cap>
+struct CondensedFor {
+  using Type = Condensed<Scalar, Cap>;
+};
+template <class Scalar, class Cap>
+struct CondensedFor<Scalar, Leaning<Cap>> {
+  using Type = SecondOrder<Scalar, Leaning<Cap>>;
+};
+
+}  // namespace detail
+
+/// What a scene is condensed to.
+template <class Scalar, class Cap>
+using CondensedOf = typename detail::CondensedFor<Scalar, Cap>::Type;
+template <class Scalar, class Cap>
+using StrutsOf = typename CondensedOf<Scalar, Cap>::Struts;
+
 /// Whether nothing of the scene is elastic but its cables: no struts, no beams, no substructures, all nodes
 /// held.
 inline bool is_rigid(const SceneDescription& scene) {
@@ -23,9 +47,18 @@ inline bool is_rigid(const SceneDescription& scene) {
   return scene.struts.empty() && scene.beams.empty() && scene.substructures.empty();
 }
 
-/// As with_capacity(), for the capacity that the scene is condensed with.
+/// As with_capacity(), for the capacity that the scene is condensed with; second-order theory has the largest
+/// alone.
 template <class Call>
 auto with_condensed_capacity(const SceneDescription& scene, Call&& call) {
+  if (scene.second_order && !is_rigid(scene))
+    return with_capacity(
+        scene,
+        [&](auto kind) {
+          using Kind = decltype(kind);
+          return call(SceneKind<Kind::dimension, Leaning<typename Kind::Capacity>>{});
+        },
+        LargestCapacity{});
   return with_capacity(scene, [&](auto kind) {
     using Kind = decltype(kind);
     using Cap = typename Kind::Capacity;

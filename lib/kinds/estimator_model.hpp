@@ -34,7 +34,7 @@ class EstimatorModel : public Model {
     const Status known = know();
     if (!known) return {known, 0};
     const auto progress = estimator_->start(*condensed_, *knowledge_, limits_, cells_);
-    before_ = FrictionBefore::of(*estimator_, condensed_->joints);
+    before_ = FrictionBefore::of(*estimator_, linear_part(*condensed_).joints);
     return {progress.status, static_cast<double>(progress.fraction)};
   }
   std::string save() const override {
@@ -48,7 +48,7 @@ class EstimatorModel : public Model {
     const auto state = std::make_unique<State>();
     std::memcpy(static_cast<void*>(state.get()), bytes.data(), sizeof(State));
     const Status restored = estimator_->restore(*condensed_, *knowledge_, *state, limits_, cells_);
-    before_ = FrictionBefore::of(*estimator_, condensed_->joints);
+    before_ = FrictionBefore::of(*estimator_, linear_part(*condensed_).joints);
     time_ = time;
     has_row_ = true;
     return {restored, restored ? 1.0 : 0.0};
@@ -77,7 +77,7 @@ class EstimatorModel : public Model {
   void deny_past() override { past_.reset(); }
   bool has_unknown_past() const override { return past_ != nullptr; }
   std::vector<LearnedFriction> learned() const override {
-    return learned_mu(*estimator_, *condensed_, *knowledge_, before_, scene_);
+    return learned_mu(*estimator_, linear_part(*condensed_), *knowledge_, before_, scene_);
   }
   void read(Answer& answer) const override {
     Response<Scalar, Cap> response;
@@ -86,17 +86,18 @@ class EstimatorModel : public Model {
     read_response(response, scene_, answer);
     read_certainty(*estimator_, scene_, answer);
     if (!past_) return;
-    for (int i = 0; i < condensed_->segments; ++i)
+    for (int i = 0; i < linear_part(*condensed_).segments; ++i)
       answer.deviation[static_cast<std::size_t>(i)] =
           static_cast<double>(past_->estimate(*estimator_, i).deviation);
-    for (int c = 0; c < condensed_->cables.size(); ++c)
-      if (!past_->is_wiped_out(*estimator_, condensed_->cables[c]))
+    const auto& cables = linear_part(*condensed_).cables;
+    for (int c = 0; c < cables.size(); ++c)
+      if (!past_->is_wiped_out(*estimator_, cables[c]))
         add_alarm(Alarm::of(Alarm::Kind::unknown_past, c, 0), scene_, answer);
   }
 
  private:
-  using CondensedType = Condensed<Scalar, Cap>;
-  using StrutRows = CondensedStruts<Scalar, Cap>;
+  using CondensedType = CondensedOf<Scalar, Cap>;
+  using StrutRows = StrutsOf<Scalar, Cap>;
   using KnowledgeType = Knowledge<Scalar, Cap>;
   static constexpr int cells = 2 * Cap::cables < most_unknown_cells ? 2 * Cap::cables : most_unknown_cells;
   // Gain, zero and hysteresis of a jack, its wedge's draw-in, three remembered loads and what its cable
@@ -136,7 +137,7 @@ class EstimatorModel : public Model {
         estimator_->take_strut(*struts_, static_cast<int>(force.index), reading,
                                Gauge{gauges_.of_strut(force.index)});
       } else {
-        const int segment = condensed_->cables[static_cast<int>(force.cable)].first_segment;
+        const int segment = linear_part(*condensed_).cables[static_cast<int>(force.cable)].first_segment;
         estimator_->take_segment(segment + static_cast<int>(force.index), reading,
                                  Gauge{gauges_.of_segment(force.cable, force.index)});
       }

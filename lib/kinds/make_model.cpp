@@ -1,5 +1,6 @@
 #include "lib/kinds/make_model.hpp"
 
+#include "lib/files/input_error.hpp"
 #include "lib/kinds/condensed_kind.hpp"
 #include "lib/kinds/kind_models.hpp"
 #include "lib/kinds/valid_scene.hpp"
@@ -26,6 +27,9 @@ std::unique_ptr<Model> estimator_model(const SceneDescription& scene, ScalarType
 }
 
 std::unique_ptr<Model> stepwise_model(const SceneDescription& scene, ScalarType scalar) {
+  if (scene.second_order)
+    throw InputError(scene.file, "/second_order", "the method stepwise knows linear theory alone",
+                     "leave the key out, or use the method tracker");
   return with_capacity(
       scene,
       [&](auto kind) -> std::unique_ptr<Model> {

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "lib/files/scene_description.hpp"
+#include "taut/scene/sample.hpp"
 #include "taut/scene/scene.hpp"
 
 namespace taut::host {
@@ -117,6 +119,32 @@ void build(const SceneDescription& described, Scene<double, Dimension, Cap>& sce
                            substructure.stiffness.data());
   }
   for (const LoadDescription& load : described.loads) build_load(load, scene);
+}
+
+/// The state at which geometric stiffness is taken.
+template <class Scalar, class Cap>
+Sample<Scalar, Cap> target_of(const TargetDescription& described) {
+  Sample<Scalar, Cap> target;
+  for (std::size_t i = 0; i < described.factor.size(); ++i)
+    target.factor[static_cast<int>(i)] = static_cast<Scalar>(described.factor[i]);
+  for (std::size_t c = 0; c < described.force.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end)
+      target.jack[static_cast<int>(c)][end].force = static_cast<Scalar>(described.force[c][end]);
+  return target;
+}
+/// Geometric stiffness of all substructures, entry by entry as build() adds their stiffness; empty if none
+/// has any.
+inline std::vector<double> geometric_entries(const SceneDescription& described) {
+  std::vector<double> entries;
+  bool any = false;
+  for (const SubstructureDescription& substructure : described.substructures) {
+    const auto& given = substructure.geometric_stiffness;
+    any = any || !given.empty();
+    entries.insert(entries.end(), given.begin(), given.end());
+    if (given.empty()) entries.resize(entries.size() + substructure.stiffness.size());
+  }
+  if (!any) entries.clear();
+  return entries;
 }
 
 }  // namespace taut::host

@@ -34,8 +34,8 @@ class TrackerModel : public Model {
   }
 
  private:
-  using CondensedType = Condensed<Scalar, Cap>;
-  using StrutRows = CondensedStruts<Scalar, Cap>;
+  using CondensedType = CondensedOf<Scalar, Cap>;
+  using StrutRows = StrutsOf<Scalar, Cap>;
   using TrackerType = Tracker<CondensedType>;
   static constexpr int most_calls = 64;
 

@@ -5,6 +5,7 @@
 
 #include "taut/condensation/condensed.hpp"
 #include "taut/condensation/structure.hpp"
+#include "taut/elements/joint_lean.hpp"
 #include "taut/scene/validation.hpp"
 
 namespace taut {
@@ -12,7 +13,8 @@ namespace taut {
 /// Condenses scenes of one type; the object holds the structure's factor and can be thrown away afterwards.
 ///
 /// One factorization, then one solve of Eq. (7) for each load pattern, the prestrain, and each segment.
-template <class Scalar, class SceneType>
+/// `Geometry`: see Structure.
+template <class Scalar, class SceneType, class Geometry = NoGeometry>
 class Condensation {
  public:
   using Cap = typename SceneType::Capacity;
@@ -26,9 +28,21 @@ class Condensation {
   Status run(const SceneType& scene, Condensed<Scalar, Cap>& condensed,
              CondensedStruts<Scalar, Cap>* struts = nullptr,
              CondensedDisplacements<Scalar, Cap>* displacements = nullptr) {
+    return run(scene, Geometry(), condensed, struts, displacements);
+  }
+  /// The same with geometric stiffness. `beams`, if given, receives the rows for the axial forces of beams,
+  /// and `leaning` what displacements change, Eqs. (44) and (46), with `strut_by_bar` struts' part of that.
+  Status run(const SceneType& scene, const Geometry& geometry, Condensed<Scalar, Cap>& condensed,
+             CondensedStruts<Scalar, Cap>* struts, CondensedDisplacements<Scalar, Cap>* displacements,
+             CondensedBeams<Scalar, Cap>* beams = nullptr, CondensedLean<Scalar, Cap>* leaning = nullptr,
+             StrutsByBar<Scalar, Cap>* strut_by_bar = nullptr) {
     Status status = validate(scene);
     if (!status) return status;
     scene_ = &scene;
+    geometry_ = &geometry;
+    beams_ = beams;
+    leaning_ = leaning;
+    strut_by_bar_ = strut_by_bar;
     if (displacements != nullptr) status = check(displacements->of);
     if (!status) return status;
     condensed = {};
@@ -58,7 +72,8 @@ class Condensation {
 
  private:
   struct Nothing {};
-  using Solver = std::conditional_t<has_rigid_saddles<Cap>, Nothing, Structure<Wide<Scalar>, SceneType>>;
+  using Solver =
+      std::conditional_t<has_rigid_saddles<Cap>, Nothing, Structure<Wide<Scalar>, SceneType, Geometry>>;
 
   using Real = Wide<Scalar>;
   using Given = typename SceneType::Scalar;
@@ -130,7 +145,7 @@ class Condensation {
 
   Status elastic(Condensed<Scalar, Cap>& condensed, CondensedStruts<Scalar, Cap>* struts,
                  CondensedDisplacements<Scalar, Cap>* displacements) {
-    Status status = structure_.make(*scene_);
+    Status status = structure_.make(*scene_, *geometry_);
     if (!status) return status;
     const auto& elements = structure_.elements();
     for (int j = 0; j < condensed.joints; ++j) set_joint(condensed, j, elements.joints[j]);
@@ -143,6 +158,17 @@ class Condensation {
         const NodeAxis& wanted = displacements->of[i];
         (*row(displacements->rows))[i] = structure_.node_displacement(wanted.node, wanted.axis);
       }
+      if constexpr (Cap::beams > 0)
+        for (int i = 0; beams_ != nullptr && i < scene_->beams.size(); ++i)
+          (*row(*beams_))[i] = structure_.beam_force(i);
+      if (leaning_ == nullptr) return;
+      for (int c = 0; c < scene_->cables.size(); ++c)
+        for (int j = 0; j < scene_->cables[c].joints(); ++j)
+          (*row(leaning_->grips))[scene_->cables[c].first_joint + j] = kappa_change(c, j);
+      for_each_bar([&](int bar, const auto& nodes, const auto& line) {
+        for (int n = 0; n < Cap::normals; ++n)
+          (*row(leaning_->aside))[bar * Cap::normals + n] = aside(nodes, line, n);
+      });
     };
 
     const auto prestrained = [&](int i) { return elements.segments[i].initial / elements.segments[i].axial; };
@@ -169,7 +195,76 @@ class Condensation {
       store(unit, column, [k](auto& rows) { return &rows.elongation[k]; });
       for (int i = 0; i < condensed.segments; ++i) condensed.coupling.set(i, k, column[i]);
     }
+    if constexpr (!std::is_same<Geometry, NoGeometry>::value)
+      if (leaning_ != nullptr) return lengthen_bars(condensed.segments);
     return Status::success();
+  }
+  /// Tensions and strut forces from a unit elongation of every strut and beam.
+  Status lengthen_bars(int segments) {
+    const int struts = scene_->struts.size();
+    int beams = 0;
+    if constexpr (Cap::beams > 0) beams = scene_->beams.size();
+    const auto none = [](int) { return Real(0); };
+    leaning_->struts = struts;
+    leaning_->beams = beams;
+    for (int b = 0; b < struts + beams; ++b) {
+      const auto unit = [b](int i) { return i == b ? Real(1) : Real(0); };
+      const Status status = structure_.solve(no_force, none, unit);
+      if (!status) return status;
+      const int to = b < struts ? b : Cap::struts + b - struts;
+      for (int i = 0; i < segments; ++i) leaning_->tension_by_bar[to][i] = structure_.tension(i, Real(0));
+      for (int i = 0; strut_by_bar_ != nullptr && i < struts; ++i)
+        (*strut_by_bar_)[to][i] = structure_.strut_force(i, unit(i));
+    }
+    return Status::success();
+  }
+  /// Visits segments, struts and beams with their numbers among all bars.
+  template <class Visit>
+  void for_each_bar(Visit visit) const {
+    const auto& elements = structure_.elements();
+    for (int i = 0; i < scene_->prestrain.size(); ++i)
+      visit(i, elements.segments[i].nodes, elements.segments[i].line);
+    for (int i = 0; i < scene_->struts.size(); ++i)
+      visit(Cap::segments + i, elements.struts[i].nodes, elements.struts[i].line);
+    if constexpr (Cap::beams > 0)
+      for (int i = 0; i < scene_->beams.size(); ++i)
+        visit(Cap::segments + Cap::struts + i, elements.beams[i].nodes, elements.beams[i].line);
+  }
+  /// How far the ends of a bar move apart across it in the last solution, along its normal `n`, by the root
+  /// of twice its length [m^1/2].
+  Real aside(const std::array<int, 2>& nodes, const Line<Real, dimension>& line, int n) const {
+    if (n >= dimension - 1) return 0;
+    Eigen::Matrix<Real, dimension, 1> apart;
+    for (int axis = 0; axis < dimension; ++axis)
+      apart[axis] =
+          structure_.node_displacement(nodes[1], axis) - structure_.node_displacement(nodes[0], axis);
+    Eigen::Matrix<Real, dimension, 1> normal;
+    if constexpr (dimension == 2) {
+      normal << -line.direction[1], line.direction[0];
+    } else {
+      int smallest = 0;
+      line.direction.cwiseAbs().minCoeff(&smallest);
+      normal = line.direction.cross(Eigen::Matrix<Real, 3, 1>::Unit(smallest)).normalized();
+      if (n == 1) normal = line.direction.cross(normal).eval();
+    }
+    return normal.dot(apart) / std::sqrt(2 * line.length);
+  }
+
+  /// Of a joint by the displacements of the last solution, to first order.
+  Real kappa_change(int c, int j) const {
+    const auto& cable = scene_->cables[c];
+    const auto at = scene_->joint_nodes(cable, j);
+    const auto& elements = structure_.elements();
+    const auto& joint = elements.joints[cable.first_joint + j];
+    JointLean<Real, dimension> lean;
+    for (int axis = 0; axis < dimension; ++axis) {
+      const Real here = structure_.node_displacement(at.at, axis);
+      lean.before[axis] = structure_.node_displacement(at.before, axis) - here;
+      lean.after[axis] = structure_.node_displacement(at.after, axis) - here;
+    }
+    return lean.kappa_change(joint,
+                             Line<Real, dimension>::between(scene_->nodes[at.at], scene_->nodes[at.before]),
+                             Line<Real, dimension>::between(scene_->nodes[at.at], scene_->nodes[at.after]));
   }
 
   Real nodal_force(int load, int node, int axis) const {
@@ -180,6 +275,10 @@ class Condensation {
   }
 
   const SceneType* scene_ = nullptr;
+  const Geometry* geometry_ = nullptr;
+  CondensedBeams<Scalar, Cap>* beams_ = nullptr;
+  CondensedLean<Scalar, Cap>* leaning_ = nullptr;
+  StrutsByBar<Scalar, Cap>* strut_by_bar_ = nullptr;
   Solver structure_;
 };
 

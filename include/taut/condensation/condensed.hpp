@@ -18,14 +18,14 @@ namespace taut {
 template <class Cap>
 constexpr bool has_rigid_saddles = Cap::struts == 0 && Cap::beams == 0 && Cap::substructures == 0;
 
-/// Tensions of all segments from elongations imposed on them, all joints stuck: the symmetric matrix C of
-/// Eq. (8) [N/m].
+/// Tensions of all segments from elongations imposed on them, all joints stuck: the matrix C of Eq. (8)
+/// [N/m], column by column. It is symmetric but in second-order theory, whose level follows.
 template <class Scalar, int Segments>
 struct ElasticCoupling {
   FixedArray<Scalar, Segments * Segments> entries;
 
-  constexpr Scalar operator()(int i, int k) const { return entries[i * Segments + k]; }
-  constexpr void set(int i, int k, Scalar value) { entries[i * Segments + k] = value; }
+  constexpr Scalar operator()(int i, int k) const { return entries[k * Segments + i]; }
+  constexpr void set(int i, int k, Scalar value) { entries[k * Segments + i] = value; }
   /// T += coupling x e, for n segments.
   template <class Vector>
   void add(int n, const Vector& e, Vector& T) const {
@@ -84,6 +84,9 @@ struct NoCoupling {
   }
 };
 
+template <class Real, int Count, class Cap>
+struct CondensedRows;
+
 /// A scene after static condensation of its structure: Eq. (8).
 ///
 /// T = load x factors + prestrain + coupling x e, where e is the elongation imposed on each segment by what
@@ -99,6 +102,11 @@ struct Condensed {
   using Real = Wide<Scalar>;
   using Coupling = std::conditional_t<has_rigid_saddles<Cap>, NoCoupling<Real, Cap::segments>,
                                       ElasticCoupling<Real, Cap::segments>>;
+  using Linear = Condensed;
+  using AtLevel = Condensed;                             ///< what a tracker computes with
+  using Struts = CondensedRows<Real, Cap::struts, Cap>;  ///< CondensedStruts
+  /// Its numbers hold whatever the forces are: linear theory.
+  static constexpr bool has_level = false;
 
   FixedList<CableLayout<Scalar>, Cap::cables> cables;
   int segments = 0;
@@ -157,22 +165,77 @@ struct CondensedRows {
 
   /// The numbers in the state of `model` that `drive` (a Drive) and the elongations e [m] describe; what is
   /// beyond `Count` stays as it is.
-  template <class Scalar, class Loads, class Elongations, int Size>
+  template <class Scalar, class Loads, class Elongations, class Number, int Size>
   constexpr void evaluate(const Condensed<Scalar, Cap>& model, const Loads& drive, const Elongations& e,
-                          FixedArray<Scalar, Size>& numbers) const {
+                          FixedArray<Number, Size>& numbers) const {
     static_assert(Count <= Size, "there is room for every number");
     for (int i = 0; i < Count; ++i) {
       Real sum = drive.prestrain * prestrain[i];
       for (int k = 0; k < model.loads; ++k) sum += drive.factor[k] * load[k][i];
       for (int segment = 0; segment < model.segments; ++segment) sum += e[segment] * elongation[segment][i];
-      numbers[i] = static_cast<Scalar>(sum);
+      numbers[i] = static_cast<Number>(sum);
     }
   }
 };
 
+/// Number `i` of all these rows alone.
+template <class Model, class Real, int Count, class Cap, class Loads, class Elongations>
+Real number_of(const CondensedRows<Real, Count, Cap>& rows, int i, const Model& model, const Loads& drive,
+               const Elongations& e) {
+  Real value = drive.prestrain * rows.prestrain[i] + change_of(rows, i, model, e);
+  for (int k = 0; k < model.loads; ++k) value += drive.factor[k] * rows.load[k][i];
+  return value;
+}
+/// What elongations alone make of it.
+template <class Model, class Real, int Count, class Cap, class Elongations>
+Real change_of(const CondensedRows<Real, Count, Cap>& rows, int i, const Model& model, const Elongations& e) {
+  Real sum = 0;
+  for (int k = 0; k < model.segments; ++k) sum += rows.elongation[k][i] * e[k];
+  return sum;
+}
+
 /// On request: the rows that give strut forces [N], tension positive.
 template <class Scalar, class Cap>
 using CondensedStruts = CondensedRows<Wide<Scalar>, Cap::struts, Cap>;
+
+/// The rows that give axial forces of beams [N], tension positive.
+template <class Scalar, class Cap>
+using CondensedBeams = CondensedRows<Wide<Scalar>, Cap::beams, Cap>;
+
+/// The rows that give by how much displacements change kappa of every joint [-], Eq. (44).
+template <class Scalar, class Cap>
+using CondensedGrips = CondensedRows<Wide<Scalar>, Cap::joints, Cap>;
+
+/// Segments, struts and beams, in this order.
+template <class Cap>
+constexpr int max_bars = Cap::segments + Cap::struts + Cap::beams;
+
+/// What second-order theory needs to know of displacements.
+template <class Scalar, class Cap>
+struct CondensedLean {
+  using Real = Wide<Scalar>;
+  CondensedGrips<Scalar, Cap> grips;
+  /// By how much the ends of every bar move apart across it, for each normal, by the root of twice its
+  /// length: their squares are what leaning lengthens it by [m^1/2].
+  CondensedRows<Real, max_bars<Cap> * Cap::normals, Cap> aside;
+  /// Tensions from a unit elongation of every strut and, after Capacity::struts, of every beam [N/m].
+  FixedArray<FixedArray<Real, Cap::segments>, Cap::struts + Cap::beams> tension_by_bar;
+  int struts = 0, beams = 0;  ///< that the scene has
+
+  /// Calls visit(number) for every segment, strut and beam.
+  template <class Visit>
+  constexpr void for_each_bar(int segments, Visit visit) const {
+    for (int i = 0; i < segments; ++i) visit(i);
+    if constexpr (Cap::struts > 0)
+      for (int i = 0; i < struts; ++i) visit(Cap::segments + i);
+    if constexpr (Cap::beams > 0)
+      for (int i = 0; i < beams; ++i) visit(Cap::segments + Cap::struts + i);
+  }
+};
+
+/// Strut forces from a unit elongation of every strut and, after Capacity::struts, of every beam [N/m].
+template <class Scalar, class Cap>
+using StrutsByBar = FixedArray<FixedArray<Wide<Scalar>, Cap::struts>, Cap::struts + Cap::beams>;
 
 /// A displacement: of a node, along an axis (0, 1 or 2).
 struct NodeAxis {

@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
+#include "taut/condensation/geometric_stiffness.hpp"
 #include "taut/condensation/skyline.hpp"
 #include "taut/elements/elements.hpp"
 #include "taut/numerics/double_word.hpp"
@@ -20,7 +22,10 @@ namespace taut {
 /// Displacements are kept in double words and corrected with residuals taken element by element, so that
 /// forces come out to the last digits of Scalar although elongations cancel; a correction costs one
 /// substitution.
-template <class Scalar, class SceneType>
+///
+/// `Geometry` is NoGeometry, or a GeometricStiffness: then second-order theory, Eq. (43), with the forces
+/// that it holds.
+template <class Scalar, class SceneType, class Geometry = NoGeometry>
 class Structure {
  public:
   using Cap = typename SceneType::Capacity;
@@ -35,8 +40,9 @@ class Structure {
 
   /// Factors the stiffness of a valid scene. Fails with `mechanism` or `ill_conditioned` (names the node that
   /// moves), or `capacity_exceeded` (Capacity::profile; the amount is what is missing).
-  Status make(const SceneType& scene) {
+  Status make(const SceneType& scene, const Geometry& geometry = {}) {
     scene_ = &scene;
+    geometry_ = geometry;
     elements_.make(scene);
     number();
     const int missing = stiffness_.reset(count_, [this](int unknown) { return first_[unknown]; });
@@ -50,16 +56,21 @@ class Structure {
   /// [m], given by imposed(segment). Fails with `ill_conditioned` if equilibrium is not reached.
   template <class Forces, class Elongations>
   Status solve(Forces force, Elongations imposed) {
+    return solve(force, imposed, [](int) { return Scalar(0); });
+  }
+  /// And with elongations imposed on struts and, after them, on beams [m]: stretched(number).
+  template <class Forces, class Elongations, class Stretches>
+  Status solve(Forces force, Elongations imposed, Stretches stretched) {
     for (int i = 0; i < count_; ++i) u_[i] = Word{};
     Scalar before = std::numeric_limits<Scalar>::max();
     for (int round = 0; round < max_corrections; ++round) {
-      const Scalar imbalance = residual(force, imposed);
+      const Scalar imbalance = residual(force, imposed, stretched);
       if (imbalance <= 2 * epsilon || (round > 2 && imbalance > before / 2)) return judge(imbalance);
       before = imbalance;
       stiffness_.solve(residual_);
       for (int i = 0; i < count_; ++i) u_[i] += Word{residual_[i], 0};
     }
-    return judge(residual(force, imposed));
+    return judge(residual(force, imposed, stretched));
   }
 
   /// Force of a segment in the last solution, given its imposed elongation [N]. Exactly zero if nothing
@@ -67,9 +78,9 @@ class Structure {
   Scalar tension(int segment, Scalar imposed) const {
     return is_unresisted() ? Scalar(0) : force_of(elements_.segments[segment], imposed);
   }
-  /// Force of a strut in the last solution [N].
-  Scalar strut_force(int strut) const {
-    return is_unresisted() ? Scalar(0) : force_of(elements_.struts[strut], Scalar(0));
+  /// Force of a strut in the last solution, given its imposed elongation [N].
+  Scalar strut_force(int strut, Scalar imposed = 0) const {
+    return is_unresisted() ? Scalar(0) : force_of(elements_.struts[strut], imposed);
   }
   /// Axial force of a beam in the last solution [N], tension positive.
   Scalar beam_force(int beam) const {
@@ -89,6 +100,7 @@ class Structure {
 
  private:
   using Word = DoubleWord<Scalar>;
+  static constexpr bool has_geometry = !std::is_same<Geometry, NoGeometry>::value;
   static constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
   static constexpr Scalar accepted = sizeof(Scalar) == sizeof(float) ? Scalar(2e-6) : Scalar(2e-12);
   static constexpr int max_corrections = 16;
@@ -123,8 +135,12 @@ class Structure {
   }
 
   template <class Bar>
-  void assemble_bar(const Bar& bar) {
-    const auto K = bar.stiffness();
+  void assemble_bar(const Bar& bar, Scalar tension) {
+    auto K = bar.stiffness();
+    if constexpr (has_geometry)
+      K += lateral_stiffness<Scalar, dimension>(bar.line.direction, tension / bar.line.length);
+    else
+      static_cast<void>(tension);
     for (int i = 0; i < 2 * dimension; ++i)
       for (int k = 0; k < 2 * dimension; ++k)
         add(unknown_of(bar.nodes, i), unknown_of(bar.nodes, k), K(i, k));
@@ -148,18 +164,26 @@ class Structure {
     if (row >= 0 && column >= 0) stiffness_.add(row, column, value);
   }
   void assemble() {
-    for (int i = 0; i < scene_->struts.size(); ++i) assemble_bar(elements_.struts[i]);
+    for (int i = 0; i < scene_->struts.size(); ++i) assemble_bar(elements_.struts[i], geometry_.strut(i));
     if constexpr (Cap::beams > 0)
-      for (int i = 0; i < scene_->beams.size(); ++i)
+      for (int i = 0; i < scene_->beams.size(); ++i) {
         assemble_beam(elements_.beams[i], elements_.beams[i].stiffness());
-    for (int i = 0; i < segments(); ++i) assemble_bar(elements_.segments[i]);
+        if constexpr (has_geometry)
+          assemble_beam(elements_.beams[i], elements_.beams[i].geometric(geometry_.beam(i)));
+      }
+    for (int i = 0; i < segments(); ++i) assemble_bar(elements_.segments[i], geometry_.segment(i));
     for (int i = 0; i < scene_->substructures.size(); ++i) {
       const SubstructureElement<SceneType> K(*scene_, i);
       for (int row = 0; row < K.size(); ++row)
         for (int column = 0; column < K.size(); ++column)
           add(unknown_[K.node(row) * per_node + K.axis(row)],
-              unknown_[K.node(column) * per_node + K.axis(column)], static_cast<Scalar>(K(row, column)));
+              unknown_[K.node(column) * per_node + K.axis(column)], entry(K, row, column));
     }
+  }
+
+  /// Of a substructure's matrix, with its own geometric stiffness.
+  Scalar entry(const SubstructureElement<SceneType>& K, int row, int column) const {
+    return static_cast<Scalar>(K(row, column)) + geometry_.substructure(K.entry(row, column));
   }
 
   Word displacement(int node, int axis) const {
@@ -185,8 +209,25 @@ class Structure {
     largest_ = std::fmax(largest_, std::fabs(force));
     if (unknown >= 0) residual_[unknown] += force;
   }
+  /// What a bar under tension adds when it leans.
   template <class Bar>
-  void pull(const Bar& bar, Scalar imposed) {
+  void pull_aside(const Bar& bar, Scalar tension) {
+    const Word along = elongation(bar.nodes, bar.line);
+    for (int axis = 0; axis < dimension; ++axis) {
+      Word aside;
+      aside += displacement(bar.nodes[1], axis) - displacement(bar.nodes[0], axis);
+      aside += -bar.line.direction[axis] * along;
+      const Scalar force = (tension / bar.line.length * aside).value();
+      push(bar.nodes[0], axis, force);
+      push(bar.nodes[1], axis, -force);
+    }
+  }
+  template <class Bar>
+  void pull(const Bar& bar, Scalar imposed, Scalar tension) {
+    if constexpr (has_geometry)
+      pull_aside(bar, tension);
+    else
+      static_cast<void>(tension);
     const Scalar force = force_of(bar, imposed);
     for (const int node : bar.nodes)
       for (int axis = 0; axis < dimension; ++axis)
@@ -211,24 +252,51 @@ class Structure {
     }
   }
 
+  /// An imposed elongation of a beam, in its axial force alone.
+  template <class Beam>
+  void push_apart(const Beam& beam, Scalar imposed) {
+    for (int axis = 0; axis < dimension; ++axis) {
+      const Scalar force = beam.axial * imposed * beam.line.direction[axis];
+      push(beam.nodes[0], axis, force);
+      push(beam.nodes[1], axis, -force);
+    }
+  }
+
+  /// What a beam under tension adds when it leans and bends.
+  template <class Beam>
+  void bend_aside(const Beam& beam, Scalar tension) {
+    const auto K = beam.geometric(tension);
+    for (int i = 0; i < 2 * per_node; ++i) {
+      Word force;
+      for (int k = 0; k < 2 * per_node; ++k)
+        force += K(i, k) * displacement(place_of(beam, k) / per_node, k % per_node);
+      push(place_of(beam, i) / per_node, i % per_node, -force.value());
+    }
+  }
+
   /// Puts loads minus element forces into residual_; returns the largest part relative to the largest force,
   /// or zero if there is none but rounding.
-  template <class Forces, class Elongations>
-  Scalar residual(Forces force, Elongations imposed) {
+  template <class Forces, class Elongations, class Stretches>
+  Scalar residual(Forces force, Elongations imposed, Stretches stretched) {
     largest_ = coarsest_ = 0;
     for (int i = 0; i < count_; ++i) residual_[i] = 0;
     for (int node = 0; node < scene_->nodes.size(); ++node)
       for (int axis = 0; axis < dimension; ++axis) push(node, axis, force(node, axis));
-    for (int i = 0; i < scene_->struts.size(); ++i) pull(elements_.struts[i], Scalar(0));
+    for (int i = 0; i < scene_->struts.size(); ++i)
+      pull(elements_.struts[i], stretched(i), geometry_.strut(i));
     if constexpr (Cap::beams > 0)
-      for (int i = 0; i < scene_->beams.size(); ++i) bend(elements_.beams[i]);
-    for (int i = 0; i < segments(); ++i) pull(elements_.segments[i], imposed(i));
+      for (int i = 0; i < scene_->beams.size(); ++i) {
+        bend(elements_.beams[i]);
+        push_apart(elements_.beams[i], stretched(scene_->struts.size() + i));
+        if constexpr (has_geometry) bend_aside(elements_.beams[i], geometry_.beam(i));
+      }
+    for (int i = 0; i < segments(); ++i) pull(elements_.segments[i], imposed(i), geometry_.segment(i));
     for (int i = 0; i < scene_->substructures.size(); ++i) {
       const SubstructureElement<SceneType> K(*scene_, i);
       for (int row = 0; row < K.size(); ++row) {
         Word held;
         for (int column = 0; column < K.size(); ++column)
-          held += static_cast<Scalar>(K(row, column)) * displacement(K.node(column), K.axis(column));
+          held += entry(K, row, column) * displacement(K.node(column), K.axis(column));
         push(K.node(row), K.axis(row), -held.value());
       }
     }
@@ -280,6 +348,7 @@ class Structure {
   }
 
   const SceneType* scene_ = nullptr;
+  Geometry geometry_;
   Elements<Scalar, SceneType> elements_;
   NodeOrder<SceneType> order_;
   Skyline<Scalar, max_unknowns, max_profile> stiffness_;

@@ -35,6 +35,17 @@ Eigen::Matrix<Scalar, 2 * Dimension, 2 * Dimension> bar_stiffness(
   return (axial * b).lazyProduct(b.transpose());
 }
 
+/// The geometric stiffness matrix of a bar, N/L [N/m] across its axis: what a force in it does when it leans.
+template <class Scalar, int Dimension>
+Eigen::Matrix<Scalar, 2 * Dimension, 2 * Dimension> lateral_stiffness(
+    const Eigen::Matrix<Scalar, Dimension, 1>& direction, Scalar force_by_length) {
+  using Block = Eigen::Matrix<Scalar, Dimension, Dimension>;
+  const Block across = force_by_length * (Block::Identity() - direction.lazyProduct(direction.transpose()));
+  Eigen::Matrix<Scalar, 2 * Dimension, 2 * Dimension> K;
+  K << across, -across, -across, across;
+  return K;
+}
+
 /// A strut, ready for use: force = EA/L x elongation, tension positive.
 template <class Scalar, int Dimension>
 struct StrutElement {

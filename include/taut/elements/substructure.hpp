@@ -21,9 +21,9 @@ class SubstructureElement {
   int node(int row) const { return scene_->substructure_nodes[given_->first_node + row / dimension]; }
   static int axis(int row) { return row % dimension; }
   /// Stiffness [N/m].
-  Scalar operator()(int row, int column) const {
-    return scene_->substructure_entries[given_->first_entry + row * size() + column];
-  }
+  Scalar operator()(int row, int column) const { return scene_->substructure_entries[entry(row, column)]; }
+  /// The number of an entry in the scene's list.
+  int entry(int row, int column) const { return given_->first_entry + row * size() + column; }
 
  private:
   const SceneType* scene_;

@@ -98,7 +98,7 @@ class Estimator : private CondensedType::Capacity::Account {
     const Status known = begin(condensed, knowledge, limits, gauges);
     if (!known) return {known, Scalar(0), 0};
     Account::begin(filter_);
-    return tracker_.start(condensed, filter_.friction(condensed), load_errors());
+    return tracker_.start(condensed, filter_.friction(linear_part(condensed)), load_errors());
   }
   /// After start(): the loads of these first readings, those of jacks having come down from so high that
   /// every joint slid back, at most 0.99 of what Condensed::most_force allows: the largest forces that any
@@ -151,7 +151,8 @@ class Estimator : private CondensedType::Capacity::Account {
     forces_.restore(state.forces);
     confirmed_ = state.confirmed;
     is_ahead_ = state.is_ahead;
-    return tracker_.restore(condensed, filter_.friction(condensed), state.tracker, load_errors());
+    return tracker_.restore(condensed, filter_.friction(linear_part(condensed)), state.tracker,
+                            load_errors());
   }
 
   // A row of readings.
@@ -226,7 +227,7 @@ class Estimator : private CondensedType::Capacity::Account {
   /// gauges. While joints stick that matter to it nothing is learned from it; what contradicts raises
   /// Alarm::Kind::strut, and nothing has changed. Cost: an update, with at most four calls of
   /// Tracker::adjust().
-  void take_strut(const CondensedStruts<Scalar, Cap>& rows, int strut, Scalar reading, Scalar sd) {
+  void take_strut(const typename CondensedType::Struts& rows, int strut, Scalar reading, Scalar sd) {
     const auto predict = [&](auto& prediction) {
       predict_strut(tracker_, rows, strut, filter_.belief(), jacks_.ends(), prediction);
     };
@@ -250,7 +251,7 @@ class Estimator : private CondensedType::Capacity::Account {
   /// readings count is told by Gauges, those while cables surely slide; all may be handed in. What
   /// contradicts raises Alarm::Kind::strut, `elongation`, or `segment` for the measured force of a segment
   /// [N].
-  void take_strut(const CondensedStruts<Scalar, Cap>& rows, int strut, Scalar reading, Gauge gauge) {
+  void take_strut(const typename CondensedType::Struts& rows, int strut, Scalar reading, Gauge gauge) {
     const auto predict = [&](auto& prediction) {
       predict_strut(tracker_, rows, strut, filter_.belief(), jacks_.ends(), prediction);
     };
@@ -296,7 +297,8 @@ class Estimator : private CondensedType::Capacity::Account {
   /// Slips, contact and friction forces, payouts, states and, if their rows are given, strut forces: as
   /// Tracker::respond(), with tensions and payouts at the best estimate. Cost: a force a segment, and that of
   /// Tracker::respond().
-  void respond(Response<Scalar, Cap>& response, const CondensedStruts<Scalar, Cap>* struts = nullptr) const {
+  void respond(Response<Scalar, Cap>& response,
+               const typename CondensedType::Struts* struts = nullptr) const {
     tracker_.respond(response, struts);
     for (int i = 0; i < model().segments; ++i) response.tension[i] = force(i);
     model().resolve_joints(response);
@@ -327,7 +329,7 @@ class Estimator : private CondensedType::Capacity::Account {
  private:
   using EndType = CableEnd<Cap>;
 
-  const CondensedType& model() const { return tracker_.model(); }
+  const auto& model() const { return tracker_.model(); }
   int cable_of(int segment) const {
     int c = 0;
     while (segment >= model().cables[c].first_segment + model().cables[c].segments()) ++c;
@@ -340,26 +342,27 @@ class Estimator : private CondensedType::Capacity::Account {
   template <class Cells>
   Status begin(const CondensedType& condensed, const KnowledgeType& knowledge,
                const AlarmLimits<Scalar>& limits, const Cells& gauges) {
+    const auto& linear = linear_part(condensed);
     limits_ = limits;
     alarms_.clear();
     is_belief_fine_ = is_ahead_ = misfits_ = false;
     forces_.start();
-    jacks_.start(condensed, knowledge);
-    Status known = filter_.start(condensed, knowledge);
-    const auto corners = static_cast<std::size_t>(remembered_corners(load_patterns(condensed)));
+    jacks_.start(linear, knowledge);
+    Status known = filter_.start(linear, knowledge);
+    const auto corners = static_cast<std::size_t>(remembered_corners(load_patterns(linear)));
     for (std::size_t m = 0; m < corners; ++m)
       for (int k = 0; k < jacks_.size(); ++k) {
         const bool has_noise = jacks_.in(knowledge.cell, k).sd > 0;
         jacks_[k].memory[m] = static_cast<std::int16_t>(has_noise ? filter_.add_load_error() : -1);
       }
-    for (int c = 0; c < condensed.cables.size(); ++c)
+    for (int c = 0; c < linear.cables.size(); ++c)
       drift_[c] = static_cast<std::int16_t>(knowledge.drift_sd[c] > 0 ? filter_.add_load_error() : -1);
     for (int k = 0; k < jacks_.size(); ++k) {
       const bool is_uncertain = knowledge.seating_sd[jacks_.end(k).cable()] > 0;
       jacks_[k].seating = static_cast<std::int16_t>(is_uncertain ? filter_.add_load_error() : -1);
     }
-    if (known) known = filter_.end(condensed, [&](const auto& add) { return gauges_.start(gauges, add); });
-    far_ends_.start(condensed, filter_, jacks_);
+    if (known) known = filter_.end(linear, [&](const auto& add) { return gauges_.start(gauges, add); });
+    far_ends_.start(linear, filter_, jacks_);
     return known;
   }
   /// The unknowns that forces of jacks depend on.
@@ -543,8 +546,10 @@ class Estimator : private CondensedType::Capacity::Account {
   void go_back() {
     if (!is_ahead_) return;
     is_ahead_ = false;
-    static_cast<void>(
-        tracker_.restore(model(), filter_.friction(model()), confirmed_.tracker, load_errors()).ok());
+    static_cast<void>(tracker_
+                          .restore(tracker_.condensed(), filter_.friction(linear_part(tracker_.condensed())),
+                                   confirmed_.tracker, load_errors())
+                          .ok());
     for (int k = 0; k < jacks_.size(); ++k) jacks_[k].driven = confirmed_.jack[k];
   }
   /// How far the wedges were drawn in that hold since this row is not known exactly.

@@ -35,6 +35,7 @@ class FrictionFilter {
   using Scalar = typename CondensedType::Scalar;
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
+  using Linear = typename CondensedType::Linear;
   using TrackerType = Tracker<CondensedType, Parameters>;
   using PriorType = Knowledge<Scalar, Cap>;
   using BeliefType = Belief<Scalar, Parameters + Further, max_jacks<Cap>>;
@@ -50,7 +51,7 @@ class FrictionFilter {
   /// Begins with the prior, which must outlive the filter. Fails with
   /// `capacity_exceeded` if and only if there are more unknown mu than Parameters; the amount is what is
   /// missing. Cost: two passes over the joints.
-  Status start(const CondensedType& model, const PriorType& prior) {
+  Status start(const Linear& model, const PriorType& prior) {
     prior_ = &prior;
     belief_.clear();
     unknown_of_.fill(-1);
@@ -99,7 +100,7 @@ class FrictionFilter {
   /// that add_gauges(add) adds, which returns how many found no room. Fails with `capacity_exceeded` if and
   /// only if there are more of them than Further.
   template <class AddGauges>
-  Status end(const CondensedType& model, const AddGauges& add_gauges) {
+  Status end(const Linear& model, const AddGauges& add_gauges) {
     belief_.end_carried();
     int missing = add_instruments(model, End::anchored, Parameters + Further);
     missing += add_gauges([this](Scalar sd) { return belief_.add(sd); });
@@ -113,7 +114,7 @@ class FrictionFilter {
   void restore(const State& state) { belief_.restore(state); }
   /// The friction at which the filter is linearized, for Tracker::start() and Tracker::restore(): a function
   /// of the joint.
-  auto friction(const CondensedType& model) const {
+  auto friction(const Linear& model) const {
     return [this, &model](int joint) { return friction_of(model, joint); };
   }
 
@@ -235,7 +236,9 @@ class FrictionFilter {
   /// that of Tracker::strain() and Tracker::adjust().
   Status follow_drift(TrackerType& tracker, int p, int cable, std::size_t end) {
     const Status status = tracker.strain(p, cable, end, prior_->length);
-    return status ? tracker.adjust(friction(tracker.model()), belief_.linearize_at(belief_.mean())) : status;
+    return status ? tracker.adjust(friction(linear_part(tracker.condensed())),
+                                   belief_.linearize_at(belief_.mean()))
+                  : status;
   }
   /// Other loads than that of a jack begin to change: from here on its unknown error, with the standard
   /// deviation `sd` [N], is remembered wherever friction comes to rest. Cost: that of remember_reversal().
@@ -283,7 +286,7 @@ class FrictionFilter {
   }
   /// Adds the unknowns of the cells at all ends of this kind, up to so many in all. Returns how many are
   /// missing.
-  int add_instruments(const CondensedType& model, End kind, int most) {
+  int add_instruments(const Linear& model, End kind, int most) {
     int missing = 0;
     for (int c = 0; c < model.cables.size(); ++c)
       for (std::size_t end = 0; end < 2 && !model.cables[c].closed; ++end) {
@@ -303,7 +306,7 @@ class FrictionFilter {
         cable, parameter, [&](int j) { return grip(j) * weight_[j]; },
         [&](int j) { return grip(j) * prior_->scatter[c] * static_cast<Scalar>(prior_->mu[j]); });
   }
-  JointFriction<Real> friction_of(const CondensedType& model, int j) const {
+  JointFriction<Real> friction_of(const Linear& model, int j) const {
     const int p = unknown_of_[j];
     if (p < 0 || !(weight_[j] > 0)) return {};
     int c = 0;
@@ -320,9 +323,9 @@ class FrictionFilter {
   /// Brings the tracker to these values of the unknowns. False if it has no state there: then it stays.
   bool relinearize(TrackerType& tracker, const Values& values) {
     const Values before = belief_.save().linearized_at, change = belief_.linearize_at(values);
-    if (tracker.adjust(friction(tracker.model()), change).ok()) return true;
+    if (tracker.adjust(friction(linear_part(tracker.condensed())), change).ok()) return true;
     static_cast<void>(belief_.linearize_at(before));
-    static_cast<void>(tracker.stay(friction(tracker.model())).ok());
+    static_cast<void>(tracker.stay(friction(linear_part(tracker.condensed()))).ok());
     return false;
   }
   /// Whether friction of cable `c` matters to the predicted number.

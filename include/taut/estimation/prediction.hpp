@@ -54,17 +54,10 @@ template <class TrackerType, class StrutRows, class BeliefType, class Jacks, cla
 void predict_strut(const TrackerType& tracker, const StrutRows& rows, int strut, const BeliefType& unknowns,
                    const Jacks& jacks, PredictionType& prediction) {
   using Scalar = typename TrackerType::Scalar;
-  using Real = typename TrackerType::Real;
   const auto& model = tracker.model();
-  const auto carried = [&](const auto& elongations) {
-    Real sum = 0;
-    for (int i = 0; i < model.segments; ++i) sum += rows.elongation[i][strut] * elongations[i];
-    return sum;
-  };
-  const auto& loads = tracker.loads();
-  Real value = loads.prestrain * rows.prestrain[strut] + carried(tracker.elongations());
-  for (int i = 0; i < model.loads; ++i) value += loads.factor[i] * rows.load[i][strut];
-  prediction.value = static_cast<Scalar>(value);
+  const auto carried = [&](const auto& elongations) { return change_of(rows, strut, model, elongations); };
+  prediction.value =
+      static_cast<Scalar>(number_of(rows, strut, model, tracker.loads(), tracker.elongations()));
   clear_further(unknowns, prediction);
   for (int p = 0; p < unknowns.carried(); ++p)
     prediction.H[p] = static_cast<Scalar>(carried(tracker.elongations_by(tracker.move_sensitivity(p))));

@@ -23,11 +23,11 @@ namespace taut {
 template <class CondensedType, class KnowledgeType, class Readings>
 bool is_under_load(const CondensedType& condensed, const KnowledgeType& knowledge, const Readings& readings) {
   bool pulls = false;
-  for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) {
+  for_each_jacked_end(linear_part(condensed).cables, [&](int c, std::size_t end) {
     const auto& given = readings.ends[c][end];
     const auto& cell = knowledge.cell[c][end];
     const auto least = 5 * std::sqrt(cell.zero_sd * cell.zero_sd + cell.sd * cell.sd);
-    pulls |= given.has_force && given.force > least && given.force <= condensed.most_force[c];
+    pulls |= given.has_force && given.force > least && given.force <= linear_part(condensed).most_force[c];
   });
   return pulls;
 }
@@ -82,10 +82,11 @@ class UnknownPast {
   template <class CondensedType>
   void withhold(const CondensedType& condensed, Readings& readings) const {
     if (!is_unknown()) return;
-    for (int c = 0; c < condensed.cables.size(); ++c)
+    const auto& cables = linear_part(condensed).cables;
+    for (int c = 0; c < cables.size(); ++c)
       for (std::size_t end = 0; end < 2; ++end) {
         readings.ends[c][end].has_stroke = false;
-        if (condensed.cables[c].ends[end] != End::jacked) readings.ends[c][end].has_force = false;
+        if (cables[c].ends[end] != End::jacked) readings.ends[c][end].has_force = false;
       }
   }
   /// Follows a row that the other estimator follows, too; the first one from above. The arguments are those

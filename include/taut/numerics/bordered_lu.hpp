@@ -27,8 +27,8 @@ class BorderedLu {
   void truncate(int size) { size_ = size; }
 
   /// Appends column(i) = A(i, n) for i <= n and row(i) = A(n, i) for i < n, where n is the present size:
-  /// 2 n^2 operations. Returns the pivot in units of the largest entry of row and column; the caller
-  /// truncates if it is too small.
+  /// 2 n^2 operations. Returns the pivot, with its sign, in units of the largest entry of row and column; the
+  /// caller truncates if it is too small.
   template <class Column, class Row>
   Scalar append(Column column, Row row) {
     const int n = size_;
@@ -49,7 +49,7 @@ class BorderedLu {
     const Scalar pivot = u[n] - dot(n, &l[0], u);
     u[n] = Scalar(1) / pivot;
     ++size_;
-    return largest > 0 ? std::fabs(pivot) / largest : Scalar(0);
+    return largest > 0 ? pivot / largest : Scalar(0);
   }
 
   /// Solves A x = b in place: 2 n^2 operations.

@@ -43,6 +43,8 @@ struct Capacity {
   /// Although there are struts, beams or substructures, some condensed scenes of this capacity lie on rigid
   /// saddles.
   static constexpr bool saddles = false;
+  /// Second-order theory: directions across a bar, in which it leans; 1 is enough for plane scenes.
+  static constexpr int normals = 2;
   static constexpr int profile = 0;  ///< entries of the structure's factor; 0: enough for any structure
   using Watch = Unwatched;           ///< another type with a static took(Route) is called at every event
   /// An object of another type is in every Estimator: begin(FrictionFilter) is called where it begins, and

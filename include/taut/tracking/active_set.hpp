@@ -195,9 +195,18 @@ class ActiveSet {
     active_.add(active);
     const Real pivot = factors_.append([&](int i) { return entry(laws, i, active); },
                                        [&](int i) { return entry(laws, n, active_[i]); });
-    if (pivot > least_pivot) return true;
+    if ((is_to_resist(active) ? signed_by_law(laws, active, pivot) : std::fabs(pivot)) > least_pivot)
+      return true;
     truncate(n);
     return false;
+  }
+  /// In second-order theory: an equilibrium from which a jack or a joint that slides runs away by itself is
+  /// none. Where a cable has no tension its nodes may hang free.
+  static bool is_to_resist(const Active& active) {
+    return CondensedType::has_level && (active.slides() || active.move.kind == Move::Kind::payout);
+  }
+  static Real signed_by_law(const Laws& laws, const Active& active, Real pivot) {
+    return laws.of(active).first == active.move.lengthened ? pivot : -pivot;
   }
   bool append_by_pivot(const Laws& laws, Actives& later) {
     for (int rounds = 0, count = later.size(); rounds <= count && !later.empty(); ++rounds) {

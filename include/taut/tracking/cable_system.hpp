@@ -80,6 +80,12 @@ struct CableSystem {
     if constexpr (is_adjustable) derivatives.begin();
   }
 
+  /// The numbers of the model have changed.
+  void take_model() {
+    map.begin(*model);
+    drop_set();
+  }
+
   // Queries.
 
   bool has_prestrain() const {

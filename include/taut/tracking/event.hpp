@@ -13,6 +13,7 @@ struct Ending {
   Real falling = 0;                   ///< rate of what reached zero
   Real step = 1;                      ///< where, as a part of what was left of the path
   bool has_total = false;             ///< the forces there were tested: their totals are known
+  bool ends_level = false;            ///< second-order theory: the level has changed by a step
 };
 
 /// Looks along the present piece, Eq. (15); changes nothing but derivatives.
@@ -72,6 +73,7 @@ class EventSearch {
       if (map_.move(i).kind == Move::Kind::slack_length)
         shorten(map_.stiffness(i) * map_.active_move(i, x), map_.stiffness(i) * map_.move_rate(i, dx), {},
                 map_.move(i).index, i);
+    if constexpr (Cables::Model::has_level) shorten_to_level(rate, step, ending);
     return step;
   }
 
@@ -151,6 +153,24 @@ class EventSearch {
   }
 
  private:
+  /// A level holds while the sum of all tensions is between its limits.
+  void shorten_to_level(const Tensions& rate, Real& step, Ending& ending) const {
+    Real sum = 0, growth = 0;
+    for (int i = 0; i < model_.segments; ++i) {
+      sum += cables_.force[i];
+      growth += rate[i];
+    }
+    const auto until = [&](Real room, Real closing) {
+      if (!(closing > 0) || room > closing * step) return;
+      step = room > 0 ? room / closing : Real(0);
+      ending = {};
+      ending.step = step;
+      ending.ends_level = true;
+    };
+    until(model_.most_sum - sum, growth);
+    until(sum - model_.least_sum, -growth);
+  }
+
   /// Of the largest force: what may be lost where a cable moves much further than it stretches.
   static constexpr Real rounded_totals = Real(1e-10);
 

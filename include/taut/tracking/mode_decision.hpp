@@ -82,6 +82,15 @@ class ModeDecision {
       if (status || least) return status;
     }
   }
+  /// After the model has changed under the same loads, with all moves frozen: finds all forces anew, near
+  /// those of before.
+  Status find_again() {
+    free_joint_ = doubtful_joint_ = -1;
+    cables_.drop_map();
+    const Status status = find_near(events_.free_node(), near_level);
+    if (status) return status;
+    return doubtful_joint_ >= 0 ? cables_.at_joint(Code::gives_way, doubtful_joint_) : status;
+  }
   /// After decide() or find_further_on(): how far all forces were found anew, as a part of what was left of
   /// the path; 0 if the modes were decided where the piece before ended.
   Real further() const { return further_; }
@@ -97,6 +106,8 @@ class ModeDecision {
   using Spans = FixedArray<bool, Cap::segments>;
   /// Of the largest force: how much further on an answer is looked for, and how near it must be.
   static constexpr Real small_step = Real(1e-6), nearby = Real(1e-3);
+  /// Of the largest force: how much a step of the level may change forces.
+  static constexpr Real near_level = Real(0.05);
   /// Of rates, before all forces are looked for further on.
   static constexpr int covering_vectors = 4;
 
@@ -131,7 +142,18 @@ class ModeDecision {
       state_.rests[r] = rests;
       cables_.drop_set();
       for (int i = 0; rests && i < runs_[r].joints(); ++i) cables_.stop(runs_[r].joint(i));
+      if (!rests) forget_rest(runs_[r]);
     }
+  }
+  /// While a span rests its joints follow a jack's error as they need not when it pulls; a strut that only
+  /// its cable holds goes far then.
+  void forget_rest(const Run& run) {
+    if constexpr (Cables::is_adjustable && Cables::Model::has_level)
+      cables_.derivatives.for_each([&](auto& moved, int) {
+        for (int i = 0; i < run.joints(); ++i) moved.slip[run.joint(i)] = 0;
+      });
+    else
+      static_cast<void>(run);
   }
   /// Spans that are wholly at zero, where what follows is decided from nothing.
   bool find_zero(const Ending& ending, Spans& zero) const {
@@ -285,7 +307,11 @@ class ModeDecision {
 
   /// What slides and what is slack, begun from nothing. The moves must be frozen.
   Status begin_anew(const Spans& zero, const SlipModes& modes) {
-    if (pull_straight(zero, modes)) return decided(Route::pulled_straight);
+    // A strut that only friction holds sideways has two answers; the one from which it does not run away
+    // sticks.
+    if constexpr (Cables::Model::has_level)
+      if (pull_straight(zero, modes, false)) return decided(Route::pulled_straight);
+    if (pull_straight(zero, modes, true)) return decided(Route::pulled_straight);
     for (int covering = 0; covering < covering_vectors; ++covering)
       if (solve_anew(zero, modes, false, covering)) return decided(Route::from_nothing);
     if (const Status why = events_.pulled_through(); !why) {
@@ -296,9 +322,10 @@ class ModeDecision {
     return find_further_on(doubtful_joint_ >= 0 ? cables_.at_joint(Code::gives_way, doubtful_joint_)
                                                 : events_.free_node());
   }
-  /// Where spans at zero become taut, most often every joint slides toward the jack. Tried first: Lemke's
-  /// path goes on from there, and the answer is taken if it gives every segment of these spans tension.
-  [[gnu::noinline]] bool pull_straight(const Spans& zero, const SlipModes& modes) {
+  /// Where spans at zero become taut, most often every joint slides toward the jack, or none does. Tried
+  /// first: Lemke's path goes on from there, and the answer is taken if it gives every segment of these spans
+  /// tension.
+  [[gnu::noinline]] bool pull_straight(const Spans& zero, const SlipModes& modes, bool slides) {
     const Modes before = state_;
     for (int r = 0; r < runs_.size(); ++r) {
       if (!zero[r]) continue;
@@ -306,7 +333,7 @@ class ModeDecision {
       state_.moved.slack_length[r] = 0;
       // From the jacks outward: the joints that leave first are the last of the set, and little is made anew.
       for (const std::size_t end : {std::size_t(0), std::size_t(1)})
-        for (int k = 0; k < runs_[r].count; ++k) {
+        for (int k = 0; slides && k < runs_[r].count; ++k) {
           const int i = end == 0 ? k : runs_[r].count - 1 - k;
           const Pull pull = pull_on(runs_[r], i, false);
           if (pull.jack != nullptr && pull.jack->end == end) slide_toward(pull, r, i);
@@ -446,20 +473,27 @@ class ModeDecision {
     const Real least = cables_.push > 0 ? stride_ * small_step * state_.peak / cables_.push : Real(1);
     const Real step = least < Real(0.5) ? least : Real(0.5);
     const Loads before = state_.now;
+    state_.now = Loads::between(state_.now, state_.goal, step);
+    const Status status = find_near(why, nearby);
+    if (status)
+      further_ = step;
+    else
+      state_.now = before;
+    return status;
+  }
+  /// All forces at the present loads, if they are near those of before. The moves must be frozen; where
+  /// nothing is near, all is as before.
+  Status find_near(Status why, Real nearby_part) {
     const Tensions forces = cables_.force;
     const Modes modes_before = state_;
-    state_.now = Loads::between(state_.now, state_.goal, step);
     for (const bool from_nothing : {false, true}) {
       // The present modes lead to a near answer. From nothing there always is one, but a long path to it may
       // lose digits, which a short one from there finds again.
       const bool found =
           from_nothing ? find_from_nothing() && (is_sound() || go_on_totally(true)) : go_on_totally(false);
       if (found) {
-        const bool is_near = change_from(forces) <= nearby * state_.peak;
-        if (is_near && is_sound()) {
-          further_ = step;
-          return Status::success();
-        }
+        const bool is_near = change_from(forces) <= nearby_part * state_.peak;
+        if (is_near && is_sound()) return Status::success();
         if (from_nothing && !is_near && free_joint_ < 0)
           why = cables_.at_joint(Code::gives_way, doubtful_joint_);
       }
@@ -467,7 +501,6 @@ class ModeDecision {
       cables_.force = forces;
       cables_.drop_set();
     }
-    state_.now = before;
     return why;
   }
   /// All forces at the present loads, by Lemke's path from nothing.

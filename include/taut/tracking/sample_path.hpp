@@ -270,6 +270,10 @@ class SamplePath {
       const int segment = cables.state.representative[r];
       narrow(constant_[segment] - least_tension(r), column[segment]);
     }
+    if constexpr (Cables::Model::has_level) {
+      narrow(sum_of(cables, constant_) - least_sum(cables), sum_of(cables, column));
+      narrow(most_sum(cables) - sum_of(cables, constant_), -sum_of(cables, column));
+    }
   }
   /// To where room + dx slope >= 0.
   void narrow(Scalar room, Scalar slope) {
@@ -293,8 +297,23 @@ class SamplePath {
   /// The friction cones, and T >= 0: with something to slip_margin where a joint sticks or a run is taut,
   /// give or take rounding where a law holds them at the limit.
   bool is_within_limits(const Cables& cables, const Rounded& T) const {
-    return are_joints_within(cables, T) && are_taut(cables, T, false);
+    return are_joints_within(cables, T) && are_taut(cables, T, false) && is_at_level(cables, T);
   }
+  /// Second-order theory: whether all tensions together are those of the present level.
+  static bool is_at_level(const Cables& cables, const Rounded& T) {
+    if constexpr (Cables::Model::has_level) {
+      const Scalar sum = sum_of(cables, T);
+      return sum >= least_sum(cables) && sum <= most_sum(cables);
+    }
+    return true;
+  }
+  static Scalar sum_of(const Cables& cables, const Rounded& T) {
+    Scalar sum = 0;
+    for (int i = 0; i < cables.model->segments; ++i) sum += T[i];
+    return sum;
+  }
+  static Scalar least_sum(const Cables& cables) { return static_cast<Scalar>(cables.model->least_sum); }
+  static Scalar most_sum(const Cables& cables) { return static_cast<Scalar>(cables.model->most_sum); }
   bool are_taut(const Cables& cables, const Rounded& T, bool may_rest) const {
     for (int r = 0; r < cables.runs.size(); ++r)
       if (!(T[cables.state.representative[r]] >= least_tension(r)) && !(may_rest && cables.state.rests[r]))

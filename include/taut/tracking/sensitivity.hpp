@@ -54,6 +54,8 @@ class Sensitivity {
     parameter_[joint] = static_cast<std::int16_t>(parameter);
     slope_[joint] = slope;
   }
+  /// The derivative of rho has changed by this factor.
+  void scale(int joint, Real by) { slope_[joint] *= by; }
   bool depends(int joint) const { return parameter_[joint] >= 0; }
   /// A parameter that the force of a jack depends on, or that it depends on in another way from here on.
   void depend_on_load(const JackError<Scalar>& error) {

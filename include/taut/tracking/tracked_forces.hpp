@@ -13,7 +13,8 @@ class TrackedForces {
   using Scalar = typename CondensedType::Scalar;
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
-  using Cables = CableSystem<CondensedType, Parameters>;
+  using Model = typename CondensedType::AtLevel;
+  using Cables = CableSystem<Model, Parameters>;
   using Loads = typename Cables::Loads;
   using Moving = typename Cables::Moving;
   using Tensions = typename Cables::Tensions;
@@ -60,7 +61,8 @@ class TrackedForces {
       moving.of(cables_.map.move(i)) = cables_.map.column_move(k, i);
     return moving;
   }
-  const CondensedType& model() const { return *cables_.model; }
+  /// The condensed scene; in second-order theory, at the level of the forces.
+  const Model& model() const { return *cables_.model; }
   /// The loads and jack forces reached.
   const Loads& loads() const { return cables_.state.now; }
   const Runs<Cap>& runs() const { return cables_.runs; }
@@ -84,24 +86,36 @@ class TrackedForces {
   }
 
   /// The state at the end of the path followed. Forces of struts only if their rows are given.
-  void respond(Response<Scalar, Cap>& response, const CondensedStruts<Scalar, Cap>* struts = nullptr) const {
+  void respond(Response<Scalar, Cap>& response,
+               const typename CondensedType::Struts* struts = nullptr) const {
     const Moving moved = cables_.moves();
     for (int i = 0; i < cables_.model->segments; ++i) response.tension[i] = tension(i);
     cables_.model->resolve_joints(response);
     for (int c = 0; c < cables_.model->cables.size(); ++c) {
       for (std::size_t end = 0; end < 2; ++end)
-        response.payout[c][end] = static_cast<Scalar>(moved.payout[c][end]);
+        response.payout[c][end] = static_cast<Scalar>(
+            moved.payout[c][end] * unstrained(c, cables_.model->cables[c].end_segment(end)));
       const auto& cable = cables_.model->cables[c];
       for (int k = 0; k < cable.joints(); ++k) {
         const int j = cable.first_joint + k;
         const auto sides = cable.joint_segments(k);
-        response.slip[j] = static_cast<Scalar>(moved.slip[j]);
+        response.slip[j] = static_cast<Scalar>(moved.slip[j] * unstrained(c, sides[0]));
         response.state[j] =
             cables_.is_slack(sides[0]) && cables_.is_slack(sides[1]) ? JointState::open : motion(j);
       }
     }
     if (struts == nullptr) return;
     struts->evaluate(*cables_.model, cables_.state.now, cables_.elongations_by(moved), response.strut);
+  }
+
+  /// Second-order theory counts cable that moves by its length without tension [-]: a segment that takes up
+  /// cable stretches that, too.
+  Real unstrained(int c, int segment) const {
+    if constexpr (Model::has_level) {
+      const Real EA = 10 * static_cast<Real>(cables_.model->most_force[c]);
+      return EA / (EA + static_cast<Real>(tension(segment)));
+    }
+    return 1;
   }
 
  protected:

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "taut/status.hpp"
+#include "taut/tracking/level.hpp"
 #include "taut/tracking/mode_decision.hpp"
 #include "taut/tracking/sample_path.hpp"
 #include "taut/tracking/tracked_forces.hpp"
@@ -18,15 +19,6 @@ struct [[nodiscard]] Progress {
   Status status;
   Scalar fraction = 1;  ///< of the path that was followed; below 1 the state is the equilibrium there
   int events = 0;       ///< places where the state of a joint or a run was decided anew
-};
-
-/// The friction of a joint as a tracker is to use it: rho, the unknown that it depends on (-1: none) and the
-/// derivative of rho with respect to that.
-template <class Real>
-struct JointFriction {
-  Real rho = 1;
-  int parameter = -1;
-  Real slope = 0;
 };
 
 /// Nothing is unknown of the forces of jacks.
@@ -58,6 +50,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
  public:
   using typename Base::Cap;
   using typename Base::Loads;
+  using typename Base::Model;
   using typename Base::Moving;
   using typename Base::Real;
   using typename Base::Scalar;
@@ -68,7 +61,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   static constexpr int default_budget = 64 + 16 * Cap::segments;
 
   /// All that restore() needs to go on with the same bits: a plain value.
-  struct State : Cables::State, Derivatives::Frozen {};
+  struct State : Cables::State, Derivatives::Frozen, Level<CondensedType>::Reached {};
 
   // Beginning.
 
@@ -95,12 +88,15 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     samples_.refresh(cables_);
     return {};
   }
+  /// The scene that it was begun with.
+  const CondensedType& condensed() const { return level_.source(); }
   /// The state, between two calls. Cost: a copy of it.
   State save() const {
     State saved;
     static_cast<typename Cables::State&>(saved) = cables_.state;
     if constexpr (is_adjustable)
       static_cast<typename Derivatives::Frozen&>(saved) = cables_.derivatives.frozen();
+    level_.save(saved);
     return saved;
   }
   /// Goes on where save() was called on a tracker of the same scene, with the same bits. Fails with
@@ -113,7 +109,8 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   template <class Friction, class Errors = NoLoadErrors>
   Status restore(const CondensedType& condensed, const Friction& friction, const State& saved,
                  const Errors& errors = {}) {
-    begin(condensed, friction, errors);
+    if (!level_.restore(condensed, saved)) return Status::at(Code::bad_sample, Place::none, -1);
+    take(friction, errors);
     cables_.state = saved;
     if constexpr (is_adjustable) cables_.derivatives.set_frozen(saved);
     cables_.find_redundant_jack();
@@ -288,7 +285,12 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   static JointFriction<Real> as_condensed(int) { return {}; }
   template <class Friction, class Errors = NoLoadErrors>
   void begin(const CondensedType& condensed, const Friction& friction, const Errors& errors = {}) {
-    cables_.begin(condensed);
+    level_.begin(condensed);
+    take(friction, errors);
+  }
+  template <class Friction, class Errors>
+  void take(const Friction& friction, const Errors& errors) {
+    cables_.begin(level_.model());
     depend(friction);
     if constexpr (is_adjustable && !std::is_same_v<Errors, NoLoadErrors>)
       for (const JackError<Scalar>& error : errors) cables_.derivatives.depend_on_load(error);
@@ -298,13 +300,42 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     if constexpr (is_adjustable)
       for (int j = 0; j < cables_.joints(); ++j) {
         if (cables_.model->is_locked(j)) continue;
-        const JointFriction<Real> given = friction(j);
+        const JointFriction<Real> given = level_.leant(j, friction(j));
         if (given.parameter < 0) continue;
         cables_.laws.set_rho(j, given.rho);
         cables_.derivatives.depend(j, given.parameter, given.slope);
       }
     else
       static_cast<void>(friction);
+  }
+  /// The forces have come to where another level begins: the model follows, and all forces are found anew
+  /// from totals. Where there are none, all is as before.
+  Status come_to_level(ModeDecision<Cables>& modes) {
+    cables_.freeze();
+    Real sum = 0;
+    for (int i = 0; i < cables_.model->segments; ++i) sum += cables_.force[i];
+    level_.come_to(sum, cables_.state.now, cables_.elongations_by(cables_.state.moved));
+    take_level();
+    const Status status = modes.find_again();
+    if (!status) {
+      level_.go_back();
+      take_level();
+    }
+    return status;
+  }
+  void take_level() {
+    cables_.take_model();
+    if constexpr (is_adjustable)
+      for (int j = 0; j < cables_.joints(); ++j) {
+        if (!cables_.derivatives.depends(j)) {
+          cables_.laws.set_rho(j, cables_.model->rho[j]);
+          continue;
+        }
+        const Real before = cables_.laws.rho(j);
+        cables_.laws.set_rho(j, Model::scaled(before, level_.growth(j)));
+        const Real ratio = (1 + kappa_of(before)) / (1 + kappa_of(cables_.laws.rho(j)));
+        cables_.derivatives.scale(j, level_.growth(j) * ratio * ratio);
+      }
   }
 
   /// Not in one frame with the samples that need no more than goes_along().
@@ -344,6 +375,12 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
       if (modes.further() == 0) {
         cables_.find_forces();
         const Status broken = follow_piece(ending, rest, done);
+        if constexpr (Model::has_level)
+          if (broken.ok() && ending.ends_level) {
+            progress.status = come_to_level(modes);
+            if (!progress.status) break;
+            ending = {};
+          }
         stalled = ending.step > 0 ? 0 : stalled + 1;
         if (!broken || stalled > 8 + 4 * cables_.joints()) {
           const int joint = ending.next.joint;
@@ -486,6 +523,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     if constexpr (is_adjustable) cables_.derivatives.for_each([&](auto& moved, int) { straighten(moved); });
   }
 
+  Level<CondensedType> level_;
   SamplePath<Cables> samples_;
 };
 

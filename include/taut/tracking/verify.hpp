@@ -32,7 +32,7 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Para
   using Scalar = typename CondensedType::Scalar;
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
-  const CondensedType& model = tracker.model();
+  const auto& model = tracker.model();
   const auto moves = tracker.moves();
   const auto& loads = tracker.loads();
   const Real unit = tracker.peak() > 0 ? Real(1) / static_cast<Real>(tracker.peak()) : Real(1);

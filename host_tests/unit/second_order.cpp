@@ -1,0 +1,245 @@
+// Second-order theory against closed forms at large displacements.
+#include <doctest/doctest.h>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "taut/taut.hpp"
+
+namespace {
+
+using taut::End;
+
+struct Cap : taut::Capacity {
+  static constexpr int nodes = 4, struts = 2, segments = 3, joints = 2, loads = 1, forces = 1, normals = 1;
+};
+using Scene = taut::Scene<double, 2, Cap>;
+using Model = taut::SecondOrder<double, Cap>;
+using Tracker = taut::Tracker<Model>;
+using Sample = taut::Sample<double, Cap>;
+using Response = taut::Response<double, Cap>;
+
+constexpr double EA = 8e8;  // of the cable [N]
+
+taut::Cable<double> cable_with(double mu, bool from_start = false) {
+  taut::Cable<double> cable;
+  cable.E = EA;
+  cable.A = 1;
+  cable.mu = mu;
+  cable.ends[from_start ? 0 : 1] = End::jacked;
+  return cable;
+}
+
+// A strut of 2 m that is pinned at its head; the cable comes up to both sides of its foot by 0.5 m in 10 m.
+Scene pinned_strut(double mu, bool mirrored = false) {
+  Scene scene;
+  const double way = mirrored ? -1 : 1;
+  const int l = scene.add_node({-10 * way, 0.5}, taut::held_xy), p = scene.add_node({0, 0});
+  const int r = scene.add_node({10 * way, 0.5}, taut::held_xy), t = scene.add_node({0, 2}, taut::held_xy);
+  scene.add_strut(p, t, 2e13, 1);
+  if (mirrored)
+    scene.add_cable(cable_with(mu, true), {r, p, l});
+  else
+    scene.add_cable(cable_with(mu), {l, p, r});
+  return scene;
+}
+
+// A joint that is guided upward and carries 200 kN, 1 m below both ends of its cable.
+Scene guided_joint(double mu) {
+  Scene scene;
+  const int l = scene.add_node({-10, 0}, taut::held_xy), p = scene.add_node({0, -1}, taut::held_x);
+  const int r = scene.add_node({10, 0}, taut::held_xy);
+  scene.add_cable(cable_with(mu), {l, p, r});
+  scene.add_force(scene.add_load(), p, {0, -2e5});
+  return scene;
+}
+
+Sample pulled(double force, double factor = 0, std::size_t end = 1) {
+  Sample sample;
+  sample.jack[0][end].force = force;
+  sample.factor[0] = factor;
+  return sample;
+}
+
+struct Condensed {
+  Model model;
+  Model::Struts struts;
+
+  Condensed(const Scene& scene, const Sample& target) {
+    const auto condensation = std::make_unique<taut::SecondOrderCondensation<double, Scene>>();
+    const taut::Status status = condensation->run(scene, target, model, &struts);
+    REQUIRE(status.ok());
+  }
+  Response at(const Tracker& tracker) const {
+    Response response;
+    tracker.respond(response, &struts);
+    return response;
+  }
+};
+
+bool near(double found, double expected, double part) {
+  INFO("found ", found, ", expected ", expected);
+  return std::fabs(found - expected) <= part * std::fabs(expected);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a strut pinned at both ends leans toward the jack as far as friction lets it, as in the closed form") {
+  // The strut leans by theta when F = k theta: statics of the foot on its arc, cable law EA (l - L) / L of
+  // what is left between foot and jack.
+  const auto scene = pinned_strut(0.1);
+  const auto condensed = std::make_unique<Condensed>(scene, pulled(2e6));
+  auto tracker = std::make_unique<Tracker>();
+  REQUIRE(tracker->start(condensed->model).status.ok());
+  struct Expected {
+    double F, T1, strut, extension;
+  };
+  for (const Expected& each :
+       {Expected{797508, 797903, -79668, 0.0199501}, Expected{1991880, 1994345, -199017, 0.0497816}}) {
+    REQUIRE(tracker->advance(pulled(each.F)).status.ok());
+    const Response found = condensed->at(*tracker);
+    CHECK(near(found.tension[0], each.T1, 1e-5));
+    CHECK(near(found.strut[0], each.strut, 1e-3));
+    CHECK(near(found.payout[0][1], each.extension, 1e-4));
+    CHECK(found.state[0] == taut::JointState::stick);
+    CHECK(verify(*tracker).worst() < 1e-10);
+  }
+}
+
+TEST_CASE("a pinned strut runs away at the load where it leans by mu") {
+  struct Expected {
+    double mu, F;
+  };
+  for (const Expected& each : {Expected{0.005, 805531}, Expected{0.01, 1609993}}) {
+    const auto condensed = std::make_unique<Condensed>(pinned_strut(each.mu), pulled(2e6));
+    auto tracker = std::make_unique<Tracker>();
+    REQUIRE(tracker->start(condensed->model).status.ok());
+    REQUIRE(tracker->advance(pulled(0.98 * each.F)).status.ok());
+    const auto progress = tracker->advance(pulled(1.02 * each.F));
+    CHECK(progress.status.code == taut::Code::gives_way);
+    CHECK(progress.status.place == taut::Place::joint);
+    CHECK(progress.status.index == 0);
+    CHECK(near(tracker->loads().jack[0][1].force, each.F, 0.005));
+  }
+}
+
+TEST_CASE("a loaded joint that the cable lifts slides at its limit in the displaced geometry") {
+  // 2 F / (1 + mu y / a) y / sqrt(a^2 + y^2) = P
+  struct Expected {
+    double mu, F, T1, extension, part;
+  };
+  for (const Expected& each : {Expected{0.1, 1.05e6, 1029906.9, 0.0327271, 0.005},
+                               Expected{0.3, 1.1e6, 1039736.2, 0.0386376, 0.006}}) {
+    const auto condensed = std::make_unique<Condensed>(guided_joint(each.mu), pulled(each.F, 1));
+    auto tracker = std::make_unique<Tracker>();
+    REQUIRE(tracker->start(condensed->model).status.ok());
+    REQUIRE(tracker->advance(pulled(each.F, 1)).status.ok());
+    const Response found = condensed->at(*tracker);
+    CHECK(near(found.tension[0], each.T1, 1e-4));
+    CHECK(near(found.payout[0][1], each.extension, each.part));
+    CHECK(verify(*tracker).worst() < 1e-10);
+  }
+}
+
+TEST_CASE("in second-order theory forces do not depend on how a straight path is cut") {
+  const auto condensed = std::make_unique<Condensed>(pinned_strut(0.1), pulled(2e6));
+  auto whole = std::make_unique<Tracker>(), cut = std::make_unique<Tracker>();
+  REQUIRE(whole->start(condensed->model).status.ok());
+  REQUIRE(cut->start(condensed->model).status.ok());
+  for (const double to : {1.7e6, 0.4e6, 0.0, 2.1e6}) {
+    const double from = whole->loads().jack[0][1].force;
+    REQUIRE(whole->advance(pulled(to)).status.ok());
+    for (int i = 1; i <= 37; ++i) REQUIRE(cut->advance(pulled(from + (to - from) * i / 37)).status.ok());
+    for (int i = 0; i < 2; ++i) CHECK(std::fabs(whole->tension(i) - cut->tension(i)) <= 1e-9 * 2.1e6);
+    CHECK(std::fabs(whole->moves().payout[0][1] - cut->moves().payout[0][1]) <= 1e-11);
+  }
+}
+
+TEST_CASE("a mirrored scene in second-order theory has the same forces") {
+  const auto one = std::make_unique<Condensed>(pinned_strut(0.1), pulled(2e6));
+  const auto other = std::make_unique<Condensed>(pinned_strut(0.1, true), pulled(2e6, 0, 0));
+  auto a = std::make_unique<Tracker>(), b = std::make_unique<Tracker>();
+  REQUIRE(a->start(one->model).status.ok());
+  REQUIRE(b->start(other->model).status.ok());
+  for (const double F : {0.7e6, 2e6, 1e6}) {
+    REQUIRE(a->advance(pulled(F)).status.ok());
+    REQUIRE(b->advance(pulled(F, 0, 0)).status.ok());
+    CHECK(near(b->tension(1), a->tension(0), 1e-12));
+    CHECK(near(b->moves().payout[0][0], a->moves().payout[0][1], 1e-11));
+  }
+}
+
+TEST_CASE("a saved state of second-order theory goes on with the same bits") {
+  const auto condensed = std::make_unique<Condensed>(guided_joint(0.2), pulled(1.1e6, 1));
+  auto first = std::make_unique<Tracker>(), second = std::make_unique<Tracker>();
+  REQUIRE(first->start(condensed->model).status.ok());
+  REQUIRE(first->advance(pulled(0.8e6, 0.75)).status.ok());
+  REQUIRE(second->restore(condensed->model, first->save()).ok());
+  for (const double part : {0.9, 1.0, 0.7}) {
+    REQUIRE(first->advance(pulled(1.1e6 * part, part)).status.ok());
+    REQUIRE(second->advance(pulled(1.1e6 * part, part)).status.ok());
+    for (int i = 0; i < 2; ++i) CHECK(first->tension(i) == second->tension(i));
+    CHECK(first->save().anchor.level == second->save().anchor.level);
+  }
+}
+
+TEST_CASE(
+    "derivatives with respect to an error of the jack are those of second-order theory, from zero tension "
+    "on") {
+  const auto condensed = std::make_unique<Condensed>(pinned_strut(0.1), pulled(2e6));
+  const auto friction = [&](int) { return taut::JointFriction<double>{condensed->model.low.rho[0], -1, 0}; };
+  const double d = 100;
+  for (const auto& error : {taut::JackError<double>{0, 1, 1, 0}, taut::JackError<double>{0, 1, 0, 1}}) {
+    auto tracker = std::make_unique<taut::Tracker<Model, 1>>();
+    auto other = std::make_unique<Tracker>();
+    REQUIRE(
+        tracker->start(condensed->model, friction, std::vector<taut::JackError<double>>{error}).status.ok());
+    REQUIRE(other->start(condensed->model).status.ok());
+    for (const double F : {0.0, 1.2e6, 0.5e6, 1.9e6}) {
+      const double by = d * (error.constant + error.proportional * F / 1e6);
+      REQUIRE(tracker->advance(pulled(F)).status.ok());
+      REQUIRE(other->advance(pulled(F + by)).status.ok());
+      const double found = tracker->sensitivity(0, 0) * (error.proportional > 0 ? d / 1e6 : d);
+      if (F > 0) CHECK(near(found, other->tension(0) - tracker->tension(0), 0.005));
+    }
+  }
+}
+
+TEST_CASE("a tracker with derivatives has the friction of the displaced geometry, known beforehand or not") {
+  const auto condensed = std::make_unique<Condensed>(guided_joint(0.3), pulled(1.1e6, 1));
+  auto plain = std::make_unique<Tracker>();
+  REQUIRE(plain->start(condensed->model).status.ok());
+  REQUIRE(plain->advance(pulled(1.1e6, 1)).status.ok());
+  for (const int parameter : {-1, 0}) {
+    const auto friction = [&](int) {
+      return taut::JointFriction<double>{condensed->model.low.rho[0], parameter, -1};
+    };
+    auto tracker = std::make_unique<taut::Tracker<Model, 1>>();
+    REQUIRE(tracker->start(condensed->model, friction).status.ok());
+    REQUIRE(tracker->advance(pulled(1.1e6, 1)).status.ok());
+    CHECK(near(tracker->tension(0), plain->tension(0), 1e-12));
+    CHECK(near(tracker->rho(0), plain->rho(0), 1e-12));
+  }
+}
+
+TEST_CASE("two jacks at work over a strut that only its cable holds are refused, for it would run away") {
+  Scene scene;
+  const int l = scene.add_node({-10, 0.5}, taut::held_xy), p = scene.add_node({0, 0});
+  const int r = scene.add_node({10, 0.5}, taut::held_xy), t = scene.add_node({0, 2}, taut::held_xy);
+  scene.add_strut(p, t, 2e13, 1);
+  auto cable = cable_with(0.1);
+  cable.ends = {End::jacked, End::jacked};
+  scene.add_cable(cable, {l, p, r});
+  Sample target = pulled(1e6);
+  target.jack[0][0].force = 1e6;
+  const auto condensed = std::make_unique<Condensed>(scene, target);
+  auto tracker = std::make_unique<Tracker>();
+  REQUIRE(tracker->start(condensed->model).status.ok());
+  CHECK_FALSE(tracker->advance(target).status.ok());
+  // With one of the strokes prescribed it stands.
+  target.jack[0][0] = {0, true};
+  REQUIRE(tracker->start(condensed->model).status.ok());
+  REQUIRE(tracker->advance(target).status.ok());
+  CHECK(verify(*tracker).worst() < 1e-10);
+}

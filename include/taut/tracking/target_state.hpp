@@ -1,0 +1,94 @@
+// From a scene to its second-order condensation: the forces at the target, and what they make of stiffness.
+#pragma once
+
+#include "taut/condensation/condense.hpp"
+#include "taut/condensation/second_order.hpp"
+#include "taut/tracking/tracker.hpp"
+
+namespace taut {
+
+/// Condenses scenes of one type in second-order theory; as Condensation, it can be thrown away afterwards.
+///
+/// Geometric stiffness is that of the target's forces. They are found by a fixed point: at first the jack's
+/// force in all segments and no thrust in the struts, then all forces of the round before.
+template <class Scalar, class SceneType>
+class SecondOrderCondensation {
+ public:
+  using Cap = typename SceneType::Capacity;
+  using Model = SecondOrder<Scalar, Cap>;
+  using Real = typename Model::Real;
+  using Geometry = GeometricStiffness<Real, Cap>;
+
+  /// Condenses a scene. Fails as Condensation does, there also with `mechanism` where a node is held by
+  /// forces at the target that are too small or push it away; with `out_of_range` where no cable has tension
+  /// at the target. Where a strut runs away before the target, the forces there are taken in proportion.
+  ///
+  /// `target` are the loads and jack forces of the state whose geometric stiffness is taken. Costs eight
+  /// condensations, each with a solve more for every strut and beam, and three ways to the target.
+  Status run(const SceneType& scene, const Sample<Scalar, Cap>& target, Model& condensed,
+             typename Model::Struts* struts = nullptr, const Real* substructure_geometry = nullptr) {
+    geometry_ = {};
+    geometry_.substructure_entries = substructure_geometry;
+    find_guess(scene, target);
+    for (int round = 0;; ++round) {
+      const Status status =
+          condense(scene, condensed, round < rounds || struts == nullptr ? struts_ : *struts);
+      if (!status || round == rounds) return status;
+      if (!take_forces(condensed, target)) round = rounds - 1;
+    }
+  }
+  Real condition() const { return condensation_.condition(); }
+  const Geometry& geometry() const { return geometry_; }
+
+ private:
+  static constexpr int rounds = 3;
+
+  /// The largest force of a jack in all segments, or what prestrain gives them.
+  void find_guess(const SceneType& scene, const Sample<Scalar, Cap>& target) {
+    Real most = 0;
+    for (int c = 0; c < scene.cables.size(); ++c)
+      for (std::size_t end = 0; end < 2; ++end)
+        if (!scene.cables[c].closed && scene.cables[c].ends[end] == End::jacked)
+          most = larger(most, static_cast<Real>(target.jack[c][end].force));
+    for (const auto& cable : scene.cables)
+      for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i)
+        geometry_.segment_force[i] =
+            most > 0 ? most : static_cast<Real>(cable.E * cable.A) * static_cast<Real>(scene.prestrain[i]);
+  }
+  /// At both levels, with the forces known so far.
+  Status condense(const SceneType& scene, Model& condensed, typename Model::Struts& struts) {
+    condensed.target_force = 0;
+    for (int i = 0; i < scene.prestrain.size(); ++i) condensed.target_force += geometry_.segment_force[i];
+    if (!(condensed.target_force > 0)) return Status::at(Code::out_of_range, Place::none, 0);
+    geometry_.level = Model::low_level;
+    const Status status = condensation_.run(scene, geometry_, condensed.low, &struts.low, nullptr);
+    if (!status) return status;
+    geometry_.level = Model::high_level;
+    return condensation_.run(scene, geometry_, condensed.high, &struts.high, nullptr, &beams_,
+                             &condensed.lean, &struts.by_bar);
+  }
+  /// What comes of the target with the present geometry; where it is not reached, of where the path ends, in
+  /// proportion. False if that is nowhere: then what was stays.
+  bool take_forces(const Model& condensed, const Sample<Scalar, Cap>& target) {
+    if (!tracker_.start(condensed).status) return false;
+    const auto progress = tracker_.advance(target);
+    if (!(progress.fraction > Scalar(0.05))) return false;
+    const Real by = 1 / static_cast<Real>(progress.fraction);
+    const auto e = tracker_.elongations();
+    for (int i = 0; i < condensed.low.segments; ++i)
+      geometry_.segment_force[i] = by * static_cast<Real>(tracker_.tension(i));
+    struts_.evaluate(tracker_.model(), tracker_.loads(), e, geometry_.strut_force);
+    beams_.evaluate(tracker_.model(), tracker_.loads(), e, geometry_.beam_force);
+    for (int i = 0; i < Cap::struts; ++i) geometry_.strut_force[i] *= by;
+    for (int i = 0; i < Cap::beams; ++i) geometry_.beam_force[i] *= by;
+    return true;
+  }
+
+  Condensation<Scalar, SceneType, Geometry> condensation_;
+  typename Model::Struts struts_;
+  CondensedBeams<Scalar, Cap> beams_;
+  Tracker<Model> tracker_;
+  Geometry geometry_;
+};
+
+}  // namespace taut
