@@ -38,8 +38,9 @@ class SceneText {
   explicit SceneText(const SceneType& scene) : scene_(scene) {}
 
   std::string json(const std::string& name) const {
-    return "{ \"taut\": 1, \"name\": \"" + name + "\", \"dimension\": " + std::to_string(dimension) +
-           ",\n  \"nodes\": { " + nodes() + " },\n  \"supports\": { " + supports() + " },\n  \"struts\": [ " +
+    return "{ \"taut\": 1, \"plausible\": false, \"name\": \"" + name +
+           "\", \"dimension\": " + std::to_string(dimension) + ",\n  \"nodes\": { " + nodes() +
+           " },\n  \"supports\": { " + supports() + " },\n  \"struts\": [ " +
            listed(scene_.struts.size(), [&](int i) { return strut(i); }) + " ],\n  \"cables\": [ " +
            listed(scene_.cables.size(), [&](int c) { return cable(c); }) + " ],\n  \"substructures\": [ " +
            listed(scene_.substructures.size(), [&](int i) { return substructure(i); }) +

@@ -31,7 +31,7 @@ class Condensation {
     return run(scene, Geometry(), condensed, struts, displacements);
   }
   /// The same with geometric stiffness. `beams`, if given, receives the rows for the axial forces of beams,
-  /// and `leaning` what displacements change, Eqs. (44) and (46), with `strut_by_bar` struts' part of that.
+  /// and `leaning` what displacements change, Eqs. (44) and (45), with `strut_by_bar` struts' part of that.
   Status run(const SceneType& scene, const Geometry& geometry, Condensed<Scalar, Cap>& condensed,
              CondensedStruts<Scalar, Cap>* struts, CondensedDisplacements<Scalar, Cap>* displacements,
              CondensedBeams<Scalar, Cap>* beams = nullptr, CondensedLean<Scalar, Cap>* leaning = nullptr,

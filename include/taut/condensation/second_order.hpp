@@ -15,7 +15,7 @@ constexpr Real kappa_of(Real rho) {
 }
 
 /// The rows that give strut forces in second-order theory: between two levels straight lines, and what bars
-/// that lean add by their length, Eq. (46).
+/// that lean add by their length, Eq. (45).
 template <class Scalar, class Cap>
 struct LevelStruts {
   using Real = Wide<Scalar>;
@@ -110,13 +110,13 @@ constexpr const CondensedStruts<Scalar, Cap>& linear_part(const LevelStruts<Scal
 
 /// A second-order scene about one level: what a tracker computes with until the level has changed by a step.
 ///
-/// With the level tau and the lengths q by which bars lean, Eq. (46),
+/// With the level tau and the lengths q by which bars lean, Eq. (45),
 ///
-///     T = C(tau) e + D(tau) p + B q(e, p),                                                             (45)
+///     T = C(tau) e + D(tau) p + B q(e, p),                                                             (43)
 ///
-/// and this is its tangent where the step began, at the anchor e_0, p_0, tau_0: G = C' e_0 + D' p_0 is what
-/// the level does, tau follows from T itself, and dq = 2 a . da. So the next step begins where this one ends,
-/// but for products of changes.
+/// and this is its tangent, Eq. (46), where the step began, at the anchor e_0, p_0, tau_0: G = C' e_0 + D'
+/// p_0 is what the level does, tau follows from T itself, and dq = 2 a . da. So the next step begins where
+/// this one ends, but for products of changes.
 template <class Scalar_, class Cap>
 struct LevelModel : Condensed<Scalar_, Cap> {
   using Scalar = Scalar_;
@@ -269,7 +269,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
         a[n] = number_of(lean().aside, n, *this, drive, e);
     });
   }
-  /// Eq. (46): a . b of a bar [m].
+  /// Eq. (45): a . b of a bar [m].
   static Real stretch_of(const Asides& a, const Asides& b, int bar) {
     Real sum = 0;
     for (int n = 0; n < Cap::normals; ++n) sum += a[bar * Cap::normals + n] * b[bar * Cap::normals + n];
