@@ -341,24 +341,37 @@ struct BeamString {
   }
 };
 
+// A plane scene that the tracker follows, with its strut forces.
+struct TrackedString {
+  using Model = taut::Condensed<double, BeamCapacity>;
+  using Struts = taut::CondensedStruts<double, BeamCapacity>;
+  std::unique_ptr<Model> model = std::make_unique<Model>();
+  std::unique_ptr<Struts> struts = std::make_unique<Struts>();
+  std::unique_ptr<taut::Tracker<Model>> tracker = std::make_unique<taut::Tracker<Model>>();
+
+  explicit TrackedString(const BeamScene<2>& scene) {
+    const auto condensation = std::make_unique<taut::Condensation<double, BeamScene<2>>>();
+    REQUIRE(condensation->run(scene, *model, struts.get()).ok());
+    REQUIRE(tracker->start(*model).status.ok());
+  }
+  taut::Response<double, BeamCapacity> response() const {
+    taut::Response<double, BeamCapacity> found;
+    tracker->respond(found, struts.get());
+    return found;
+  }
+};
+
 }  // namespace
 
 TEST_CASE("the frictionless cable under a beam has the force of the force method, wherever the load is") {
   BeamString string;
   string.scene.add_force(0, 1, {0, -P});
-  using Model = taut::Condensed<double, BeamCapacity>;
-  const auto condensation = std::make_unique<taut::Condensation<double, BeamScene<2>>>();
-  const auto model = std::make_unique<Model>();
-  const auto struts = std::make_unique<taut::CondensedStruts<double, BeamCapacity>>();
-  REQUIRE(condensation->run(string.scene, *model, struts.get()).ok());
-  const auto tracker = std::make_unique<taut::Tracker<Model>>();
-  REQUIRE(tracker->start(*model).status.ok());
+  TrackedString tracked(string.scene);
   taut::Sample<double, BeamCapacity> sample;
   for (const double factor : {1.0, 2.5, 0.25}) {
     sample.factor[0] = factor;
-    REQUIRE(tracker->advance(sample).status.ok());
-    taut::Response<double, BeamCapacity> response;
-    tracker->respond(response, struts.get());
+    REQUIRE(tracked.tracker->advance(sample).status.ok());
+    const auto response = tracked.response();
     for (int i = 0; i < 2; ++i) CHECK(within(response.tension[i], factor * BeamString::tension(), 1e-11));
     // Both struts alike: the foot is in balance.
     const double slope = BeamString::depth / std::hypot(BeamString::half_width, BeamString::depth);
@@ -377,13 +390,7 @@ TEST_CASE("the paper's procedure finds the forces of the tracker in a cable that
     string.scene.add_force(0, 1, {0, -P});
     string.scene.beams[1].hinged[0] = hinged;
     string.scene.nodes[0].held = held_xy | held_r;
-    using Model = taut::Condensed<double, BeamCapacity>;
-    const auto condensation = std::make_unique<taut::Condensation<double, BeamScene<2>>>();
-    const auto model = std::make_unique<Model>();
-    const auto struts = std::make_unique<taut::CondensedStruts<double, BeamCapacity>>();
-    REQUIRE(condensation->run(string.scene, *model, struts.get()).ok());
-    const auto tracker = std::make_unique<taut::Tracker<Model>>();
-    REQUIRE(tracker->start(*model).status.ok());
+    TrackedString tracked(string.scene);
     const auto stepwise = std::make_unique<taut::Stepwise<double, BeamScene<2>>>();
     REQUIRE(stepwise->start(string.scene).ok());
     taut::Sample<double, BeamCapacity> sample;
@@ -391,10 +398,9 @@ TEST_CASE("the paper's procedure finds the forces of the tracker in a cable that
     for (const auto& [load, jack] : {std::array<double, 2>{1, 2e4}, {1, 5e4}, {3, 5e4}, {3, 1e4}, {0, 2e4}}) {
       sample.factor[0] = load;
       sample.jack[0][1].force = jack;
-      REQUIRE(tracker->advance(sample).status.ok());
+      REQUIRE(tracked.tracker->advance(sample).status.ok());
       REQUIRE(stepwise->advance(sample).ok());
-      taut::Response<double, BeamCapacity> response;
-      tracker->respond(response, struts.get());
+      const auto response = tracked.response();
       for (int i = 0; i < 2; ++i) {
         CHECK(within(stepwise->response().tension[i], response.tension[i], 1e-11));
         CHECK(within(stepwise->response().strut[i], response.strut[i], 1e-11));

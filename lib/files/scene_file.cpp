@@ -186,6 +186,9 @@ class SceneReader {
   int cable(const Field& field, const std::string& name) const {
     return index_of(field, name, cable_index_, scene_.cables, "cable");
   }
+  int load(const Field& field, const std::string& name) const {
+    return index_of(field, name, load_index_, scene_.loads, "load pattern");
+  }
 
   void read_supports(const Field& field) {
     for (const auto& [name, held] : field.members("an object that gives node names their supports")) {
@@ -520,7 +523,8 @@ class SceneReader {
     described.force.assign(scene_.cables.size(), {0, 0});
     if (const auto loads = target.find("loads"))
       for (const auto& [name, factor] : loads->members("an object that gives load patterns their factors"))
-        described.factor[load(factor, name)] = factor.number("a factor as a number");
+        described.factor[static_cast<std::size_t>(load(factor, name))] =
+            factor.number("a factor as a number");
     if (const auto forces = target.find("forces"))
       for (const auto& [name, force] : forces->members("an object that gives jacks their forces [N]")) {
         const auto [c, end] = jack(force, name);
@@ -529,14 +533,6 @@ class SceneReader {
         described.force[c][end] = newton;
       }
     scene_.second_order = std::move(described);
-  }
-  std::size_t load(const Field& field, const std::string& name) const {
-    std::vector<std::string> known;
-    for (std::size_t i = 0; i < scene_.loads.size(); ++i) {
-      if (scene_.loads[i].name == name) return i;
-      known.push_back(scene_.loads[i].name);
-    }
-    field.refuse("there is no load pattern " + quote(name), suggestion(name, known, "the load patterns are"));
   }
   // The jack whose column of the log has this name.
   std::pair<std::size_t, std::size_t> jack(const Field& field, const std::string& name) const {
@@ -563,6 +559,7 @@ class SceneReader {
       load.name = name;
       if (const auto forces = item.find("forces")) read_forces(*forces, load);
       if (const auto temperature = item.find("temperature")) read_temperature(*temperature, load);
+      load_index_.emplace(name, static_cast<int>(scene_.loads.size()));
       scene_.loads.push_back(std::move(load));
     }
   }
@@ -584,7 +581,7 @@ class SceneReader {
 
   Field root_;
   SceneDescription scene_;
-  NameIndex node_index_, cable_index_;
+  NameIndex node_index_, cable_index_, load_index_;
 };
 
 }  // namespace
