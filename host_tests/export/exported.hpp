@@ -22,6 +22,7 @@
 #include "taut/condensation/condense.hpp"
 #include "taut/estimation/estimator.hpp"
 #include "taut/estimation/find_knowledge.hpp"
+#include "taut/tracking/target_state.hpp"
 #include "taut/tracking/tracker.hpp"
 
 namespace exported {
@@ -59,18 +60,8 @@ bool same_layout(const CableLayout<Scalar>& a, const CableLayout<Scalar>& b) {
          a.first_segment == b.first_segment && a.first_joint == b.first_joint;
 }
 
-/// Every bit of the constant against condensation at run time, with a capacity that only the scene before it
-/// needs to be larger.
-template <class Scalar, int Dimension, class Cap>
-void check_bits(const std::string& file, const Condensed<Scalar, Cap>& found,
-                const CondensedStruts<Scalar, Cap>* rows) {
-  using SceneType = Scene<double, Dimension, Whole<Cap>>;
-  const auto scene = std::make_unique<SceneType>();
-  build(read_scene_file(folder() + "/" + file), *scene);
-  const auto condensation = std::make_unique<Condensation<Scalar, SceneType>>();
-  Condensed<Scalar, Whole<Cap>> expected;
-  CondensedStruts<Scalar, Whole<Cap>> expected_rows;
-  REQUIRE(condensation->run(*scene, expected, &expected_rows).ok());
+template <class Scalar, class Cap, class Other>
+void check_linear(const Condensed<Scalar, Cap>& found, const Condensed<Scalar, Other>& expected) {
   REQUIRE(found.cables.size() == expected.cables.size());
   for (int c = 0; c < found.cables.size(); ++c) CHECK(same_layout(found.cables[c], expected.cables[c]));
   CHECK(found.segments == expected.segments);
@@ -84,10 +75,55 @@ void check_bits(const std::string& file, const Condensed<Scalar, Cap>& found,
   CHECK(same_bits(found.sin_alpha, expected.sin_alpha));
   CHECK(same_bits(found.most_force, expected.most_force));
   CHECK(same_bits(found.most_factor, expected.most_factor));
-  if (rows == nullptr) return;
-  CHECK(same_bits(rows->load, expected_rows.load));
-  CHECK(same_bits(rows->prestrain, expected_rows.prestrain));
-  CHECK(same_bits(rows->elongation, expected_rows.elongation));
+}
+template <class Rows, class Others>
+void check_rows(const Rows& found, const Others& expected) {
+  CHECK(same_bits(found.load, expected.load));
+  CHECK(same_bits(found.prestrain, expected.prestrain));
+  CHECK(same_bits(found.elongation, expected.elongation));
+}
+
+/// Every bit of the constant against condensation at run time, with a capacity that only the scene before it
+/// needs to be larger.
+template <class Scalar, int Dimension, class Cap>
+void check_bits(const std::string& file, const Condensed<Scalar, Cap>& found,
+                const CondensedStruts<Scalar, Cap>* rows) {
+  using SceneType = Scene<double, Dimension, Whole<Cap>>;
+  const auto scene = std::make_unique<SceneType>();
+  build(read_scene_file(folder() + "/" + file), *scene);
+  const auto condensation = std::make_unique<Condensation<Scalar, SceneType>>();
+  Condensed<Scalar, Whole<Cap>> expected;
+  CondensedStruts<Scalar, Whole<Cap>> expected_rows;
+  REQUIRE(condensation->run(*scene, expected, &expected_rows).ok());
+  check_linear(found, expected);
+  if (rows != nullptr) check_rows(*rows, expected_rows);
+}
+template <class Scalar, int Dimension, class Cap>
+void check_bits(const std::string& file, const SecondOrder<Scalar, Cap>& found,
+                const LevelStruts<Scalar, Cap>* rows) {
+  using SceneType = Scene<double, Dimension, Whole<Cap>>;
+  const SceneDescription described = read_scene_file(folder() + "/" + file);
+  const auto scene = std::make_unique<SceneType>();
+  build(described, *scene);
+  const auto condensation = std::make_unique<SecondOrderCondensation<Scalar, SceneType>>();
+  SecondOrder<Scalar, Whole<Cap>> expected;
+  LevelStruts<Scalar, Whole<Cap>> expected_rows;
+  const auto target = target_of<Scalar, Whole<Cap>>(*described.second_order);
+  REQUIRE(condensation->run(*scene, target, expected, &expected_rows).ok());
+  check_linear(found.low, expected.low);
+  check_linear(found.high, expected.high);
+  CHECK(found.target_force == expected.target_force);
+  CHECK(found.lean.struts == expected.lean.struts);
+  CHECK(found.lean.beams == expected.lean.beams);
+  check_rows(found.lean.bends, expected.lean.bends);
+  check_rows(found.lean.aside, expected.lean.aside);
+  CHECK(same_bits(found.lean.grip_by_bend, expected.lean.grip_by_bend));
+  CHECK(same_bits(found.lean.tension_by_bar, expected.lean.tension_by_bar));
+  REQUIRE(rows != nullptr);
+  check_rows(rows->low, expected_rows.low);
+  check_rows(rows->high, expected_rows.high);
+  CHECK(same_bits(rows->by_bar, expected_rows.by_bar));
+  CHECK(rows->count == expected_rows.count);
 }
 
 /// The scene of a file; where mu has no standard deviation it is half of the mean mu.
@@ -118,15 +154,17 @@ void check_knowledge(const std::string& name, const Knowledge<Scalar, Cap>& foun
 }
 
 /// The result of a tracker that runs on the constant, as the program would write it with --hex.
-template <class Scalar, class Cap>
-std::string tracked(const std::string& name, const Condensed<Scalar, Cap>& condensed,
-                    const CondensedStruts<Scalar, Cap>* rows) {
+template <class Exported>
+std::string tracked(const std::string& name, const Exported& condensed,
+                    const typename Exported::Struts* rows) {
+  using Scalar = typename Exported::Scalar;
+  using Cap = typename Exported::Capacity;
   const bool single = sizeof(Scalar) == sizeof(float);
   const NumberFormat format{single ? ScalarType::float32 : ScalarType::float64, true};
   const SceneDescription scene = read_scene_file(folder() + "/" + name + ".json");
   std::ifstream stream = open_log(folder() + "/" + name + ".csv");
   LogReader log(stream, name + ".csv", scene);
-  Tracker<Condensed<Scalar, Cap>> tracker;
+  Tracker<Exported> tracker;
   REQUIRE(tracker.start(condensed).status.ok());
   std::string text = result_header(scene);
   LogRow row = log.first_row();
@@ -142,18 +180,20 @@ std::string tracked(const std::string& name, const Condensed<Scalar, Cap>& conde
 }
 
 /// The result of an estimator that runs on the constants, as the program would write it with --hex.
-template <int Unknowns, class Scalar, class Cap>
-std::string estimated(const std::string& name, bool fits_exactly, const Condensed<Scalar, Cap>& condensed,
-                      const Knowledge<Scalar, Cap>& knowledge, const CondensedStruts<Scalar, Cap>* rows) {
+template <int Unknowns, int Further, class Exported, class Known>
+std::string estimated(const std::string& name, bool fits_exactly, const Exported& condensed,
+                      const Known& knowledge, const typename Exported::Struts* rows) {
+  using Scalar = typename Exported::Scalar;
+  using Cap = typename Exported::Capacity;
   const NumberFormat format{sizeof(Scalar) == sizeof(float) ? ScalarType::float32 : ScalarType::float64,
                             true};
   const SceneDescription scene = described(name);
   std::ifstream stream = open_log(folder() + "/" + name + ".csv");
   LogReader log(stream, name + ".csv", scene);
-  Estimator<Condensed<Scalar, Cap>, Unknowns> estimator;
+  Estimator<Exported, Unknowns, Further> estimator;
   REQUIRE(estimator.start(condensed, knowledge).status.ok());
-  CHECK(estimator.unknowns() <= Unknowns);
-  CHECK((estimator.unknowns() == Unknowns || !fits_exactly || Unknowns == 1));
+  CHECK(estimator.unknowns() <= Unknowns + Further);
+  CHECK((estimator.unknowns() == Unknowns + Further || !fits_exactly || Unknowns == 1));
   std::string text = result_header(scene, ResultColumns::estimate);
   LogRow row = log.first_row();
   Response<Scalar, Cap> response;
@@ -184,22 +224,23 @@ std::string program_says(const std::string& command, const std::string& name) {
 }
 
 /// A tracker and an estimator on the constants against the program.
-template <int Unknowns, class Scalar, class Cap>
-void check_answers(const std::string& name, bool fits_exactly, const Condensed<Scalar, Cap>& condensed,
-                   const Knowledge<Scalar, Cap>& knowledge,
-                   const CondensedStruts<Scalar, Cap>* rows = nullptr) {
+template <int Unknowns, int Further = 0, class Exported, class Known>
+void check_answers(const std::string& name, bool fits_exactly, const Exported& condensed,
+                   const Known& knowledge, const typename Exported::Struts* rows = nullptr) {
+  using Scalar = typename Exported::Scalar;
   CHECK(tracked(name, condensed, rows) == program_says<Scalar>("simulate", name));
-  CHECK(estimated<Unknowns>(name, fits_exactly, condensed, knowledge, rows) ==
+  CHECK(estimated<Unknowns, Further>(name, fits_exactly, condensed, knowledge, rows) ==
         program_says<Scalar>("estimate", name));
 }
 
 /// The same, and the constants against condensation at run time.
-template <int Dimension, int Unknowns, class Scalar, class Cap>
-void check(const std::string& name, const Condensed<Scalar, Cap>& condensed,
-           const Knowledge<Scalar, Cap>& knowledge, const CondensedStruts<Scalar, Cap>* rows = nullptr) {
+template <int Dimension, int Unknowns, int Further = 0, class Exported, class Known>
+void check(const std::string& name, const Exported& condensed, const Known& knowledge,
+           const typename Exported::Struts* rows = nullptr) {
+  using Scalar = typename Exported::Scalar;
   check_bits<Scalar, Dimension>(name + ".json", condensed, rows);
   check_knowledge<Scalar, Dimension>(name, knowledge);
-  check_answers<Unknowns>(name, true, condensed, knowledge, rows);
+  check_answers<Unknowns, Further>(name, true, condensed, knowledge, rows);
 }
 
 }  // namespace exported

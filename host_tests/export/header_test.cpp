@@ -5,11 +5,13 @@
 #include <string>
 
 #include "arch.hpp"
+#include "beam_string.hpp"
 #include "export/loose_scene.hpp"
 #include "files/run_program.hpp"
 #include "lib/commands/scene_header.hpp"
 #include "lib/files/scene_file.hpp"
 #include "lib/kinds/condensed_size.hpp"
+#include "mast.hpp"
 #include "saddles.hpp"
 #include "taut/tracking/tracker.hpp"
 
@@ -21,15 +23,20 @@ namespace {
 std::string quoted(const char* file) { return std::string("'") + TAUT_EXPORT "/" + file + "'"; }
 
 template <class Cap, class Scalar>
+using Scene = taut::Condensed<Scalar, Cap>;
+
+template <class Exported>
 void check_size(const char* file, ScalarType scalar) {
+  constexpr bool has_struts = Exported::Capacity::struts > 0;
   const CondensedSize size =
       condensed_size(condensed_counts(read_scene_file(std::string(TAUT_EXPORT "/") + file)), scalar);
   const auto off = [](std::size_t told, std::size_t taken) {
     return std::labs(static_cast<long>(told) - static_cast<long>(taken));
   };
-  CHECK(size.scene == sizeof(taut::Condensed<Scalar, Cap>));
-  CHECK(size.strut_rows == (Cap::struts == 0 ? 0 : sizeof(taut::CondensedStruts<Scalar, Cap>)));
-  CHECK(off(size.tracker, sizeof(taut::Tracker<taut::Condensed<Scalar, Cap>>)) < 40);
+  CHECK(off(size.scene, sizeof(Exported)) < (Exported::AtLevel::has_level ? 40 : 1));
+  CHECK(off(size.strut_rows, has_struts ? sizeof(typename Exported::Struts) : 0) <
+        (Exported::AtLevel::has_level ? 10 : 1));
+  CHECK(off(size.tracker, sizeof(taut::Tracker<Exported>)) < 40);
 }
 
 }  // namespace
@@ -45,10 +52,14 @@ TEST_CASE("a scene name becomes an identifier that C++ takes for a namespace") {
 }
 
 TEST_CASE("the bytes that are told are those of the exported types") {
-  check_size<arch::Capacity, float>("arch.json", ScalarType::float32);
-  check_size<arch::Capacity, double>("arch.json", ScalarType::float64);
-  check_size<saddles::Capacity, float>("saddles.json", ScalarType::float32);
-  check_size<saddles::Capacity, double>("saddles.json", ScalarType::float64);
+  check_size<Scene<arch::Capacity, float>>("arch.json", ScalarType::float32);
+  check_size<Scene<arch::Capacity, double>>("arch.json", ScalarType::float64);
+  check_size<Scene<saddles::Capacity, float>>("saddles.json", ScalarType::float32);
+  check_size<Scene<saddles::Capacity, double>>("saddles.json", ScalarType::float64);
+  check_size<taut::SecondOrder<float, beam_string::Capacity>>("beam_string.json", ScalarType::float32);
+  check_size<taut::SecondOrder<double, beam_string::Capacity>>("beam_string.json", ScalarType::float64);
+  check_size<taut::SecondOrder<float, mast::Capacity>>("mast.json", ScalarType::float32);
+  check_size<taut::SecondOrder<double, mast::Capacity>>("mast.json", ScalarType::float64);
 }
 
 TEST_CASE("a header goes to standard output or, the same, to a file") {
@@ -60,6 +71,16 @@ TEST_CASE("a header goes to standard output or, the same, to a file") {
   CHECK(kept.status == 0);
   CHECK(kept.out.empty());
   CHECK(text_of(scratch.path / "a.hpp") == shown.out);
+}
+
+TEST_CASE("scenes of linear and of second-order theory have no header together") {
+  const Scratch scratch;
+  const Outcome outcome = run_taut(scratch, "export " + quoted("arch.json") + " " + quoted("mast.json") +
+                                                " -o " + scratch.quoted("a.hpp"));
+  CHECK(outcome.status == 2);
+  CHECK(outcome.err.find("/second_order") != std::string::npos);
+  CHECK(outcome.err.find("a header of their own") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(scratch.path / "a.hpp"));
 }
 
 TEST_CASE("a header does not overwrite its scene") {

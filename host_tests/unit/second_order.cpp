@@ -12,6 +12,7 @@ using taut::End;
 
 struct Cap : taut::Capacity {
   static constexpr int nodes = 4, struts = 2, segments = 3, joints = 2, loads = 1, forces = 1, normals = 1;
+  static constexpr int displacements = 2;
 };
 using Scene = taut::Scene<double, 2, Cap>;
 using Model = taut::SecondOrder<double, Cap>;
@@ -19,7 +20,8 @@ using Tracker = taut::Tracker<Model>;
 using Sample = taut::Sample<double, Cap>;
 using Response = taut::Response<double, Cap>;
 
-constexpr double EA = 8e8;  // of the cable [N]
+constexpr double EA = 8e8;     // of the cable [N]
+constexpr int joint_node = 1;  // of both scenes
 
 taut::Cable<double> cable_with(double mu, bool from_start = false) {
   taut::Cable<double> cable;
@@ -64,11 +66,19 @@ Sample pulled(double force, double factor = 0, std::size_t end = 1) {
 struct Condensed {
   Model model;
   Model::Struts struts;
+  taut::LevelDisplacements<double, Cap> displacements;
 
   Condensed(const Scene& scene, const Sample& target) {
     const auto condensation = std::make_unique<taut::SecondOrderCondensation<double, Scene>>();
-    const taut::Status status = condensation->run(scene, target, model, &struts);
+    for (int axis = 0; axis < 2; ++axis) displacements.add(joint_node, axis);
+    const taut::Status status = condensation->run(scene, target, model, &struts, nullptr, &displacements);
     REQUIRE(status.ok());
+  }
+  // Of the joint's node.
+  taut::FixedArray<double, 2> displaced(const Tracker& tracker) const {
+    taut::FixedArray<double, 2> found;
+    displacements.evaluate(tracker.model(), tracker.loads(), tracker.elongations(), found);
+    return found;
   }
   Response at(const Tracker& tracker) const {
     Response response;
@@ -105,6 +115,41 @@ TEST_CASE(
     CHECK(found.state[0] == taut::JointState::stick);
     CHECK(verify(*tracker).worst() < 1e-10);
   }
+}
+
+TEST_CASE("the foot of a pinned strut goes along its arc, and friction is used by tan(lambda) / mu") {
+  const double mu = 0.1;
+  const auto condensed = std::make_unique<Condensed>(pinned_strut(mu), pulled(2e6));
+  auto tracker = std::make_unique<Tracker>();
+  REQUIRE(tracker->start(condensed->model).status.ok());
+  struct Expected {
+    double F, theta;
+  };
+  for (const Expected& each : {Expected{797508, 0.005}, Expected{1991880, 0.0125}}) {
+    REQUIRE(tracker->advance(pulled(each.F)).status.ok());
+    const auto found = condensed->displaced(*tracker);
+    const double x = 2 * std::sin(each.theta), y = 2 - 2 * std::cos(each.theta);
+    CHECK(near(found[0], x, 2e-4));
+    CHECK(std::fabs(found[1] - y) <= 1e-7);
+    // The angle between the strut and the bisector of the cable's two segments, where the foot is then.
+    const double to_l = std::atan2(0.5 - y, 10 + x), to_r = std::atan2(0.5 - y, 10 - x);
+    const double lambda = each.theta - (to_r - to_l) / 2;
+    CHECK(near(tracker->friction_used(0), std::tan(lambda) / mu, 2e-3));
+    CHECK(std::fabs(tracker->bend_change(0) - (std::tan((to_l + to_r) / 2) / 0.05 - 1)) <= 1e-3);
+  }
+}
+
+TEST_CASE("displacements of a joint that slides, and how far its cable has straightened") {
+  const double mu = 0.1, F = 1.05e6, y = 0.9660582;
+  const auto condensed = std::make_unique<Condensed>(guided_joint(mu), pulled(F, 1));
+  auto tracker = std::make_unique<Tracker>();
+  REQUIRE(tracker->start(condensed->model).status.ok());
+  REQUIRE(tracker->advance(pulled(F, 1)).status.ok());
+  const auto found = condensed->displaced(*tracker);
+  CHECK(found[0] == 0);
+  CHECK(near(found[1], 1 - y, 0.02));
+  CHECK(near(tracker->bend_change(0), y - 1, 0.05));
+  CHECK(near(tracker->friction_used(0), 1, 1e-9));
 }
 
 TEST_CASE("a pinned strut runs away at the load where it leans by mu") {

@@ -11,6 +11,7 @@
 #include "lib/files/status_text.hpp"
 #include "lib/files/text.hpp"
 #include "lib/kinds/condensed_arrays.hpp"
+#include "lib/kinds/condensed_kind.hpp"
 
 namespace taut::host {
 namespace {
@@ -22,9 +23,6 @@ ExportedArrays arrays_of(const SceneDescription& scene, ScalarType scalar) {
 ExportedScene exported_scene(const std::string& file) {
   ExportedScene scene;
   scene.description = read_scene_file(file);
-  if (scene.description.second_order)
-    throw InputError(file, "/second_order", "a scene in second-order theory cannot be exported yet",
-                     "leave the key out for linear theory on the device");
   fill_in_mu_deviations(scene.description);
   for (const std::string& text : fill_in_jacks(scene.description)) std::cerr << "remark: " << text << '\n';
   scene.in_double = arrays_of(scene.description, ScalarType::float64);
@@ -46,6 +44,16 @@ void require_other_names(const ExportedScene& scene, const std::vector<ExportedS
                      "give every scene of a header another name");
 }
 
+// One Tracker serves all scenes of a header.
+void require_same_theory(const ExportedScene& scene, const std::vector<ExportedScene>& before) {
+  if (before.empty() || leans(scene.description) == leans(before[0].description)) return;
+  const SceneDescription& other = before[0].description;
+  throw InputError(scene.description.file, leans(scene.description) ? "/second_order" : "",
+                   std::string("the scene is in ") + (leans(scene.description) ? "second-order" : "linear") +
+                       " theory, and " + other.file + " is not",
+                   "export scenes of either theory into a header of their own");
+}
+
 }  // namespace
 
 int export_scenes(const ExportOptions& options) {
@@ -54,6 +62,7 @@ int export_scenes(const ExportOptions& options) {
     ExportedScene scene = exported_scene(file);
     const SceneDescription& description = scene.description;
     require_other_names(scene, scenes);
+    require_same_theory(scene, scenes);
     if (const Status status = scene.in_double.condensed.condensing.status; !status) {
       std::cerr << description.file << ": " << failure_text(status, description) << '\n';
       return 1;

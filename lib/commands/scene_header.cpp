@@ -201,21 +201,23 @@ class Constants {
 
   std::string condensed() const {
     const CondensedArrays& a = arrays_;
-    return type() + " make_cables(" + name() + ") {\n" + cables() + "}\n" + "constexpr ::taut::Condensed<" +
-           name() + ", Capacity> make_condensed(" + name() + ") {\n" + "  return {make_cables(" + name() +
-           "()), " + count(a.prestrain) + ", " + count(a.rho) + ", " + std::to_string(a.load.size()) + ",\n" +
-           field("coupling", "{" + coupling() + "}") + field("prestrain", numbers(a.prestrain, 10)) +
-           field("load", rows(a.load)) + field("rho", numbers(a.rho, 10)) +
-           field("cos_alpha", scalars(a.cos_alpha, 10)) + field("sin_alpha", scalars(a.sin_alpha, 10)) +
-           field("most_force", scalars(a.most_force, 10)) + "          /*most_factor*/ " +
-           scalars(a.most_factor, 10) + "};\n}\n";
+    const std::string cables = type() + " make_cables(" + name() + ") {\n" + this->cables() + "}\n";
+    if (!a.level) return cables + linear("make_condensed", a);
+    return cables + linear("make_low", a) + linear("make_high", a.level->high) + lean(*a.level) +
+           "constexpr ::taut::SecondOrder<" + name() + ", Capacity> make_condensed(" + name() + ") {\n" +
+           "  return {make_low(" + name() + "()), make_high(" + name() + "()), make_lean(" + name() +
+           "()),\n" + "          /*target_force*/ " + number(a.level->target_force) + "};\n}\n";
   }
   std::string struts() const {
     const CondensedArrays& a = arrays_;
-    return "constexpr ::taut::CondensedStruts<" + name() + ", Capacity> make_struts(" + name() + ") {\n" +
-           "  return {/*load*/ " + rows(a.strut_load) + ",\n" +
-           field("prestrain", numbers(a.strut_prestrain, 10)) + "          /*elongation*/ " +
-           rows(a.strut_elongation) + "};\n}\n";
+    const std::string rows_of_struts = table(a.struts);
+    if (!a.level)
+      return "constexpr ::taut::CondensedStruts<" + name() + ", Capacity> make_struts(" + name() + ") {\n" +
+             "  return " + rows_of_struts + ";\n}\n";
+    return "constexpr ::taut::LevelStruts<" + name() + ", Capacity> make_struts(" + name() + ") {\n" +
+           "  return {/*low*/ " + rows_of_struts + ",\n" + field("high", table(a.level->high_struts)) +
+           field("by_bar", rows(by_bar(a.level->strut_by_bar))) + "          /*count*/ " +
+           std::to_string(a.level->struts) + "};\n}\n";
   }
   std::string knowledge() const {
     const KnowledgeArrays& k = knowledge_;
@@ -244,6 +246,61 @@ class Constants {
     return "constexpr ::taut::FixedList<::taut::CableLayout<" + name() + ">, Capacity::cables>";
   }
   static std::string count(const Row& row) { return std::to_string(row.size()); }
+  std::string linear(const std::string& function, const LinearArrays& a) const {
+    return "constexpr ::taut::Condensed<" + name() + ", Capacity> " + function + "(" + name() + ") {\n" +
+           "  return {make_cables(" + name() + "()), " + count(a.prestrain) + ", " + count(a.rho) + ", " +
+           std::to_string(a.load.size()) + ",\n" + field("coupling", "{" + coupling(a) + "}") +
+           field("prestrain", numbers(a.prestrain, 10)) + field("load", rows(a.load)) +
+           field("rho", numbers(a.rho, 10)) + field("cos_alpha", scalars(a.cos_alpha, 10)) +
+           field("sin_alpha", scalars(a.sin_alpha, 10)) + field("most_force", scalars(a.most_force, 10)) +
+           "          /*most_factor*/ " + scalars(a.most_factor, 10) + "};\n}\n";
+  }
+  std::string lean(const LevelArrays& level) const {
+    return "constexpr ::taut::CondensedLean<" + name() + ", Capacity> make_lean(" + name() + ") {\n" +
+           "  return {/*bends*/ " + table(level.bends) + ",\n" +
+           field("grip_by_bend", numbers(level.grip_by_bend, 10)) + field("aside", table(asides(level))) +
+           field("tension_by_bar", rows(by_bar(level.tension_by_bar))) + "          /*struts*/ " +
+           std::to_string(level.struts) + ", /*beams*/ " + std::to_string(level.beams) + "};\n}\n";
+  }
+  // CondensedRows.
+  static std::string table(const RowsArrays& all) {
+    return "{/*load*/ " + rows(all.load) + ",\n" + field("prestrain", numbers(all.prestrain, 10)) +
+           "          /*elongation*/ " + rows(all.elongation) + "}";
+  }
+  // From the bars of the scene to those of the capacity: segments, struts and beams have their places there.
+  RowsArrays asides(const LevelArrays& level) const {
+    const auto placed = [&](const Row& row) {
+      const auto stride = static_cast<std::size_t>(capacity_.normals),
+                 given = static_cast<std::size_t>(level.normals);
+      const auto segments = static_cast<int>(arrays_.prestrain.size());
+      Row all;
+      std::size_t from = 0;
+      const auto add = [&](int first, int bars) {
+        all.resize(static_cast<std::size_t>(first) * stride);
+        for (int bar = 0; bar < bars; ++bar, from += given) {
+          const auto begin = row.begin() + static_cast<std::ptrdiff_t>(from);
+          all.insert(all.end(), begin, begin + static_cast<std::ptrdiff_t>(given));
+          all.resize(all.size() + stride - given);
+        }
+      };
+      add(0, segments);
+      add(capacity_.segments, level.struts);
+      add(capacity_.segments + capacity_.struts, level.beams);
+      return all;
+    };
+    RowsArrays all;
+    for (const Row& row : level.aside.load) all.load.push_back(placed(row));
+    all.prestrain = placed(level.aside.prestrain);
+    for (const Row& row : level.aside.elongation) all.elongation.push_back(placed(row));
+    return all;
+  }
+  std::vector<Row> by_bar(const std::vector<Row>& of) const {
+    const auto struts = static_cast<std::ptrdiff_t>(arrays_.level->struts);
+    std::vector<Row> all(of.begin(), of.begin() + struts);
+    if (arrays_.level->beams > 0) all.resize(static_cast<std::size_t>(capacity_.struts));
+    all.insert(all.end(), of.begin() + struts, of.end());
+    return all;
+  }
   static std::string field(const std::string& label, const std::string& value) {
     return "          /*" + label + "*/ " + value + ",\n";
   }
@@ -289,17 +346,16 @@ class Constants {
     return text.empty() ? "{}" : text + "}}}";
   }
   // Between rigid saddles the diagonal is all there is; otherwise every row is as long as the capacity says.
-  std::string coupling() const {
+  std::string coupling(const LinearArrays& of) const {
     Row entries;
-    for (std::size_t i = 0; i < arrays_.coupling.size(); ++i) {
-      const Row& row = arrays_.coupling[i];
+    for (std::size_t i = 0; i < of.coupling.size(); ++i) {
+      const Row& row = of.coupling[i];
       if (capacity_.has_rigid_saddles()) {
         entries.push_back(row[i]);
         continue;
       }
       entries.insert(entries.end(), row.begin(), row.end());
-      if (i + 1 < arrays_.coupling.size())
-        entries.resize((i + 1) * static_cast<std::size_t>(capacity_.segments));
+      if (i + 1 < of.coupling.size()) entries.resize((i + 1) * static_cast<std::size_t>(capacity_.segments));
     }
     return numbers(entries, 10);
   }
@@ -363,7 +419,8 @@ std::string head(const std::vector<ExportedScene>& scenes, const CondensedCounts
          ".\n"
          "#pragma once\n"
          "\n"
-         "#include \"taut/condensation/condensed.hpp\"\n" +
+         "#include \"taut/condensation/" +
+         (capacity.leans() ? "second_order" : "condensed") + ".hpp\"\n" +
          (has_strokes ? "#include \"taut/estimation/gauges.hpp\"\n" : "") +
          "#include \"taut/estimation/knowledge.hpp\"\n";
 }
@@ -377,8 +434,9 @@ std::string capacity_of(const CondensedCounts& counts) {
          is("nodes", 0) + ", " + is("struts", counts.struts) + ", " + is("cables", counts.cables) + ", " +
          is("jacks", counts.jacks) + ", " + is("segments", counts.segments) + ", " +
          is("joints", counts.joints) + ", " + is("substructures", counts.substructures) + ", " +
-         is("loads", counts.loads) + ";\n" +
-         (counts.saddles ? "  static constexpr bool saddles = true;\n" : "") + "};\n";
+         is("loads", counts.loads) +
+         (counts.leans() ? ", " + is("beams", counts.beams) + ", " + is("normals", counts.normals) : "") +
+         ";\n" + (counts.saddles ? "  static constexpr bool saddles = true;\n" : "") + "};\n";
 }
 
 // A list of names that costs nothing unless it is used.
@@ -449,7 +507,9 @@ std::string constants(const ExportedScene& scene, const CondensedCounts& capacit
 std::string objects(const Shared& shared) {
   return "/// The scene for Tracker and Estimator, as condensed<float> or condensed<double>.\n"
          "template <class Scalar>\n"
-         "inline constexpr ::taut::Condensed<Scalar, Capacity> condensed = "
+         "inline constexpr ::taut::" +
+         std::string(shared.capacity.leans() ? "SecondOrder" : "Condensed") +
+         "<Scalar, Capacity> condensed = "
          "detail::make_condensed(Scalar());\n\n"
          "/// What is known of friction and load cells, for Estimator. Where the scene has no mu_sd it is "
          "half of the mean mu.\n"
@@ -481,7 +541,9 @@ std::string strut_objects(std::size_t struts, const Shared& shared) {
     text +=
         "/// The rows that give strut forces, for Tracker::respond().\n"
         "template <class Scalar>\n"
-        "inline constexpr ::taut::CondensedStruts<Scalar, Capacity> struts = "
+        "inline constexpr ::taut::" +
+        std::string(shared.capacity.leans() ? "LevelStruts" : "CondensedStruts") +
+        "<Scalar, Capacity> struts = "
         "detail::make_struts(Scalar());\n\n";
   return text;
 }

@@ -49,38 +49,108 @@ bool are_possible(const Row& numbers) {
 bool are_possible(const std::vector<Row>& rows) {
   return std::all_of(rows.begin(), rows.end(), [](const Row& row) { return are_possible(row); });
 }
+bool are_possible(const RowsArrays& rows) {
+  return are_possible(rows.load) && are_possible(rows.prestrain) && are_possible(rows.elongation);
+}
+bool are_possible(const LinearArrays& arrays) {
+  return are_possible(arrays.coupling) && are_possible(arrays.prestrain) && are_possible(arrays.load) &&
+         are_possible(arrays.rho) && are_possible(arrays.cos_alpha) && are_possible(arrays.sin_alpha);
+}
+bool are_possible(const LevelArrays& arrays) {
+  return are_possible(arrays.high) && are_possible(arrays.high_struts) && are_possible(arrays.bends) &&
+         are_possible(arrays.grip_by_bend) && are_possible(arrays.aside) &&
+         are_possible(arrays.tension_by_bar) && are_possible(arrays.strut_by_bar) &&
+         is_possible(arrays.target_force);
+}
 bool are_possible(const CondensedArrays& arrays) {
-  return is_possible(arrays.condensing.condition) && are_possible(arrays.coupling) &&
-         are_possible(arrays.prestrain) && are_possible(arrays.load) && are_possible(arrays.rho) &&
-         are_possible(arrays.cos_alpha) && are_possible(arrays.sin_alpha) &&
-         are_possible(arrays.strut_load) && are_possible(arrays.strut_prestrain) &&
-         are_possible(arrays.strut_elongation);
+  return is_possible(arrays.condensing.condition) && are_possible(static_cast<const LinearArrays&>(arrays)) &&
+         are_possible(arrays.struts) && (!arrays.level || are_possible(*arrays.level));
+}
+
+template <class Rows, class Model>
+RowsArrays copied(const Rows& rows, const Model& condensed, int count) {
+  return {rows_of(rows.load, condensed.loads, count), row_of(rows.prestrain, count),
+          rows_of(rows.elongation, condensed.segments, count)};
+}
+
+template <class Scalar, class Cap>
+LinearArrays copied(const Condensed<Scalar, Cap>& condensed) {
+  const int segments = condensed.segments, joints = condensed.joints, loads = condensed.loads;
+  LinearArrays arrays;
+  for (const auto& cable : condensed.cables) arrays.cables.push_back(layout_of(cable));
+  arrays.coupling = coupling_of(condensed.coupling, segments);
+  arrays.prestrain = row_of(condensed.prestrain, segments);
+  arrays.load = rows_of(condensed.load, loads, segments);
+  arrays.rho = row_of(condensed.rho, joints);
+  arrays.cos_alpha = row_of(condensed.cos_alpha, joints);
+  arrays.sin_alpha = row_of(condensed.sin_alpha, joints);
+  arrays.most_force = row_of(condensed.most_force, condensed.cables.size());
+  arrays.most_factor = row_of(condensed.most_factor, loads);
+  return arrays;
+}
+
+// The numbers of a scene's bars among those of the capacity, `normals` of `stride` numbers each.
+template <class Cap>
+Row bars_of(const Row& all, int segments, const LevelArrays& level, std::size_t stride) {
+  Row numbers;
+  const auto add = [&](int first, int count) {
+    for (int bar = first; bar < first + count; ++bar)
+      for (std::size_t n = 0; n < static_cast<std::size_t>(level.normals); ++n)
+        numbers.push_back(all[static_cast<std::size_t>(bar) * stride + n]);
+  };
+  add(0, segments);
+  add(Cap::segments, level.struts);
+  add(Cap::segments + Cap::struts, level.beams);
+  return numbers;
+}
+
+// Those of struts and beams.
+template <class Cap, class Table>
+std::vector<Row> by_bar(const Table& table, const LevelArrays& level, int length) {
+  std::vector<Row> rows;
+  for (int i = 0; i < level.struts; ++i) rows.push_back(row_of(table[i], length));
+  for (int i = 0; i < level.beams; ++i) rows.push_back(row_of(table[Cap::struts + i], length));
+  return rows;
+}
+
+// In the plane nothing leans along the second normal.
+template <int Dimension, class Scalar, class Cap>
+LevelArrays level_arrays(const SecondOrder<Scalar, Cap>& condensed, const LevelStruts<Scalar, Cap>& struts) {
+  const Condensed<Scalar, Cap>& low = condensed.low;
+  LevelArrays arrays;
+  arrays.struts = condensed.lean.struts;
+  arrays.beams = condensed.lean.beams;
+  arrays.normals = Dimension - 1;
+  arrays.target_force = static_cast<double>(condensed.target_force);
+  arrays.high = copied(condensed.high);
+  arrays.high_struts = copied(struts.high, low, arrays.struts);
+  arrays.bends = copied(condensed.lean.bends, low, low.joints);
+  arrays.grip_by_bend = row_of(condensed.lean.grip_by_bend, low.joints);
+  const RowsArrays aside = copied(condensed.lean.aside, low, max_bars<Cap> * Cap::normals);
+  const auto kept = [&](const Row& row) {
+    return bars_of<Cap>(row, low.segments, arrays, static_cast<std::size_t>(Cap::normals));
+  };
+  for (const Row& row : aside.load) arrays.aside.load.push_back(kept(row));
+  arrays.aside.prestrain = kept(aside.prestrain);
+  for (const Row& row : aside.elongation) arrays.aside.elongation.push_back(kept(row));
+  arrays.tension_by_bar = by_bar<Cap>(condensed.lean.tension_by_bar, arrays, low.segments);
+  arrays.strut_by_bar = by_bar<Cap>(struts.by_bar, arrays, arrays.struts);
+  return arrays;
 }
 
 template <class Scalar, int Dimension, class Cap>
 CondensedArrays condensed_arrays(const SceneDescription& scene) {
-  const auto whole = std::make_unique<CondensedOf<Scalar, Cap>>();
-  const auto whole_rows = std::make_unique<StrutsOf<Scalar, Cap>>();
+  const auto condensed = std::make_unique<CondensedOf<Scalar, Cap>>();
+  const auto struts = std::make_unique<StrutsOf<Scalar, Cap>>();
   CondensedArrays arrays;
   arrays.rigid = has_rigid_saddles<Cap>;
-  arrays.condensing = condense_scene<Scalar, Dimension, Cap>(scene, *whole, *whole_rows);
+  arrays.condensing = condense_scene<Scalar, Dimension, Cap>(scene, *condensed, *struts);
   if (!arrays.condensing.status) return arrays;
-  const auto* const condensed = &linear_part(*whole);
-  const auto* const rows = &linear_part(*whole_rows);
-  const int segments = condensed->segments, joints = condensed->joints, loads = condensed->loads;
-  const int struts = static_cast<int>(scene.struts.size());
-  for (const auto& cable : condensed->cables) arrays.cables.push_back(layout_of(cable));
-  arrays.coupling = coupling_of(condensed->coupling, segments);
-  arrays.prestrain = row_of(condensed->prestrain, segments);
-  arrays.load = rows_of(condensed->load, loads, segments);
-  arrays.rho = row_of(condensed->rho, joints);
-  arrays.cos_alpha = row_of(condensed->cos_alpha, joints);
-  arrays.sin_alpha = row_of(condensed->sin_alpha, joints);
-  arrays.most_force = row_of(condensed->most_force, condensed->cables.size());
-  arrays.most_factor = row_of(condensed->most_factor, loads);
-  arrays.strut_load = rows_of(rows->load, loads, struts);
-  arrays.strut_prestrain = row_of(rows->prestrain, struts);
-  arrays.strut_elongation = rows_of(rows->elongation, segments, struts);
+  static_cast<LinearArrays&>(arrays) = copied(linear_part(*condensed));
+  arrays.struts =
+      copied(linear_part(*struts), linear_part(*condensed), static_cast<int>(scene.struts.size()));
+  if constexpr (CondensedOf<Scalar, Cap>::AtLevel::has_level)
+    arrays.level = level_arrays<Dimension>(*condensed, *struts);
   if (!are_possible(arrays)) arrays.condensing.status.code = Code::not_finite;
   return arrays;
 }

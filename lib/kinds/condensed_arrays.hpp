@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "lib/files/result_file.hpp"
@@ -11,21 +12,47 @@
 
 namespace taut::host {
 
-/// The fields of Condensed and CondensedStruts for what the scene holds; values in float are exact.
-struct CondensedArrays {
+/// The fields of CondensedRows for what the scene holds.
+struct RowsArrays {
   using Row = std::vector<double>;
 
-  Condensing condensing;  ///< on failure nothing else has a meaning; not_finite: numbers out of all range
-  bool rigid = false;     ///< see is_rigid()
+  std::vector<Row> load;
+  Row prestrain;
+  std::vector<Row> elongation;
+};
+
+/// The fields of Condensed for what the scene holds; values in float are exact.
+struct LinearArrays {
+  using Row = std::vector<double>;
+
   std::vector<CableLayout<double>> cables;
   std::vector<Row> coupling;  ///< columns of all segments
   Row prestrain;
   std::vector<Row> load;
   Row rho, cos_alpha, sin_alpha;
   Row most_force, most_factor;
-  std::vector<Row> strut_load;
-  Row strut_prestrain;
-  std::vector<Row> strut_elongation;
+};
+
+/// What SecondOrder and LevelStruts hold beside the low level. Bars are segments, struts and beams of the
+/// scene, one after the other; in `aside` each has Capacity::normals numbers.
+struct LevelArrays {
+  using Row = std::vector<double>;
+
+  LinearArrays high;
+  RowsArrays high_struts;
+  RowsArrays bends, aside;
+  Row grip_by_bend;
+  std::vector<Row> tension_by_bar, strut_by_bar;  ///< of struts and beams
+  int struts = 0, beams = 0, normals = 0;
+  double target_force = 0;
+};
+
+/// A condensed scene, in second-order theory at its low level, and CondensedStruts.
+struct CondensedArrays : LinearArrays {
+  Condensing condensing;  ///< on failure nothing else has a meaning; not_finite: numbers out of all range
+  bool rigid = false;     ///< see is_rigid()
+  RowsArrays struts;
+  std::optional<LevelArrays> level;  ///< in second-order theory
 };
 
 /// Condenses a scene in the given type. Throws InputError if the scene cannot be used.

@@ -47,11 +47,14 @@ inline bool is_rigid(const SceneDescription& scene) {
   return scene.struts.empty() && scene.beams.empty() && scene.substructures.empty();
 }
 
+/// Whether second-order theory makes a difference to the scene.
+inline bool leans(const SceneDescription& scene) { return scene.second_order && !is_rigid(scene); }
+
 /// As with_capacity(), for the capacity that the scene is condensed with; second-order theory has the largest
 /// alone.
 template <class Call>
 auto with_condensed_capacity(const SceneDescription& scene, Call&& call) {
-  if (scene.second_order && !is_rigid(scene))
+  if (leans(scene))
     return with_capacity(
         scene,
         [&](auto kind) {

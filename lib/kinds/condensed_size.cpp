@@ -3,46 +3,59 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "lib/kinds/condensed_kind.hpp"
-#include "taut/condensation/condensed.hpp"
+#include "taut/condensation/second_order.hpp"
 #include "taut/tracking/tracker.hpp"
 
 namespace taut::host {
 namespace {
 
-// All members of the three types are lists whose lengths are products of at most two counts, so a size is a
+// All members of the types are lists whose lengths are products of at most two counts, so a size is a
 // quadratic function of the counts. It is known from the sizes at a few capacities; with multiples of eight
 // nothing there is padding.
 constexpr int unit = 8;
-constexpr std::size_t variables = 6;     // cables, segments, joints, loads, jacks, struts
+constexpr std::size_t variables = 7;     // cables, segments, joints, loads, jacks, struts, beams
 constexpr std::size_t none = variables;  // of the variables
 using Grid = std::array<double, (variables + 1) * (variables + 1)>;
 
+// The kinds of scenes that take other room: rigid saddles, linear theory, and second-order theory by the
+// normals of a bar.
+enum class Room { rigid, linear, leaning_in_plane, leaning_in_space };
+
 // One unit of everything, and one more of variable A and of variable B.
-template <std::size_t A, std::size_t B, bool IsRigid>
+template <std::size_t A, std::size_t B, Room Is>
 struct Sampled : Capacity {
   static constexpr int count(std::size_t variable) {
     return unit * (1 + (A == variable ? 1 : 0) + (B == variable ? 1 : 0));
   }
+  static constexpr bool is_rigid = Is == Room::rigid, is_linear = is_rigid || Is == Room::linear;
   static constexpr int cables = count(0), segments = count(1), joints = count(2), loads = count(3);
-  static constexpr int jacks = count(4), struts = IsRigid ? 0 : count(5), substructures = IsRigid ? 0 : 1;
+  static constexpr int jacks = count(4), struts = is_rigid ? 0 : count(5), beams = is_linear ? 0 : count(6);
+  static constexpr int substructures = is_rigid ? 0 : 1, normals = Is == Room::leaning_in_plane ? 1 : 2;
 };
 
-template <template <class> class SizeOf, bool IsRigid, std::size_t... I>
+template <class Scalar, class Cap>
+using SampledScene = std::conditional_t<Cap::is_linear, Condensed<Scalar, Cap>, SecondOrder<Scalar, Cap>>;
+
+template <template <class> class SizeOf, Room Is, std::size_t A, std::size_t B>
+constexpr double sampled = static_cast<double>(SizeOf<Sampled<(A < B ? B : A), (A < B ? A : B), Is>>::bytes);
+
+template <template <class> class SizeOf, Room Is, std::size_t... I>
 Grid sampled_sizes(std::index_sequence<I...>) {
-  return {static_cast<double>(SizeOf<Sampled<I / (variables + 1), I % (variables + 1), IsRigid>>::bytes)...};
+  return {sampled<SizeOf, Is, I / (variables + 1), I % (variables + 1)>...};
 }
 
 // Newton's forward interpolation.
-template <template <class> class SizeOf, bool IsRigid>
+template <template <class> class SizeOf, Room Is>
 std::size_t interpolated(const CondensedCounts& counts) {
   static const Grid sizes =
-      sampled_sizes<SizeOf, IsRigid>(std::make_index_sequence<std::tuple_size<Grid>::value>());
+      sampled_sizes<SizeOf, Is>(std::make_index_sequence<std::tuple_size<Grid>::value>());
   const auto at = [](std::size_t a, std::size_t b) { return sizes[a * (variables + 1) + b]; };
-  const std::array<int, variables> given = {counts.cables, counts.segments, counts.joints,
-                                            counts.loads,  counts.jacks,    counts.struts};
+  const std::array<int, variables> given = {counts.cables, counts.segments, counts.joints, counts.loads,
+                                            counts.jacks,  counts.struts,   counts.beams};
   const auto steps = [&](std::size_t a) { return static_cast<double>(given[a]) / unit - 1; };
   const double base = at(none, none);
   double bytes = base;
@@ -60,37 +73,38 @@ template <class Scalar>
 struct Sizes {
   template <class Cap>
   struct OfScene {
-    static constexpr std::size_t bytes = sizeof(Condensed<Scalar, Cap>);
+    static constexpr std::size_t bytes = sizeof(SampledScene<Scalar, Cap>);
   };
   template <class Cap>
   struct OfStrutRows {
-    static constexpr std::size_t bytes = sizeof(CondensedStruts<Scalar, Cap>);
+    static constexpr std::size_t bytes = sizeof(typename SampledScene<Scalar, Cap>::Struts);
   };
   template <class Cap>
   struct OfTracker {
-    static constexpr std::size_t bytes = sizeof(Tracker<Condensed<Scalar, Cap>>);
+    static constexpr std::size_t bytes = sizeof(Tracker<SampledScene<Scalar, Cap>>);
   };
 
   // The large variables that live at once while the modes are decided, four rows of tensions and moves for a
   // direction, and a kilobyte for all calls.
   template <class Cap>
   struct OfStack {
-    using Model = Condensed<Scalar, Cap>;
+    using Tracked = Tracker<SampledScene<Scalar, Cap>>;
+    using Model = typename SampledScene<Scalar, Cap>::AtLevel;
     using Solver = ModeSolver<Model, typename CableSystem<Model, 0>::Laws>;
-    static constexpr std::size_t bytes = sizeof(Solver) + 2 * sizeof(FixedList<SlipMode, 2 * Cap::joints>) +
-                                         sizeof(typename Tracker<Model>::Moving) +
-                                         8 * sizeof(typename Solver::Tensions) +
-                                         8 * sizeof(typename Solver::Moves) + 1024;
+    static constexpr std::size_t bytes =
+        sizeof(Solver) + 2 * sizeof(FixedList<SlipMode, 2 * Cap::joints>) + sizeof(typename Tracked::Moving) +
+        8 * sizeof(typename Solver::Tensions) + 8 * sizeof(typename Solver::Moves) + 1024;
   };
 
-  template <bool IsRigid>
+  template <Room Is>
   static CondensedSize of(const CondensedCounts& counts) {
-    return {interpolated<OfScene, IsRigid>(counts),
-            counts.struts == 0 ? 0 : interpolated<OfStrutRows, IsRigid>(counts),
-            interpolated<OfTracker, IsRigid>(counts), interpolated<OfStack, IsRigid>(counts)};
+    return {interpolated<OfScene, Is>(counts), counts.struts == 0 ? 0 : interpolated<OfStrutRows, Is>(counts),
+            interpolated<OfTracker, Is>(counts), interpolated<OfStack, Is>(counts)};
   }
   static CondensedSize of(const CondensedCounts& counts) {
-    return counts.substructures == 0 ? of<true>(counts) : of<false>(counts);
+    if (counts.leans())
+      return counts.normals == 1 ? of<Room::leaning_in_plane>(counts) : of<Room::leaning_in_space>(counts);
+    return counts.substructures == 0 ? of<Room::rigid>(counts) : of<Room::linear>(counts);
   }
 };
 
@@ -101,6 +115,10 @@ CondensedCounts condensed_counts(const SceneDescription& scene) {
   counts.cables = static_cast<int>(scene.cables.size());
   counts.loads = static_cast<int>(scene.loads.size());
   counts.struts = static_cast<int>(scene.struts.size());
+  if (leans(scene)) {
+    for (const BeamDescription& beam : scene.beams) counts.beams += static_cast<int>(beam.members());
+    counts.normals = scene.dimension - 1;
+  }
   counts.substructures = is_rigid(scene) ? 0 : std::max(1, static_cast<int>(scene.substructures.size()));
   for (const CableDescription& cable : scene.cables) {
     counts.segments += static_cast<int>(cable.segments());
@@ -117,6 +135,8 @@ CondensedCounts larger(const CondensedCounts& a, const CondensedCounts& b) {
           std::max(a.joints, b.joints),
           std::max(a.loads, b.loads),
           std::max(a.struts, b.struts),
+          std::max(a.beams, b.beams),
+          std::max(a.normals, b.normals),
           std::max(a.substructures, b.substructures),
           a.saddles || b.saddles || a.has_rigid_saddles() != b.has_rigid_saddles()};
 }

@@ -11,6 +11,8 @@ namespace taut::host {
 /// The counts of a capacity that fits a condensed scene exactly. Nodes are not needed any more.
 struct CondensedCounts {
   int cables = 0, jacks = 0, segments = 0, joints = 0, loads = 0, struts = 0;
+  int beams = 0;    ///< in second-order theory; in linear theory nothing is kept of them
+  int normals = 0;  ///< directions in which a bar leans in second-order theory; 0: linear theory
   /// Zero means rigid saddles: no coupling between segments is stored. Beams count as a substructure, and so
   /// does a structure that consists of cables alone.
   int substructures = 0;
@@ -18,6 +20,7 @@ struct CondensedCounts {
   bool saddles = false;
 
   bool has_rigid_saddles() const { return struts == 0 && substructures == 0; }
+  bool leans() const { return normals > 0; }
 };
 CondensedCounts condensed_counts(const SceneDescription& scene);
 /// The larger of each count: a capacity that holds either scene.
@@ -25,8 +28,8 @@ CondensedCounts larger(const CondensedCounts& a, const CondensedCounts& b);
 
 /// Bytes, for a capacity that fits exactly, where pointers are as large as here.
 struct CondensedSize {
-  std::size_t scene = 0;       ///< Condensed, in flash
-  std::size_t strut_rows = 0;  ///< CondensedStruts, in flash if it is used
+  std::size_t scene = 0;       ///< Condensed or SecondOrder, in flash
+  std::size_t strut_rows = 0;  ///< CondensedStruts or LevelStruts, in flash if it is used
   std::size_t tracker = 0;     ///< Tracker, in RAM
   /// What an event takes of the stack. Within a tenth of what gcc needs for a Cortex-M4F
   /// (firmware_example/SIZES.md); other compilers and options differ.

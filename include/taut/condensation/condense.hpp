@@ -10,6 +10,21 @@
 
 namespace taut {
 
+/// What Condensation is asked for beside the condensed scene; null: not asked for.
+template <class Scalar, class Cap>
+struct CondensationRequest {
+  using Real = Wide<Scalar>;
+
+  CondensedStruts<Scalar, Cap>* struts = nullptr;
+  CondensedBeams<Scalar, Cap>* beams = nullptr;
+  const FixedList<NodeAxis, Cap::displacements>* displaced = nullptr;  ///< what `displacements` are of
+  CondensedRows<Real, max_displacements<Cap>, Cap>* displacements = nullptr;
+  /// What displacements change, Eqs. (44) and (45); and then what struts and displacements have of it.
+  CondensedLean<Scalar, Cap>* lean = nullptr;
+  RowsByBar<Real, Cap::struts, Cap>* strut_by_bar = nullptr;
+  RowsByBar<Real, max_displacements<Cap>, Cap>* displacement_by_bar = nullptr;
+};
+
 /// Condenses scenes of one type; the object holds the structure's factor and can be thrown away afterwards.
 ///
 /// One factorization, then one solve of Eq. (7) for each load pattern, the prestrain, and each segment.
@@ -28,22 +43,23 @@ class Condensation {
   Status run(const SceneType& scene, Condensed<Scalar, Cap>& condensed,
              CondensedStruts<Scalar, Cap>* struts = nullptr,
              CondensedDisplacements<Scalar, Cap>* displacements = nullptr) {
-    return run(scene, Geometry(), condensed, struts, displacements);
+    CondensationRequest<Scalar, Cap> request;
+    request.struts = struts;
+    if (displacements != nullptr) {
+      request.displaced = &displacements->of;
+      request.displacements = &displacements->rows;
+    }
+    return run(scene, Geometry(), condensed, request);
   }
-  /// The same with geometric stiffness. `beams`, if given, receives the rows for the axial forces of beams,
-  /// and `leaning` what displacements change, Eqs. (44) and (45), with `strut_by_bar` struts' part of that.
+  /// The same with geometric stiffness, and with all that can be asked for.
   Status run(const SceneType& scene, const Geometry& geometry, Condensed<Scalar, Cap>& condensed,
-             CondensedStruts<Scalar, Cap>* struts, CondensedDisplacements<Scalar, Cap>* displacements,
-             CondensedBeams<Scalar, Cap>* beams = nullptr, CondensedLean<Scalar, Cap>* leaning = nullptr,
-             StrutsByBar<Scalar, Cap>* strut_by_bar = nullptr) {
+             const CondensationRequest<Scalar, Cap>& request) {
     Status status = validate(scene);
     if (!status) return status;
     scene_ = &scene;
     geometry_ = &geometry;
-    beams_ = beams;
-    leaning_ = leaning;
-    strut_by_bar_ = strut_by_bar;
-    if (displacements != nullptr) status = check(displacements->of);
+    asked_ = request;
+    if (asked_.displaced != nullptr) status = check(*asked_.displaced);
     if (!status) return status;
     condensed = {};
     condensed.segments = scene.prestrain.size();
@@ -52,12 +68,10 @@ class Condensation {
     for (const auto& cable : scene.cables)
       condensed.cables.add({cable.closed, cable.ends, static_cast<Scalar>(cable.seating), cable.nodes,
                             cable.first_segment, cable.first_joint});
-    if constexpr (has_rigid_saddles<Cap>) {
-      static_cast<void>(struts);
+    if constexpr (has_rigid_saddles<Cap>)
       status = rigid(condensed);
-    } else {
-      status = elastic(condensed, struts, displacements);
-    }
+    else
+      status = elastic(condensed);
     if (status) limit(condensed);
     return status;
   }
@@ -143,8 +157,7 @@ class Condensation {
     return Status::success();
   }
 
-  Status elastic(Condensed<Scalar, Cap>& condensed, CondensedStruts<Scalar, Cap>* struts,
-                 CondensedDisplacements<Scalar, Cap>* displacements) {
+  Status elastic(Condensed<Scalar, Cap>& condensed) {
     Status status = structure_.make(*scene_, *geometry_);
     if (!status) return status;
     const auto& elements = structure_.elements();
@@ -152,22 +165,20 @@ class Condensation {
     // Keeps the last solution as tensions, and in the row of requested rows that `row` points at.
     const auto store = [&](auto imposed, FixedArray<Real, Cap::segments>& tensions, auto row) {
       for (int i = 0; i < condensed.segments; ++i) tensions[i] = structure_.tension(i, imposed(i));
-      for (int i = 0; struts != nullptr && i < scene_->struts.size(); ++i)
-        (*row(*struts))[i] = structure_.strut_force(i);
-      for (int i = 0; displacements != nullptr && i < displacements->of.size(); ++i) {
-        const NodeAxis& wanted = displacements->of[i];
-        (*row(displacements->rows))[i] = structure_.node_displacement(wanted.node, wanted.axis);
-      }
+      for (int i = 0; asked_.struts != nullptr && i < scene_->struts.size(); ++i)
+        (*row(*asked_.struts))[i] = structure_.strut_force(i);
+      for (int i = 0; asked_.displacements != nullptr && i < asked_.displaced->size(); ++i)
+        (*row(*asked_.displacements))[i] = displacement(i);
       if constexpr (Cap::beams > 0)
-        for (int i = 0; beams_ != nullptr && i < scene_->beams.size(); ++i)
-          (*row(*beams_))[i] = structure_.beam_force(i);
-      if (leaning_ == nullptr) return;
+        for (int i = 0; asked_.beams != nullptr && i < scene_->beams.size(); ++i)
+          (*row(*asked_.beams))[i] = structure_.beam_force(i);
+      if (asked_.lean == nullptr) return;
       for (int c = 0; c < scene_->cables.size(); ++c)
         for (int j = 0; j < scene_->cables[c].joints(); ++j)
-          (*row(leaning_->grips))[scene_->cables[c].first_joint + j] = kappa_change(c, j);
+          (*row(asked_.lean->bends))[scene_->cables[c].first_joint + j] = bend_change(c, j);
       for_each_bar([&](int bar, const auto& nodes, const auto& line) {
         for (int n = 0; n < Cap::normals; ++n)
-          (*row(leaning_->aside))[bar * Cap::normals + n] = aside(nodes, line, n);
+          (*row(asked_.lean->aside))[bar * Cap::normals + n] = aside(nodes, line, n);
       });
     };
 
@@ -196,27 +207,38 @@ class Condensation {
       for (int i = 0; i < condensed.segments; ++i) condensed.coupling.set(i, k, column[i]);
     }
     if constexpr (!std::is_same<Geometry, NoGeometry>::value)
-      if (leaning_ != nullptr) return lengthen_bars(condensed.segments);
+      if (asked_.lean != nullptr) return lengthen_bars(condensed);
     return Status::success();
   }
-  /// Tensions and strut forces from a unit elongation of every strut and beam.
-  Status lengthen_bars(int segments) {
+  /// What a unit elongation of every strut and beam does, and how friction follows the bend of the cable.
+  Status lengthen_bars(const Condensed<Scalar, Cap>& condensed) {
     const int struts = scene_->struts.size();
     int beams = 0;
     if constexpr (Cap::beams > 0) beams = scene_->beams.size();
     const auto none = [](int) { return Real(0); };
-    leaning_->struts = struts;
-    leaning_->beams = beams;
+    CondensedLean<Scalar, Cap>& lean = *asked_.lean;
+    lean.struts = struts;
+    lean.beams = beams;
+    for (int j = 0; j < condensed.joints; ++j)
+      lean.grip_by_bend[j] = JointLean<Real, dimension>::grip_by_bend(structure_.elements().joints[j]);
     for (int b = 0; b < struts + beams; ++b) {
       const auto unit = [b](int i) { return i == b ? Real(1) : Real(0); };
       const Status status = structure_.solve(no_force, none, unit);
       if (!status) return status;
       const int to = b < struts ? b : Cap::struts + b - struts;
-      for (int i = 0; i < segments; ++i) leaning_->tension_by_bar[to][i] = structure_.tension(i, Real(0));
-      for (int i = 0; strut_by_bar_ != nullptr && i < struts; ++i)
-        (*strut_by_bar_)[to][i] = structure_.strut_force(i, unit(i));
+      for (int i = 0; i < condensed.segments; ++i)
+        lean.tension_by_bar[to][i] = structure_.tension(i, Real(0));
+      for (int i = 0; asked_.strut_by_bar != nullptr && i < struts; ++i)
+        (*asked_.strut_by_bar)[to][i] = structure_.strut_force(i, unit(i));
+      for (int i = 0; asked_.displacement_by_bar != nullptr && i < asked_.displaced->size(); ++i)
+        (*asked_.displacement_by_bar)[to][i] = displacement(i);
     }
     return Status::success();
+  }
+  /// One of those asked for, in the last solution [m].
+  Real displacement(int i) const {
+    const NodeAxis& wanted = (*asked_.displaced)[i];
+    return structure_.node_displacement(wanted.node, wanted.axis);
   }
   /// Visits segments, struts and beams with their numbers among all bars.
   template <class Visit>
@@ -250,21 +272,18 @@ class Condensation {
     return normal.dot(apart) / std::sqrt(2 * line.length);
   }
 
-  /// Of a joint by the displacements of the last solution, to first order.
-  Real kappa_change(int c, int j) const {
+  /// Of the cable at a joint by the displacements of the last solution, to first order.
+  Real bend_change(int c, int j) const {
     const auto& cable = scene_->cables[c];
     const auto at = scene_->joint_nodes(cable, j);
-    const auto& elements = structure_.elements();
-    const auto& joint = elements.joints[cable.first_joint + j];
     JointLean<Real, dimension> lean;
     for (int axis = 0; axis < dimension; ++axis) {
       const Real here = structure_.node_displacement(at.at, axis);
       lean.before[axis] = structure_.node_displacement(at.before, axis) - here;
       lean.after[axis] = structure_.node_displacement(at.after, axis) - here;
     }
-    return lean.kappa_change(joint,
-                             Line<Real, dimension>::between(scene_->nodes[at.at], scene_->nodes[at.before]),
-                             Line<Real, dimension>::between(scene_->nodes[at.at], scene_->nodes[at.after]));
+    return lean.bend_change(Line<Real, dimension>::between(scene_->nodes[at.at], scene_->nodes[at.before]),
+                            Line<Real, dimension>::between(scene_->nodes[at.at], scene_->nodes[at.after]));
   }
 
   Real nodal_force(int load, int node, int axis) const {
@@ -276,9 +295,7 @@ class Condensation {
 
   const SceneType* scene_ = nullptr;
   const Geometry* geometry_ = nullptr;
-  CondensedBeams<Scalar, Cap>* beams_ = nullptr;
-  CondensedLean<Scalar, Cap>* leaning_ = nullptr;
-  StrutsByBar<Scalar, Cap>* strut_by_bar_ = nullptr;
+  CondensationRequest<Scalar, Cap> asked_;
   Solver structure_;
 };
 

@@ -18,6 +18,12 @@ namespace taut {
 template <class Cap>
 constexpr bool has_rigid_saddles = Cap::struts == 0 && Cap::beams == 0 && Cap::substructures == 0;
 
+/// The part of both tensions together that friction can hold back, from rho: Eq. (3).
+template <class Real>
+constexpr Real kappa_of(Real rho) {
+  return (1 - rho) / (1 + rho);
+}
+
 /// Tensions of all segments from elongations imposed on them, all joints stuck: the matrix C of Eq. (8)
 /// [N/m], column by column. It is symmetric but in second-order theory, whose level follows.
 template <class Scalar, int Segments>
@@ -202,9 +208,10 @@ using CondensedStruts = CondensedRows<Wide<Scalar>, Cap::struts, Cap>;
 template <class Scalar, class Cap>
 using CondensedBeams = CondensedRows<Wide<Scalar>, Cap::beams, Cap>;
 
-/// The rows that give by how much displacements change kappa of every joint [-], Eq. (44).
+/// The rows that give by what part of itself displacements change the bend of the cable at every joint [-],
+/// Eq. (44).
 template <class Scalar, class Cap>
-using CondensedGrips = CondensedRows<Wide<Scalar>, Cap::joints, Cap>;
+using CondensedBends = CondensedRows<Wide<Scalar>, Cap::joints, Cap>;
 
 /// Segments, struts and beams, in this order.
 template <class Cap>
@@ -214,7 +221,9 @@ constexpr int max_bars = Cap::segments + Cap::struts + Cap::beams;
 template <class Scalar, class Cap>
 struct CondensedLean {
   using Real = Wide<Scalar>;
-  CondensedGrips<Scalar, Cap> grips;
+  CondensedBends<Scalar, Cap> bends;
+  /// By what part of itself kappa changes where the bend does by such a part.
+  FixedArray<Real, Cap::joints> grip_by_bend;
   /// By how much the ends of every bar move apart across it, for each normal, by the root of twice its
   /// length: their squares are what leaning lengthens it by [m^1/2].
   CondensedRows<Real, max_bars<Cap> * Cap::normals, Cap> aside;
@@ -233,9 +242,10 @@ struct CondensedLean {
   }
 };
 
-/// Strut forces from a unit elongation of every strut and, after Capacity::struts, of every beam [N/m].
-template <class Scalar, class Cap>
-using StrutsByBar = FixedArray<FixedArray<Wide<Scalar>, Cap::struts>, Cap::struts + Cap::beams>;
+/// What `Count` numbers of the state change by with a unit elongation of every strut and, after
+/// Capacity::struts, of every beam.
+template <class Real, int Count, class Cap>
+using RowsByBar = FixedArray<FixedArray<Real, Count>, Cap::struts + Cap::beams>;
 
 /// A displacement: of a node, along an axis (0, 1 or 2).
 struct NodeAxis {
@@ -243,13 +253,16 @@ struct NodeAxis {
   int axis = 0;
 };
 
+/// Displacements that there are rows for. Rigid saddles need none: nothing moves.
+template <class Cap>
+constexpr int max_displacements = has_rigid_saddles<Cap> ? 0 : Cap::displacements;
+
 /// On request: the rows that give displacements of nodes [m], at most Capacity::displacements. Which ones is
-/// chosen with add() before Condensation::run(), which fills the rows. Rigid saddles need no rows: nothing
-/// moves.
-template <class Scalar, class Cap>
+/// chosen with add() before Condensation::run(), which fills the rows; LevelRows in second-order theory.
+template <class Scalar, class Cap, class Rows = CondensedRows<Wide<Scalar>, max_displacements<Cap>, Cap>>
 struct CondensedDisplacements {
   FixedList<NodeAxis, Cap::displacements> of;
-  CondensedRows<Wide<Scalar>, has_rigid_saddles<Cap> ? 0 : Cap::displacements, Cap> rows;
+  Rows rows;
 
   /// Chooses a displacement; returns its number, -1 if there is no room.
   constexpr int add(int node, int axis) { return of.add({node, axis}); }
@@ -261,8 +274,8 @@ struct CondensedDisplacements {
   }
 
   /// The displacements [m] at the loads `drive` (a Drive) and the elongations e [m] of the segments.
-  template <class Loads, class Elongations>
-  constexpr void evaluate(const Condensed<Scalar, Cap>& model, const Loads& drive, const Elongations& e,
+  template <class Model, class Loads, class Elongations>
+  constexpr void evaluate(const Model& model, const Loads& drive, const Elongations& e,
                           FixedArray<Scalar, Cap::displacements>& displacements) const {
     displacements.fill(Scalar(0));
     rows.evaluate(model, drive, e, displacements);

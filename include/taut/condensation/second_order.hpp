@@ -8,56 +8,60 @@
 
 namespace taut {
 
-/// The part of both tensions together that friction can hold back, from rho: Eq. (3).
-template <class Real>
-constexpr Real kappa_of(Real rho) {
-  return (1 - rho) / (1 + rho);
-}
-
-/// The rows that give strut forces in second-order theory: between two levels straight lines, and what bars
-/// that lean add by their length, Eq. (45).
-template <class Scalar, class Cap>
-struct LevelStruts {
+/// The rows that give `Count` numbers of the state in second-order theory: between two levels straight lines,
+/// and what bars that lean add by their length, Eq. (45). An aggregate, too.
+template <class Scalar, int Count, class Cap>
+struct LevelRows {
   using Real = Wide<Scalar>;
   using Stretches = FixedArray<Real, max_bars<Cap>>;
 
-  CondensedStruts<Scalar, Cap> low, high;
-  StrutsByBar<Scalar, Cap> by_bar;
+  CondensedRows<Real, Count, Cap> low, high;
+  RowsByBar<Real, Count, Cap> by_bar;
+  int count = 0;  ///< rows in use
 
-  /// All forces [N] at these loads and elongations, of which `model` is the LevelModel. Costs (bars +
-  /// segments + struts) x segments.
+  /// All numbers in use at these loads and elongations [m], of which `model` is the LevelModel. Costs (bars +
+  /// segments + count) x segments.
   template <class Model, class Loads, class Elongations, class Number, int Size>
   void evaluate(const Model& model, const Loads& drive, const Elongations& e,
-                FixedArray<Number, Size>& forces) const {
+                FixedArray<Number, Size>& numbers) const {
+    static_assert(Count <= Size, "there is room for every number");
     Stretches q;
     model.stretches_at(drive, e, q);
     const Real sum = model.sum_at(drive, e);
-    for (int i = 0; i < model.lean().struts; ++i)
-      forces[i] = static_cast<Number>(force_of(i, model, drive, e, sum, q));
+    for (int i = 0; i < count; ++i) numbers[i] = static_cast<Number>(at(i, model, drive, e, sum, q));
   }
+  /// One of them, where all tensions together are `sum` [N] and bars are lengthened by `q` [m].
   template <class Model, class Loads, class Elongations>
-  Real force_of(int strut, const Model& model, const Loads& drive, const Elongations& e, Real sum,
-                const Stretches& q) const {
-    const Real below = number_of(low, strut, model, drive, e);
-    Real force = below + Model::Source::part(sum / model.target_force) *
-                             (number_of(high, strut, model, drive, e) - below);
+  Real at(int i, const Model& model, const Loads& drive, const Elongations& e, Real sum,
+          const Stretches& q) const {
+    const Real below = number_of(low, i, model, drive, e);
+    Real number =
+        below + Model::Source::part(sum / model.target_force) * (number_of(high, i, model, drive, e) - below);
     model.lean().for_each_bar(model.segments, [&](int b) {
-      force += q[b] * (b < Cap::segments ? high.elongation[b][strut] : by_bar[b - Cap::segments][strut]);
+      number += q[b] * (b < Cap::segments ? high.elongation[b][i] : by_bar[b - Cap::segments][i]);
     });
-    return force;
+    return number;
   }
 };
 
+/// On request: the rows that give strut forces [N], tension positive.
+template <class Scalar, class Cap>
+using LevelStruts = LevelRows<Scalar, Cap::struts, Cap>;
+/// On request: the rows that give displacements of nodes [m], see CondensedDisplacements.
+template <class Scalar, class Cap>
+using LevelDisplacements =
+    CondensedDisplacements<Scalar, Cap, LevelRows<Scalar, max_displacements<Cap>, Cap>>;
+
 /// As number_of() and change_of() of CondensedRows; the change at the level of the model.
-template <class Scalar, class Cap, class Model, class Loads, class Elongations>
-Wide<Scalar> number_of(const LevelStruts<Scalar, Cap>& rows, int i, const Model& model, const Loads& drive,
-                       const Elongations& e) {
-  typename LevelStruts<Scalar, Cap>::Stretches q;
+template <class Scalar, int Count, class Cap, class Model, class Loads, class Elongations>
+Wide<Scalar> number_of(const LevelRows<Scalar, Count, Cap>& rows, int i, const Model& model,
+                       const Loads& drive, const Elongations& e) {
+  typename LevelRows<Scalar, Count, Cap>::Stretches q;
   model.stretches_at(drive, e, q);
-  return rows.force_of(i, model, drive, e, model.sum_at(drive, e), q);
+  return rows.at(i, model, drive, e, model.sum_at(drive, e), q);
 }
-template <class Scalar, class Cap, class Model, class Elongations>
-Wide<Scalar> change_of(const LevelStruts<Scalar, Cap>& rows, int i, const Model& model,
+template <class Scalar, int Count, class Cap, class Model, class Elongations>
+Wide<Scalar> change_of(const LevelRows<Scalar, Count, Cap>& rows, int i, const Model& model,
                        const Elongations& e) {
   const auto low = change_of(rows.low, i, model, e);
   return low + Model::Source::part(model.anchor.level) * (change_of(rows.high, i, model, e) - low);
@@ -103,8 +107,9 @@ template <class Real, int Count, class Cap>
 constexpr const CondensedRows<Real, Count, Cap>& linear_part(const CondensedRows<Real, Count, Cap>& rows) {
   return rows;
 }
-template <class Scalar, class Cap>
-constexpr const CondensedStruts<Scalar, Cap>& linear_part(const LevelStruts<Scalar, Cap>& rows) {
+template <class Scalar, int Count, class Cap>
+constexpr const CondensedRows<Wide<Scalar>, Count, Cap>& linear_part(
+    const LevelRows<Scalar, Count, Cap>& rows) {
   return rows.low;
 }
 
@@ -140,6 +145,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   Anchor anchor;
   Real target_force = 0;             ///< T* of all segments together [N]
   Real least_sum = 0, most_sum = 0;  ///< of all tensions, while this step holds [N]
+  Kappas bend;                       ///< by what part of itself cot(alpha) has changed: Eq. (44)
   Kappas grip;                       ///< kappa of the displaced geometry, as a part of that of the scene
 
   /// Begins without tension, with the geometry of the scene.
@@ -287,11 +293,10 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   }
   /// Friction of the displaced geometry, Eq. (44). A joint that locks itself, or has no friction, stays so.
   void take_friction() {
-    Kappas change;
-    source_->lean.grips.evaluate(*this, anchor, anchor.e, change);
+    lean().bends.evaluate(*this, anchor, anchor.e, bend);
     for (int j = 0; j < this->joints; ++j) {
-      const Real flat = source_->low.rho[j], kappa = kappa_of(flat);
-      grip[j] = kappa > 0 ? larger(Real(0), 1 + change[j] / kappa) : Real(1);
+      const Real flat = source_->low.rho[j];
+      grip[j] = larger(Real(0), 1 + lean().grip_by_bend[j] * bend[j]);
       if (!this->is_locked(j)) this->rho[j] = scaled(flat, grip[j]);
     }
   }

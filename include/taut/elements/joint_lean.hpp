@@ -1,4 +1,4 @@
-// How displacements of a joint and its neighbours change what friction can hold there.
+// How displacements of a joint and its neighbours change the bend of the cable, and what friction can hold.
 #pragma once
 
 #include "taut/elements/friction_element.hpp"
@@ -12,22 +12,24 @@ struct JointLean {
   Vector before;
   Vector after;
 
-  /// The change of kappa of Eq. (3), to first order in the displacements: Eq. (44). `line1` and `line2` lead
-  /// from the joint to its neighbours. A straight cable, whose kappa has no derivative, gives zero.
-  Scalar kappa_change(const FrictionElement<Scalar, Dimension>& joint, const Line<Scalar, Dimension>& line1,
-                      const Line<Scalar, Dimension>& line2) const {
+  /// By what part of itself cot(alpha), the bend of the cable at the joint, changes, to first order in the
+  /// displacements: Eq. (44). `line1` and `line2` lead from the joint to its neighbours. A straight cable has
+  /// no such part; that gives zero.
+  Scalar bend_change(const Line<Scalar, Dimension>& line1, const Line<Scalar, Dimension>& line2) const {
     const Vector e1 = line1.direction, e2 = line2.direction;
     const Vector de1 = (before - e1 * e1.dot(before)) / line1.length;
     const Vector de2 = (after - e2 * e2.dot(after)) / line2.length;
     const Vector sum = e1 + e2, difference = e2 - e1;
     const Scalar s = sum.norm(), d = difference.norm();
     if (!(s > 0) || !(d > 0)) return 0;
-    const Scalar cot = s / d;
-    const Scalar change = (sum.dot(de1 + de2) / s - cot * difference.dot(de2 - de1) / d) / d;
-    if (joint.law == FrictionLaw::point) return joint.mu * change;
-    // kappa = tanh(mu (beta + k s) / 2), and beta = 2 atan(cot).
+    return sum.dot(de1 + de2) / (s * s) - difference.dot(de2 - de1) / (d * d);
+  }
+  /// By what part of itself kappa of Eq. (3) changes where the bend does by such a part: kappa = mu
+  /// cot(alpha) of a point, kappa = tanh(mu (beta + k s) / 2) with beta = 2 atan(cot(alpha)) of a saddle.
+  static Scalar grip_by_bend(const FrictionElement<Scalar, Dimension>& joint) {
     const Scalar kappa = joint.grip.kappa;
-    return (1 - kappa * kappa) * joint.mu * change / (1 + cot * cot);
+    if (joint.law == FrictionLaw::point || !(kappa > 0)) return 1;
+    return (1 - kappa * kappa) * joint.mu * joint.frame.cos_alpha * joint.frame.sin_alpha / kappa;
   }
 };
 

@@ -10,6 +10,7 @@
 #include "taut/estimation/knowledge.hpp"
 #include "taut/estimation/prediction.hpp"
 #include "taut/estimation/sliding_check.hpp"
+#include "taut/numerics/larger.hpp"
 #include "taut/scene/capacity.hpp"
 #include "taut/status.hpp"
 #include "taut/tracking/tracker.hpp"
@@ -162,8 +163,9 @@ class FrictionFilter {
   bool matters(const TrackerType& tracker, int c, int cable, Scalar sd) const {
     return c == cable || shows(tracker.model().cables[c], c, sd);
   }
+  /// Whether it is known of every joint of a cable whether it slides.
   bool slides_throughout(const TrackerType& tracker, int c) const {
-    return sliding_.slides_throughout(tracker, c);
+    return sliding_.slides_throughout(tracker, c, [&](int j) { return holds_for_sure(tracker, j); });
   }
   /// Standard deviation of the mu of a cable by that mu, where it is largest [-].
   Scalar relative_deviation(const TrackerType& tracker, int c) const {
@@ -274,6 +276,16 @@ class FrictionFilter {
 
  private:
   using Values = typename BeliefType::Values;
+
+  /// Whether a joint that sticks would with every mu that is likely. Struts that the cable alone holds hardly
+  /// ever let it slide: what they leave to friction follows from how they lean.
+  bool holds_for_sure(const TrackerType& tracker, int joint) const {
+    if constexpr (TrackerType::Model::has_level) {
+      const Scalar least = mu(joint) - 2 * mu_deviation(joint);
+      return tracker.friction_used(joint) * mu(joint) < larger(least, mu(joint) / 4);
+    }
+    return false;
+  }
 
   void depend(int c, int j, int p, Scalar weight) {
     unknown_of_[j] = static_cast<std::int16_t>(p);

@@ -23,17 +23,20 @@ class SecondOrderCondensation {
   /// forces at the target that are too small or push it away; with `out_of_range` where no cable has tension
   /// at the target. Where a strut runs away before the target, the forces there are taken in proportion.
   ///
-  /// `target` are the loads and jack forces of the state whose geometric stiffness is taken. Costs eight
+  /// `target` are the loads and jack forces of the state whose geometric stiffness is taken. `displacements`,
+  /// if given, receives the rows for the displacements that were chosen in it. Costs eight
   /// condensations, each with a solve more for every strut and beam, and three ways to the target.
   Status run(const SceneType& scene, const Sample<Scalar, Cap>& target, Model& condensed,
-             typename Model::Struts* struts = nullptr, const Real* substructure_geometry = nullptr) {
+             typename Model::Struts* struts = nullptr, const Real* substructure_geometry = nullptr,
+             LevelDisplacements<Scalar, Cap>* displacements = nullptr) {
     geometry_ = {};
     geometry_.substructure_entries = substructure_geometry;
     find_guess(scene, target);
     for (int round = 0;; ++round) {
-      const Status status =
-          condense(scene, condensed, round < rounds || struts == nullptr ? struts_ : *struts);
-      if (!status || round == rounds) return status;
+      const bool is_last = round == rounds;
+      const Status status = condense(scene, condensed, !is_last || struts == nullptr ? struts_ : *struts,
+                                     is_last ? displacements : nullptr);
+      if (!status || is_last) return status;
       if (!take_forces(condensed, target)) round = rounds - 1;
     }
   }
@@ -56,16 +59,32 @@ class SecondOrderCondensation {
             most > 0 ? most : static_cast<Real>(cable.E * cable.A) * static_cast<Real>(scene.prestrain[i]);
   }
   /// At both levels, with the forces known so far.
-  Status condense(const SceneType& scene, Model& condensed, typename Model::Struts& struts) {
+  Status condense(const SceneType& scene, Model& condensed, typename Model::Struts& struts,
+                  LevelDisplacements<Scalar, Cap>* displacements) {
     condensed.target_force = 0;
     for (int i = 0; i < scene.prestrain.size(); ++i) condensed.target_force += geometry_.segment_force[i];
     if (!(condensed.target_force > 0)) return Status::at(Code::out_of_range, Place::none, 0);
+    struts.count = scene.struts.size();
+    CondensationRequest<Scalar, Cap> request;
+    request.struts = &struts.low;
+    if (displacements != nullptr) {
+      displacements->rows.count = displacements->of.size();
+      request.displaced = &displacements->of;
+      request.displacements = &displacements->rows.low;
+    }
     geometry_.level = Model::low_level;
-    const Status status = condensation_.run(scene, geometry_, condensed.low, &struts.low, nullptr);
+    const Status status = condensation_.run(scene, geometry_, condensed.low, request);
     if (!status) return status;
+    request.struts = &struts.high;
+    request.beams = &beams_;
+    request.lean = &condensed.lean;
+    request.strut_by_bar = &struts.by_bar;
+    if (displacements != nullptr) {
+      request.displacements = &displacements->rows.high;
+      request.displacement_by_bar = &displacements->rows.by_bar;
+    }
     geometry_.level = Model::high_level;
-    return condensation_.run(scene, geometry_, condensed.high, &struts.high, nullptr, &beams_,
-                             &condensed.lean, &struts.by_bar);
+    return condensation_.run(scene, geometry_, condensed.high, request);
   }
   /// What comes of the target with the present geometry; where it is not reached, of where the path ends, in
   /// proportion. False if that is nowhere: then what was stays.

@@ -1,6 +1,8 @@
 // What a tracker answers: forces, moves, joint states, and how they change with the jack's force.
 #pragma once
 
+#include <cmath>
+
 #include "taut/tracking/cable_system.hpp"
 
 namespace taut {
@@ -24,6 +26,21 @@ class TrackedForces {
   /// rho of a joint as it is used now.
   Real rho(int joint) const { return cables_.laws.rho(joint); }
 
+  /// How much of what friction can hold at a joint is used, |T1 - T2| / (kappa (T1 + T2)) [-]: 1 where it
+  /// slides. For a strut whose foot the cable alone holds that is tan(lambda) / mu, lambda being its angle to
+  /// the bisector of the cable; 0 without tension.
+  Scalar friction_used(int joint) const {
+    const auto& sides = cables_.laws.sides(joint);
+    const Real T1 = static_cast<Real>(tension(sides[0])), T2 = static_cast<Real>(tension(sides[1]));
+    const Real held = kappa_of(rho(joint)) * (T1 + T2);
+    return held > 0 ? static_cast<Scalar>(std::fabs(T1 - T2) / held) : Scalar(0);
+  }
+  /// By what part of itself displacements have changed the bend of the cable at a joint since the scene was
+  /// drawn [-]; 0 in linear theory. Second-order theory is at home up to about 0.1.
+  Scalar bend_change(int joint) const {
+    if constexpr (Model::has_level) return static_cast<Scalar>(cables_.model->bend[joint]);
+    return 0;
+  }
   /// Tension of a segment [N], >= 0.
   Scalar tension(int segment) const {
     return cables_.state.tension[segment] > 0 ? cables_.state.tension[segment] : Scalar(0);
