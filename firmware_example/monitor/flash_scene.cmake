@@ -54,8 +54,9 @@ foreach(name IN LISTS names)
     CONFIGURE
       [[struct @type@ {
   using Capacity = ::@name@::Capacity;
-  static constexpr const ::taut::Condensed<float, Capacity>& model() { return ::@name@::condensed<float>; }
-  static constexpr const ::taut::CondensedStruts<float, Capacity>* struts() { return @rows@; }
+  using Model = std::decay_t<decltype(::@name@::condensed<float>)>;
+  static constexpr const Model& model() { return ::@name@::condensed<float>; }
+  static constexpr const Model::Struts* struts() { return @rows@; }
   static constexpr int strut_count = @strut_count@;
   static constexpr const ::taut::Knowledge<float, Capacity>& knowledge() { return ::@name@::knowledge<float>; }
   static constexpr auto strokes() { return @strokes@; }
@@ -76,6 +77,8 @@ file(
   CONTENT
     [[// The exported scenes under names that the application knows. Made by the build: do not edit.
 #pragma once
+
+#include <type_traits>
 
 #include "@header@"
 

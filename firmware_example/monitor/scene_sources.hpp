@@ -8,7 +8,7 @@
 
 #include "monitor/crc32.hpp"
 #include "taut/condensation/condense.hpp"
-#include "taut/condensation/condensed.hpp"
+#include "taut/condensation/second_order.hpp"
 #include "taut/estimation/estimator.hpp"
 #include "taut/estimation/find_knowledge.hpp"
 #include "taut/estimation/gauges.hpp"
@@ -29,13 +29,14 @@ struct Strokes {
   constexpr const taut::StrokeGauge<float>* end() const { return first + size(); }
 };
 
-/// Scenes that `taut export` has condensed, of one capacity: constants in flash. Each has model(),
-/// knowledge(), struts(), strut_count, strokes(), stroke_count and, the same for all, unknowns and
-/// reading_unknowns.
+/// Scenes that `taut export` has condensed, of one capacity and in one theory: constants in flash. Each has
+/// Model, model(), knowledge(), struts(), strut_count, strokes(), stroke_count and, the same for all,
+/// unknowns and reading_unknowns.
 template <class First, class... Others>
 class FromFlash {
  public:
   using Capacity = typename First::Capacity;
+  using Model = typename First::Model;
   static constexpr int scenes = 1 + sizeof...(Others);
   static constexpr int unknowns = First::unknowns, reading_unknowns = First::reading_unknowns;
 
@@ -44,25 +45,25 @@ class FromFlash {
     number_ = number;
     return taut::Status::success();
   }
-  const taut::Condensed<float, Capacity>& model() const { return *present().model; }
+  const Model& model() const { return *present().model; }
   const taut::Knowledge<float, Capacity>& knowledge() const { return *present().knowledge; }
-  const taut::CondensedStruts<float, Capacity>* struts() const { return present().struts; }
+  const typename Model::Struts* struts() const { return present().struts; }
   int strut_count() const { return present().strut_count; }
   using StrokesType = Strokes<std::max({First::stroke_count, Others::stroke_count...})>;
   StrokesType strokes() const { return {present().strokes, present().stroke_count}; }
 
  private:
   struct Parts {
-    const taut::Condensed<float, Capacity>* model;
+    const Model* model;
     const taut::Knowledge<float, Capacity>* knowledge;
-    const taut::CondensedStruts<float, Capacity>* struts;
+    const typename Model::Struts* struts;
     int strut_count;
     const taut::StrokeGauge<float>* strokes;
     int stroke_count;
   };
   template <class Exported>
   static constexpr Parts parts_of() {
-    static_assert(std::is_same_v<typename Exported::Capacity, Capacity> && Exported::unknowns == unknowns &&
+    static_assert(std::is_same_v<typename Exported::Model, Model> && Exported::unknowns == unknowns &&
                       Exported::reading_unknowns == reading_unknowns,
                   "scenes that share their memory are exported together");
     return {&Exported::model(),    &Exported::knowledge(), Exported::struts(),
@@ -103,6 +104,7 @@ class CondensedAtStartUp {
  public:
   using SceneType = std::decay_t<decltype(scene)>;
   using Capacity = typename SceneType::Capacity;
+  using Model = taut::Condensed<float, Capacity>;
   static constexpr int scenes = 1;
   static constexpr int unknowns = most_unknowns(scene).carried,
                        reading_unknowns = most_unknowns(scene).further;
@@ -112,29 +114,25 @@ class CondensedAtStartUp {
     if (status) taut::find_knowledge(scene, knowledge_);
     return status;
   }
-  const taut::Condensed<float, Capacity>& model() const { return condensed_; }
+  const Model& model() const { return condensed_; }
   const taut::Knowledge<float, Capacity>& knowledge() const { return knowledge_; }
-  const taut::CondensedStruts<float, Capacity>* struts() const { return &struts_; }
+  const typename Model::Struts* struts() const { return &struts_; }
   static constexpr int strut_count() { return scene.struts.size(); }
   using StrokesType = Strokes<0>;
   static constexpr StrokesType strokes() { return {}; }
 
  private:
   taut::Condensation<float, SceneType> condensation_;
-  taut::Condensed<float, Capacity> condensed_;
+  Model condensed_;
   taut::Knowledge<float, Capacity> knowledge_;
   taut::CondensedStruts<float, Capacity> struts_;
 };
 
-/// A number that changes with everything that the scene's answers depend on.
-template <class Capacity, class StrokesType = Strokes<0>>
-std::uint32_t fingerprint(const taut::Condensed<float, Capacity>& model,
-                          const taut::Knowledge<float, Capacity>& knowledge,
-                          const StrokesType& strokes = {}) {
-  Crc32 crc;
+/// Adds what answers depend on, but what lies between the fields.
+template <class Capacity>
+void add_scene(Crc32& crc, const taut::Condensed<float, Capacity>& model) {
   const auto add = [&crc](const auto& value) { crc.add(&value, sizeof value); };
   for (const auto& cable : model.cables) {
-    // Field by field: what lies between them is undefined.
     add(cable.closed);
     add(cable.ends);
     add(cable.seating);
@@ -150,13 +148,42 @@ std::uint32_t fingerprint(const taut::Condensed<float, Capacity>& model,
   if constexpr (Capacity::loads > 0) add(model.load);
   if constexpr (Capacity::loads > 0) add(model.most_factor);
   add(model.most_force);
+  if constexpr (Capacity::joints > 0) add(model.rho);
+}
+/// In second-order theory also what displacements change.
+template <class Capacity>
+void add_scene(Crc32& crc, const taut::SecondOrder<float, Capacity>& model) {
+  add_scene(crc, model.low);
+  add_scene(crc, model.high);
+  const auto add = [&crc](const auto& value) { crc.add(&value, sizeof value); };
+  const auto add_rows = [&](const auto& rows) {
+    if constexpr (Capacity::loads > 0) add(rows.load);
+    add(rows.prestrain);
+    add(rows.elongation);
+  };
   if constexpr (Capacity::joints > 0) {
-    add(model.rho);
+    add_rows(model.lean.bends);
+    add(model.lean.grip_by_bend);
+  }
+  add_rows(model.lean.aside);
+  if constexpr (Capacity::struts + Capacity::beams > 0) add(model.lean.tension_by_bar);
+  add(model.target_force);
+}
+
+/// A number that changes with everything that the scene's answers depend on.
+template <class Model, class KnowledgeType, class StrokesType = Strokes<0>>
+std::uint32_t fingerprint(const Model& model, const KnowledgeType& knowledge,
+                          const StrokesType& strokes = {}) {
+  Crc32 crc;
+  const auto add = [&crc](const auto& value) { crc.add(&value, sizeof value); };
+  add_scene(crc, model);
+  if constexpr (Model::Capacity::joints > 0) {
     add(knowledge.mu);
     add(knowledge.grip);
     add(knowledge.length);
   }
-  for (int c = 0; c < model.cables.size(); ++c) {
+  const int cables = taut::linear_part(model).cables.size();
+  for (int c = 0; c < cables; ++c) {
     add(knowledge.capstan[c]);
     add(knowledge.mu_sd[c]);
     add(knowledge.shared[c]);

@@ -51,7 +51,7 @@ template <class Source, class Settings>
 class Session {
  public:
   using Cap = typename Source::Capacity;
-  using Model = taut::Condensed<float, Cap>;
+  using Model = typename Source::Model;
   using Estimator = taut::Estimator<Model, Source::unknowns, Source::reading_unknowns>;
   using Findings = typename Estimator::Alarms;
   using Past = std::conditional_t<Settings::doubts_past, taut::UnknownPast<Estimator>, KnownPast<Estimator>>;
@@ -94,18 +94,22 @@ class Session {
     outcome_ = {};
     outcome_.status = source_.prepare(number);
     if (outcome_.status)
-      outcome_.status = estimator_.start(model(), knowledge(), alarm_limits(), source_.strokes()).status;
+      outcome_.status =
+          estimator_.start(source_.model(), knowledge(), alarm_limits(), source_.strokes()).status;
     outcome_.quality = outcome_.status ? Quality::held : Quality::none;
     usable_ = outcome_.status.ok();
     return outcome_.status;
   }
   bool usable() const { return usable_; }
-  const Model& model() const { return source_.model(); }
+  /// The counts and the layout of its cables: what it says in whichever theory.
+  const taut::Condensed<float, Cap>& model() const { return taut::linear_part(source_.model()); }
   const taut::Knowledge<float, Cap>& knowledge() const { return source_.knowledge(); }
   const Outcome& outcome() const { return outcome_; }
 
   /// What must be the same for a record to be read back.
-  std::uint32_t maker() const { return usable_ ? fingerprint(model(), knowledge(), source_.strokes()) : 0; }
+  std::uint32_t maker() const {
+    return usable_ ? fingerprint(source_.model(), knowledge(), source_.strokes()) : 0;
+  }
   /// The state, until the next call; above_size() says whether there is more.
   const State& save() {
     kept_.cells = cells_;
@@ -133,13 +137,15 @@ class Session {
     outcome_ = kept_.outcome;
     waited_ = kept_.waited;
     findings_ = kept_.findings;
-    return estimator_.restore(model(), knowledge(), kept_.estimator, alarm_limits(), source_.strokes()).ok();
+    return estimator_
+        .restore(source_.model(), knowledge(), kept_.estimator, alarm_limits(), source_.strokes())
+        .ok();
   }
   /// After restore(), whether there is a second estimator or not.
   bool restore_past() {
     if constexpr (Settings::doubts_past) {
-      const taut::Status status =
-          past_.restore(kept_.past, kept_.estimator, model(), knowledge(), alarm_limits(), source_.strokes());
+      const taut::Status status = past_.restore(kept_.past, kept_.estimator, source_.model(), knowledge(),
+                                                alarm_limits(), source_.strokes());
       return status.ok();
     }
     return true;
@@ -184,9 +190,9 @@ class Session {
     }
     readings_.dt += waited_;
     waited_ = 0;
-    past_.look(model(), knowledge(), readings_);
+    past_.look(source_.model(), knowledge(), readings_);
     keep_strokes();
-    past_.withhold(model(), readings_);
+    past_.withhold(source_.model(), readings_);
     Way below, above;
     if (!past_.is_unknown()) above.rest = 0;
     for (int call = 0; call < Settings::most_calls && !(below.is_over() && above.is_over()); ++call) {
@@ -198,7 +204,8 @@ class Session {
       }
       if (call == 0) findings_ = estimator_.alarms();
       if (!above.is_over()) {
-        above.add(past_.advance(model(), knowledge(), alarm_limits(), source_.strokes(), readings_, budget));
+        above.add(past_.advance(source_.model(), knowledge(), alarm_limits(), source_.strokes(), readings_,
+                                budget));
         feed();
       }
       // They are taken; what follows is the rest of the path.
