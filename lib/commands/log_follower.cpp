@@ -1,6 +1,8 @@
 #include "lib/commands/log_follower.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -17,6 +19,7 @@
 #include "lib/files/scene_file.hpp"
 #include "lib/files/status_text.hpp"
 #include "lib/files/text.hpp"
+#include "lib/kinds/capacities.hpp"
 #include "lib/kinds/condensed_arrays.hpp"
 
 namespace taut::host {
@@ -24,6 +27,7 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 28;
 constexpr const char* standard_input = "standard input";
+constexpr double most_bend_change = 0.1;
 constexpr const char* under_load =
     "the log begins under load: until the cables have slid over all joints their forces are those of any "
     "past; --state FILE goes on from the log before";
@@ -40,6 +44,22 @@ LogRules rules_for(const RunOptions& options, const SceneDescription& scene) {
     for (const CableDescription& cable : scene.cables)
       rules.most_plausible_force.push_back(largest_plausible_strain * cable.E * cable.A);
   return rules;
+}
+
+// With what is asked for beyond the columns of every result.
+SceneDescription scene_for(const RunOptions& options) {
+  SceneDescription scene = read_scene_file(options.scene);
+  const std::vector<std::string>& names = options.choice.columns;
+  if (options.method == Method::stepwise)
+    for (const std::string& further : further_columns(scene, ResultColumns::state))
+      if (std::find(names.begin(), names.end(), further) != names.end())
+        throw InputError("--columns", "", "the method stepwise does not give " + quote(further),
+                         "leave the column out, or use the method tracker");
+  if (options.method == Method::tracker) scene.displaced = displacements_among(names, scene);
+  if (scene.displaced.size() > static_cast<std::size_t>(most_displacements))
+    throw InputError("--columns", "", std::to_string(scene.displaced.size()) + " displacements are too many",
+                     "ask for at most " + std::to_string(most_displacements));
+  return scene;
 }
 
 std::string name_of(ScalarType scalar) { return scalar == ScalarType::float32 ? "float" : "double"; }
@@ -66,7 +86,7 @@ std::string reason_to_stop(const Followed& path, const SceneDescription& scene) 
 
 LogFollower::LogFollower(const RunOptions& options)
     : options_(options),
-      scene_(read_scene_file(options.scene)),
+      scene_(scene_for(options)),
       model_(make_model(scene_, options.method, options.numbers.scalar, options.limits)),
       rules_(rules_for(options, scene_)) {
   keep_inputs(options.output, {options.scene, options.log, options.state});
@@ -157,6 +177,7 @@ std::string LogFollower::follow(LogReader& log, const RowVisitor& visit) {
     model_->read(answer);
     if (const std::string number = impossible_number(scene_, answer); !number.empty())
       return place(row) + ": " + number + "; " + remedy_of_impossible_numbers;
+    warn_of_bend(row, answer);
     if (options_.method == Method::estimate) answer.verdict = verdict_.take(answer.alarms);
     visit(row, answer);
     progress.reach(row.row);
@@ -164,6 +185,27 @@ std::string LogFollower::follow(LogReader& log, const RowVisitor& visit) {
   last_ = row;
   origin_ = log.origin();
   return "";
+}
+
+// Once, where displacements become too large for second-order theory.
+void LogFollower::warn_of_bend(const LogRow& row, const Answer& answer) {
+  if (bends_too_far_) return;
+  int joint = 0;
+  for (std::size_t c = 0; c < scene_.cables.size(); ++c)
+    for (std::size_t j = 0; j < scene_.cables[c].joints(); ++j, ++joint) {
+      const double change = static_cast<std::size_t>(joint) < answer.bend_change.size()
+                                ? answer.bend_change[static_cast<std::size_t>(joint)]
+                                : 0;
+      if (!(std::fabs(change) > most_bend_change)) continue;
+      std::array<char, 16> percent{};
+      std::snprintf(percent.data(), percent.size(), "%.0f %%", 100 * std::fabs(change));
+      bends_too_far_ = true;
+      return remark(
+          place(row) + ": " + joint_text(scene_, static_cast<int>(c), static_cast<int>(j)) +
+          ": the cable is bent by " + percent.data() + (change < 0 ? " less" : " more") +
+          " than in the scene; second-order theory is made for a tenth: beyond it compare with a program for "
+          "large displacements");
+    }
 }
 
 // Before the row is followed.

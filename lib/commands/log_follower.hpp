@@ -61,6 +61,7 @@ class LogFollower {
   void begin();
   std::string follow(LogReader& log, const RowVisitor& visit);
   void take_first_load(const LogRow& row);
+  void warn_of_bend(const LogRow& row, const Answer& answer);
   void remark_on_left_out(const LogReader& log);
   void remark_on_columns(const LogReader& log);
   void remark_on_substeps();
@@ -80,6 +81,7 @@ class LogFollower {
   LogRow last_;
   std::optional<Moment> origin_;  // of its time
   std::vector<std::string> remarks_;
+  bool bends_too_far_ = false;  // and that has been said
 };
 
 /// Why a model came no further.

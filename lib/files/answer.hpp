@@ -17,6 +17,9 @@ struct Answer {
   std::vector<JointState> state;
   std::vector<std::array<double, 2>> payout;
   std::vector<double> strut;
+  std::vector<double> friction_used;     ///< of every joint: 1 where it slides; not of the method stepwise
+  std::vector<double> bend_change;       ///< of the cable at every joint, by itself; 0 in linear theory
+  std::vector<double> displacement;      ///< those of SceneDescription::displaced [m]
   std::vector<double> deviation;         ///< of the tensions [N]; of `estimate` alone, like the rest
   std::vector<double> mu, mu_deviation;  ///< of every joint
   std::string alarms;                    ///< in words, separated by blanks

@@ -41,6 +41,7 @@ class Line {
   void number(const std::vector<double>& values, std::size_t first, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) number(values[first + i]);
   }
+  void skip() { ++column_; }
   void field(const std::string& field) {
     if (std::string* const text = next()) *text += field;
   }
@@ -68,6 +69,23 @@ class Line {
   std::size_t column_ = 0;
 };
 
+std::string displacement_name(const NodeDescription& node, int axis) { return node.name + '.' + "xyz"[axis]; }
+
+// Of all nodes; those that were not asked for are not written.
+void add_displacements(const SceneDescription& scene, const Answer& answer, Line& line) {
+  std::size_t given = 0;
+  for (std::size_t node = 0; node < scene.nodes.size(); ++node)
+    for (int axis = 0; axis < scene.dimension; ++axis) {
+      const bool is_next = given < scene.displaced.size() &&
+                           scene.displaced[given].node == static_cast<int>(node) &&
+                           scene.displaced[given].axis == axis;
+      if (is_next)
+        line.number(answer.displacement[given++]);
+      else
+        line.skip();
+    }
+}
+
 using host::is_possible;
 
 bool is_possible(const Answer& answer) {
@@ -75,8 +93,8 @@ bool is_possible(const Answer& answer) {
     return std::all_of(numbers.begin(), numbers.end(), [](double number) { return is_possible(number); });
   };
   return all(answer.tension) && all(answer.slip) && all(answer.contact) && all(answer.friction) &&
-         all(answer.strut) && all(answer.deviation) && all(answer.mu) && all(answer.mu_deviation) &&
-         std::all_of(answer.payout.begin(), answer.payout.end(), all);
+         all(answer.strut) && all(answer.displacement) && all(answer.deviation) && all(answer.mu) &&
+         all(answer.mu_deviation) && std::all_of(answer.payout.begin(), answer.payout.end(), all);
 }
 
 }  // namespace
@@ -166,9 +184,31 @@ std::vector<std::string> result_columns(const SceneDescription& scene, ResultCol
   return names;
 }
 
+std::vector<std::string> further_columns(const SceneDescription& scene, ResultColumns columns) {
+  std::vector<std::string> names;
+  for (const CableDescription& cable : scene.cables)
+    for (std::size_t j = 1; j <= cable.joints(); ++j)
+      names.push_back(cable.name + ".used" + std::to_string(j));
+  if (columns == ResultColumns::state)
+    for (const NodeDescription& node : scene.nodes)
+      for (int axis = 0; axis < scene.dimension; ++axis) names.push_back(displacement_name(node, axis));
+  return names;
+}
+
+std::vector<DisplacementDescription> displacements_among(const std::vector<std::string>& names,
+                                                         const SceneDescription& scene) {
+  std::vector<DisplacementDescription> among;
+  for (std::size_t node = 0; node < scene.nodes.size(); ++node)
+    for (int axis = 0; axis < scene.dimension; ++axis)
+      if (std::find(names.begin(), names.end(), displacement_name(scene.nodes[node], axis)) != names.end())
+        among.push_back({static_cast<int>(node), axis});
+  return among;
+}
+
 ResultSelection select_columns(const std::vector<std::string>& names, const SceneDescription& scene,
                                ResultColumns columns) {
-  const std::vector<std::string> known = result_columns(scene, columns);
+  std::vector<std::string> known = result_columns(scene, columns);
+  for (const std::string& name : further_columns(scene, columns)) known.push_back(name);
   std::vector<std::size_t> chosen = {0};
   for (const std::string& name : names) {
     const auto found = std::find(known.begin(), known.end(), name);
@@ -188,6 +228,8 @@ std::string result_header(const SceneDescription& scene, ResultColumns columns,
                           const ResultSelection& selection) {
   Line line(NumberFormat{}, selection);
   for (const std::string& name : result_columns(scene, columns)) line.field(name);
+  if (!selection.is_all())
+    for (const std::string& name : further_columns(scene, columns)) line.field(name);
   return line.finished();
 }
 
@@ -222,6 +264,9 @@ std::string result_row(const SceneDescription& scene, double time, const Answer&
     }
     for (const std::string* words : {&answer.alarms, &answer.notices, &answer.verdict}) line.field(*words);
   }
+  if (selection.is_all()) return line.finished();
+  line.number(answer.friction_used, 0, answer.friction_used.size());
+  if (columns == ResultColumns::state) add_displacements(scene, answer, line);
   return line.finished();
 }
 

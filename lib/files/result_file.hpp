@@ -37,6 +37,14 @@ enum class ResultColumns { state, estimate };
 /// Names of these columns in their order.
 std::vector<std::string> result_columns(const SceneDescription& scene, ResultColumns columns);
 
+/// Names of the columns that are written where select_columns() names them: how much of friction is used at
+/// every joint and, for `state`, the displacements of all nodes.
+std::vector<std::string> further_columns(const SceneDescription& scene, ResultColumns columns);
+
+/// The displacements among these names, in the order of further_columns().
+std::vector<DisplacementDescription> displacements_among(const std::vector<std::string>& names,
+                                                         const SceneDescription& scene);
+
 /// `time`, and then the columns with these names in this order; a name that is there again has no effect.
 /// Throws InputError for a name that no column has.
 ResultSelection select_columns(const std::vector<std::string>& names, const SceneDescription& scene,

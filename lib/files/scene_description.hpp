@@ -125,6 +125,12 @@ struct TargetDescription {
   std::vector<std::array<double, 2>> force;  ///< of the jacks of every cable [N]
 };
 
+/// The displacement of a node along an axis, from 0.
+struct DisplacementDescription {
+  int node = 0;
+  int axis = 0;
+};
+
 /// A whole scene file. References are indices into `nodes` and `cables`.
 struct SceneDescription {
   std::string file;  ///< where it comes from, for messages
@@ -137,7 +143,8 @@ struct SceneDescription {
   std::vector<CableDescription> cables;
   std::vector<SubstructureDescription> substructures;
   std::vector<LoadDescription> loads;
-  std::optional<TargetDescription> second_order;  ///< absent: linear theory
+  std::optional<TargetDescription> second_order;   ///< absent: linear theory
+  std::vector<DisplacementDescription> displaced;  ///< not in the file: whose displacements are asked for
 };
 
 /// `start` or `end`.

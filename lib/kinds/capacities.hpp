@@ -10,11 +10,14 @@
 
 namespace taut::host {
 
+/// Displacements that can be asked for at once.
+constexpr int most_displacements = 48;
+
 struct Small : Capacity {
   static constexpr const char* name = "small";
   static constexpr int nodes = 24, struts = 64, beams = 32, cables = 4, segments = 16, joints = 12;
   static constexpr int substructures = 4, substructure_nodes = 8, substructure_entries = 576;
-  static constexpr int loads = 8, forces = 64, temperatures = 8;
+  static constexpr int loads = 8, forces = 64, temperatures = 8, displacements = most_displacements;
   using Account = FrictionAccount;
 };
 
@@ -22,7 +25,7 @@ struct Large : Capacity {
   static constexpr const char* name = "large";
   static constexpr int nodes = 512, struts = 2048, beams = 1024, cables = 64, segments = 256, joints = 128;
   static constexpr int substructures = 128, substructure_nodes = 256, substructure_entries = 147456;
-  static constexpr int loads = 32, forces = 2048, temperatures = 512;
+  static constexpr int loads = 32, forces = 2048, temperatures = 512, displacements = most_displacements;
   using Account = FrictionAccount;
 };
 

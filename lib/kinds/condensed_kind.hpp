@@ -36,6 +36,8 @@ struct CondensedFor<Scalar, Leaning<Cap>> {
 template <class Scalar, class Cap>
 using CondensedOf = typename detail::CondensedFor<Scalar, Cap>::Type;
 template <class Scalar, class Cap>
+using DisplacementsOf = typename CondensedOf<Scalar, Cap>::Displacements;
+template <class Scalar, class Cap>
 using StrutsOf = typename CondensedOf<Scalar, Cap>::Struts;
 
 /// Whether nothing of the scene is elastic but its cables: no struts, no beams, no substructures, all nodes

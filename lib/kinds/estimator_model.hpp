@@ -85,6 +85,7 @@ class EstimatorModel : public Model {
     if (past_) past_->respond(*estimator_, response);
     read_response(response, scene_, answer);
     read_certainty(*estimator_, scene_, answer);
+    read_lean(estimator_->tracker(), scene_, answer);
     if (!past_) return;
     for (int i = 0; i < linear_part(*condensed_).segments; ++i)
       answer.deviation[static_cast<std::size_t>(i)] =

@@ -79,6 +79,20 @@ void read_response(const Response<Scalar, Cap>& response, const SceneDescription
   for (std::size_t j = 0; j < joints; ++j) answer.state[j] = response.state[static_cast<int>(j)];
 }
 
+/// Copies how much of friction is used, and what displacements have done to the bend of cables.
+template <class TrackerType>
+void read_lean(const TrackerType& tracker, const SceneDescription& scene, Answer& answer) {
+  std::size_t joints = 0;
+  for (const CableDescription& cable : scene.cables) joints += cable.joints();
+  answer.friction_used.resize(joints);
+  answer.bend_change.resize(joints);
+  for (std::size_t j = 0; j < joints; ++j) {
+    const int joint = static_cast<int>(j);
+    answer.friction_used[j] = detail::answered(tracker.friction_used(joint));
+    answer.bend_change[j] = detail::answered(tracker.bend_change(joint));
+  }
+}
+
 /// Copies what an Estimator finds beyond its response.
 template <class EstimatorType>
 void read_certainty(const EstimatorType& estimator, const SceneDescription& scene, Answer& answer) {

@@ -14,12 +14,14 @@ template <class Scalar, class Cap>
 class TrackerModel : public Model {
  public:
   explicit TrackerModel(const SceneDescription& scene)
-      : scene_(scene), condensed_(new CondensedType), struts_(new StrutRows), tracker_(new TrackerType) {}
+      : scene_(scene),
+        condensed_(new CondensedType),
+        struts_(new StrutRows),
+        displacements_(scene.displaced.empty() ? nullptr : new Displacements),
+        tracker_(new TrackerType) {}
 
   Followed start(int) override {
-    const Condensing condensing = scene_.dimension == 2
-                                      ? condense_scene<Scalar, 2, Cap>(scene_, *condensed_, *struts_)
-                                      : condense_scene<Scalar, 3, Cap>(scene_, *condensed_, *struts_);
+    const Condensing condensing = scene_.dimension == 2 ? condense<2>() : condense<3>();
     if (!condensing.status) return {condensing.status, 0};
     return go_on(tracker_->start(*condensed_), {});
   }
@@ -31,14 +33,24 @@ class TrackerModel : public Model {
     Response<Scalar, Cap> response;
     tracker_->respond(response, struts_.get());
     read_response(response, scene_, answer);
+    read_lean(*tracker_, scene_, answer);
+    if (displacements_ == nullptr) return;
+    FixedArray<Scalar, Cap::displacements> found;
+    displacements_->evaluate(tracker_->model(), tracker_->loads(), tracker_->elongations(), found);
+    detail::copy_numbers(found, scene_.displaced.size(), answer.displacement);
   }
 
  private:
   using CondensedType = CondensedOf<Scalar, Cap>;
+  using Displacements = DisplacementsOf<Scalar, Cap>;
   using StrutRows = StrutsOf<Scalar, Cap>;
   using TrackerType = Tracker<CondensedType>;
   static constexpr int most_calls = 64;
 
+  template <int Dimension>
+  Condensing condense() {
+    return condense_scene<Scalar, Dimension, Cap>(scene_, *condensed_, *struts_, displacements_.get());
+  }
   /// Calls again while nothing but the event budget of a call ended the path.
   Followed go_on(Progress<Scalar> progress, const Sample<Scalar, Cap>& sample) {
     double rest = 1;
@@ -53,6 +65,7 @@ class TrackerModel : public Model {
   const SceneDescription& scene_;
   std::unique_ptr<CondensedType> condensed_;
   std::unique_ptr<StrutRows> struts_;
+  std::unique_ptr<Displacements> displacements_;  // if the scene asks for any
   std::unique_ptr<TrackerType> tracker_;
 };
 

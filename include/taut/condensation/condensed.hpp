@@ -93,6 +93,13 @@ struct NoCoupling {
 template <class Real, int Count, class Cap>
 struct CondensedRows;
 
+/// Displacements that there are rows for. Rigid saddles need none: nothing moves.
+template <class Cap>
+constexpr int max_displacements = has_rigid_saddles<Cap> ? 0 : Cap::displacements;
+
+template <class Scalar, class Cap, class Rows = CondensedRows<Wide<Scalar>, max_displacements<Cap>, Cap>>
+struct CondensedDisplacements;
+
 /// A scene after static condensation of its structure: Eq. (8).
 ///
 /// T = load x factors + prestrain + coupling x e, where e is the elongation imposed on each segment by what
@@ -111,6 +118,7 @@ struct Condensed {
   using Linear = Condensed;
   using AtLevel = Condensed;                             ///< what a tracker computes with
   using Struts = CondensedRows<Real, Cap::struts, Cap>;  ///< CondensedStruts
+  using Displacements = CondensedDisplacements<Scalar, Cap>;
   /// Its numbers hold whatever the forces are: linear theory.
   static constexpr bool has_level = false;
 
@@ -253,13 +261,9 @@ struct NodeAxis {
   int axis = 0;
 };
 
-/// Displacements that there are rows for. Rigid saddles need none: nothing moves.
-template <class Cap>
-constexpr int max_displacements = has_rigid_saddles<Cap> ? 0 : Cap::displacements;
-
 /// On request: the rows that give displacements of nodes [m], at most Capacity::displacements. Which ones is
 /// chosen with add() before Condensation::run(), which fills the rows; LevelRows in second-order theory.
-template <class Scalar, class Cap, class Rows = CondensedRows<Wide<Scalar>, max_displacements<Cap>, Cap>>
+template <class Scalar, class Cap, class Rows>
 struct CondensedDisplacements {
   FixedList<NodeAxis, Cap::displacements> of;
   Rows rows;

@@ -82,6 +82,7 @@ struct SecondOrder {
   using Linear = Condensed<Scalar, Cap>;
   using AtLevel = LevelModel<Scalar, Cap>;
   using Struts = LevelStruts<Scalar, Cap>;
+  using Displacements = LevelDisplacements<Scalar, Cap>;
   /// Levels of the two. The lowest is above zero: without tension nothing may hold a pinned strut.
   static constexpr Real low_level = Real(1) / 48, high_level = Real(1.1);
   /// Of the way from the low level to the high one.
