@@ -65,7 +65,7 @@ class CommandLine {
     } catch (const CLI::ParseError& error) {
       return app_.exit(error) == 0 ? 0 : unusable_input;
     }
-    if (check_->parsed()) return check(options_.scene);
+    if (check_->parsed()) return check(options_.scene, options_.log);
     if (export_->parsed()) return export_scenes({scenes_, options_.output});
     if (template_->parsed()) return write_log_template(options_.scene, options_.output);
     if (report_->parsed()) return report({options_.scene, options_.log, options_.output, options_.limits});
@@ -78,6 +78,7 @@ class CommandLine {
   void add_check() {
     check_ = app_.add_subcommand("check", "Show what a scene holds and needs, and whether it stands");
     check_->add_option("SCENE", options_.scene, "Scene file (JSON)")->required();
+    check_->add_option("LOG", options_.log, "Log (CSV): how far linear theory is off on the way along it");
   }
 
   void add_simulate() {

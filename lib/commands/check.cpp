@@ -1,13 +1,21 @@
 #include "lib/commands/check.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <iostream>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "lib/commands/compared_theories.hpp"
+#include "lib/commands/log_follower.hpp"
+#include "lib/files/hanging_joints.hpp"
+#include "lib/files/log_file.hpp"
 #include "lib/files/output_file.hpp"
 #include "lib/files/scene_file.hpp"
 #include "lib/files/status_text.hpp"
@@ -112,20 +120,21 @@ bool is_free_to_slide(const CondensedArrays& condensed, std::size_t before, std:
 }
 
 // The joints whose sliding sets their node free.
-std::vector<std::string> loose_joints(const SceneDescription& scene, const CondensedArrays& condensed) {
-  std::vector<std::string> texts;
+std::vector<HangingJoint> loose_joints(const SceneDescription& scene, const CondensedArrays& condensed) {
+  std::vector<HangingJoint> found;
   for (std::size_t c = 0; c < condensed.cables.size(); ++c) {
     const CableLayout<double>& cable = condensed.cables[c];
     for (int j = 0; j < cable.joints(); ++j) {
       const auto sides = cable.joint_segments(j);
       const int joint = cable.first_joint + j;
       const double rho = condensed.rho[static_cast<std::size_t>(joint)];
+      const int node = scene.cables[c].path[static_cast<std::size_t>(cable.closed ? j : j + 1)];
       if (rho > 0 && is_free_to_slide(condensed, static_cast<std::size_t>(sides[0]),
                                       static_cast<std::size_t>(sides[1]), rho))
-        texts.push_back(joint_text(scene, static_cast<int>(c), j));
+        found.push_back({c, static_cast<std::size_t>(j), node, 1});
     }
   }
-  return texts;
+  return found;
 }
 
 std::string condition(double number) {
@@ -136,7 +145,8 @@ std::string condition(double number) {
 
 // The state whose geometric stiffness is taken.
 std::string theory(const SceneDescription& scene) {
-  if (!scene.second_order) return "";
+  if (is_rigid(scene)) return line("theory", "linear: nothing leans between rigid saddles");
+  if (!scene.second_order) return line("theory", "linear");
   std::string target;
   for (std::size_t i = 0; i < scene.loads.size(); ++i)
     if (scene.second_order->factor[i] != 0)
@@ -146,9 +156,143 @@ std::string theory(const SceneDescription& scene) {
       if (scene.second_order->force[c][end] > 0)
         target += ", " + scene.cables[c].name + "." + end_name(end) + " " +
                   plain(scene.second_order->force[c][end]) + " N";
-  return line("theory", is_rigid(scene)
-                            ? "linear: nothing leans between rigid saddles"
-                            : "second order, with the geometric stiffness at the target" + target);
+  return line("theory", "second order, with the geometric stiffness at the target" + target);
+}
+
+// `joint 3`, `joints 1, 2 and 5 to 9`, from ascending numbers that count from 0.
+std::string joint_numbers(const std::vector<std::size_t>& joints) {
+  std::vector<std::string> runs;
+  for (std::size_t i = 0, next = 0; i < joints.size(); i = next) {
+    next = i + 1;
+    while (next < joints.size() && joints[next] == joints[next - 1] + 1) ++next;
+    const std::string first = std::to_string(joints[i] + 1), last = std::to_string(joints[next - 1] + 1);
+    runs.push_back(next == i + 1 ? first : first + (next == i + 2 ? ", " : " to ") + last);
+  }
+  std::string text = joints.size() == 1 ? "joint " : "joints ";
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == runs.size() ? " and " : ", ") + runs[i];
+  return text;
+}
+
+// Joints of one cable with their nodes, as many as fit into a line.
+std::string joints_text(const SceneDescription& scene, std::size_t cable,
+                        const std::vector<std::size_t>& joints) {
+  if (joints.size() == 1) return joint_text(scene, static_cast<int>(cable), static_cast<int>(joints[0]));
+  return joint_numbers(joints) + " of cable " + quote(scene.cables[cable].name);
+}
+
+// One text a cable.
+std::vector<std::string> by_cable(const SceneDescription& scene, const std::vector<HangingJoint>& joints) {
+  std::map<std::size_t, std::vector<std::size_t>> cables;
+  for (const HangingJoint& each : joints) cables[each.cable].push_back(each.joint);
+  std::vector<std::string> texts;
+  for (const auto& [cable, numbers] : cables) texts.push_back(joints_text(scene, cable, numbers));
+  return texts;
+}
+
+bool contains(const std::vector<HangingJoint>& joints, const HangingJoint& one) {
+  return std::any_of(joints.begin(), joints.end(), [&](const HangingJoint& each) {
+    return each.cable == one.cable && each.joint == one.joint;
+  });
+}
+
+// One line a cable and number of directions.
+std::string held_by_cable(const SceneDescription& scene, const std::vector<HangingJoint>& joints) {
+  std::map<std::pair<std::size_t, int>, std::vector<std::size_t>> groups;
+  for (const HangingJoint& each : joints) groups[{each.cable, each.directions}].push_back(each.joint);
+  if (groups.empty()) return line("on the cable alone", "no joint");
+  std::string text;
+  for (const auto& [group, numbers] : groups)
+    text += line("on the cable alone", joints_text(scene, group.first, numbers) + ", in " +
+                                           counted(static_cast<std::size_t>(group.second), "direction"));
+  return text;
+}
+
+std::string per_cent(double part) {
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), part < 5e-5 ? "less than 0.01 %%" : "%.2g %%", 100 * part);
+  return digits.data();
+}
+
+// How far linear theory is off, in words.
+std::string gaps(const ComparedTheories& compared) {
+  std::string text;
+  const auto add = [&](const std::optional<double>& part, const char* of) {
+    if (part) text += (text.empty() ? "" : ", ") + per_cent(*part) + of;
+  };
+  add(compared.segments, " in the segments");
+  add(compared.struts, " in the struts");
+  add(compared.extensions, " in the extensions");
+  return text;
+}
+
+// Forces off by what a usual load cell is, extensions by what the alarm `elongation` tolerates.
+bool is_far_off(const ComparedTheories& compared) {
+  constexpr double most_of_forces = 0.01, most_of_extensions = 0.05;
+  return compared.segments.value_or(0) > most_of_forces || compared.struts.value_or(0) > most_of_forces ||
+         compared.extensions.value_or(0) > most_of_extensions;
+}
+
+std::string where(const TheoryEnd& end) {
+  return end.loads.empty() ? end.place : "from " + end.loads + " on (" + end.place + ")";
+}
+
+// How far linear theory is off on the way.
+std::string accuracy(const SceneDescription& scene, const std::optional<ComparedTheories>& compared) {
+  if (!compared)
+    return scene.second_order ? "" : line("linear theory", "how far it is off says: taut check SCENE LOG");
+  const std::string off = gaps(*compared);
+  if (off.empty()) return "";
+  const bool ends = compared->linear || compared->second;
+  return line("linear theory", (scene.second_order ? "would be off by " : "is off by ") + off +
+                                   (ends ? ", as far as both have an answer" : ""));
+}
+
+// `; write .. into the scene`.
+std::string second_order_remedy(const SceneDescription& scene, const ComparedTheories& compared) {
+  return "; write " + second_order_key(scene, compared.target) + " into the scene";
+}
+
+// Of joints that linear theory cannot hold.
+std::vector<std::string> joint_warnings(const SceneDescription& scene, bool is_compared,
+                                        const std::vector<HangingJoint>& loose,
+                                        const std::vector<HangingJoint>& hanging) {
+  std::vector<std::string> texts;
+  const std::string remedy = scene.second_order ? "" : std::string(tension_remedy) + ", or ";
+  for (const std::string& joints : by_cable(scene, loose))
+    texts.push_back(joints + ": when the cable slides there, nothing holds the node; " + remedy +
+                    sliding_remedy);
+  if (scene.second_order || is_compared) return texts;
+  std::vector<HangingJoint> others;
+  for (const HangingJoint& each : hanging)
+    if (!contains(loose, each)) others.push_back(each);
+  for (const std::string& joints : by_cable(scene, others))
+    texts.push_back(joints + ": friction alone holds the node; " + tension_remedy);
+  return texts;
+}
+
+// Of what linear theory does not see, refuses, or is far off in.
+std::vector<std::string> theory_warnings(const SceneDescription& scene, const ComparedTheories& compared) {
+  std::vector<std::string> texts;
+  if (compared.second) {
+    SceneDescription leaning = scene;
+    leaning.second_order = compared.target;
+    std::string text = "second-order theory has no answer " + where(*compared.second) + ": " +
+                       reason_to_stop(compared.second->path, leaning);
+    if (compared.linear)
+      text += "; linear theory has none " + where(*compared.linear);
+    else if (!scene.second_order)
+      text += "; linear theory does not see it and goes on";
+    texts.push_back(text);
+  }
+  if (scene.second_order) return texts;
+  const std::string remedy = second_order_remedy(scene, compared);
+  if (compared.linear && !compared.second)
+    texts.push_back("linear theory has no answer " + where(*compared.linear) + ", second-order theory has" +
+                    remedy);
+  else if (is_far_off(compared))
+    texts.push_back("linear theory is off by " + gaps(compared) + remedy);
+  return texts;
 }
 
 std::string mechanisms(std::size_t loose) {
@@ -161,6 +305,16 @@ int refuse(const SceneDescription& scene, const std::string& reason) {
   return 1;
 }
 
+// Whether prestrain is all that tensions the cables: then there is something to compare without a log.
+bool has_prestrain_alone(const SceneDescription& scene) {
+  bool any = false;
+  for (const CableDescription& cable : scene.cables) {
+    if (cable.is_jacked(0) || cable.is_jacked(1)) return false;
+    for (const double strain : cable.prestrain) any = any || strain > 0;
+  }
+  return any;
+}
+
 // Whether the prestrain can be brought on.
 Status try_start(const SceneDescription& scene) {
   return make_model(scene, methods.front().second, ScalarType::float64)->start(1).status;
@@ -168,24 +322,35 @@ Status try_start(const SceneDescription& scene) {
 
 }  // namespace
 
-int check(const std::string& scene_path) {
+int check(const std::string& scene_path, const std::string& log_path) {
   const SceneDescription scene = read_scene_file(scene_path);
   const CondensedArrays condensed = condense(scene, ScalarType::float64);
+  const bool rigid = is_rigid(scene);
+  std::optional<ComparedTheories> compared;
+  if (!rigid && (!log_path.empty() || scene.second_order || has_prestrain_alone(scene)))
+    compared = compare_theories(scene, log_path);
+  else if (!log_path.empty())
+    check_log(log_path, scene, {});
   OutputFile output("");
   output.write(head(scene) + theory(scene) + capacities(scene) + beams(scene) +
                (scene.second_order ? "" : memory(scene)) + cables(scene, condensed));
   const Status stands = condensed.condensing.status ? try_start(scene) : condensed.condensing.status;
   if (!stands) {
     output.finish();
-    return refuse(scene, failure_text(stands, scene));
+    const bool helps = !scene.second_order && compared && !compared->second;
+    const std::string remedy =
+        helps ? "second-order theory has an answer" + second_order_remedy(scene, *compared) : "";
+    return refuse(scene, failure_text(stands, scene, remedy));
   }
-  const std::vector<std::string> loose = loose_joints(scene, condensed);
-  output.write(condition(condensed.condensing.condition) + mechanisms(loose.size()));
+  const std::vector<HangingJoint> loose = loose_joints(scene, condensed), hanging = hanging_joints(scene);
+  output.write(condition(condensed.condensing.condition) + mechanisms(loose.size()) +
+               (rigid ? "" : held_by_cable(scene, hanging) + accuracy(scene, compared)));
   output.finish();
-  for (const std::string& joint : loose) {
-    std::cerr << "warning: " << joint << ": when the cable slides over it, nothing holds its node; "
-              << sliding_remedy << '\n';
-  }
+  for (const std::string& text : joint_warnings(scene, compared.has_value(), loose, hanging))
+    std::cerr << "warning: " << text << '\n';
+  if (compared)
+    for (const std::string& text : theory_warnings(scene, *compared))
+      std::cerr << "warning: " << text << '\n';
   return 0;
 }
 

@@ -28,6 +28,7 @@ namespace {
 constexpr std::size_t most_bytes = std::size_t{1} << 28;
 constexpr const char* standard_input = "standard input";
 constexpr double most_bend_change = 0.1;
+constexpr int most_tried = 1000000;  // load steps a row
 constexpr const char* under_load =
     "the log begins under load: until the cables have slid over all joints their forces are those of any "
     "past; --state FILE goes on from the log before";
@@ -136,7 +137,7 @@ std::string LogFollower::follow(const RowVisitor& visit) {
       begun_ ? model_->restore(begun_->bytes, begun_->time) : model_->start(options_.substeps);
   if (!start.whole())
     return options_.scene + ": before the first row" + part(start.fraction) + ": " +
-           reason_to_stop(start, scene_);
+           reason(start, [&](int substeps) { return model_->start(substeps); });
   if (!is_stream()) {
     std::ifstream file = open_log(options_.log);
     LogReader log(file, options_.log, scene_, rules_);
@@ -159,6 +160,16 @@ void LogFollower::begin() {
   }
 }
 
+// Load steps that jam are tried smaller: whether that helps nobody knows beforehand.
+std::string LogFollower::reason(const Followed& path, const std::function<Followed(int)>& again) const {
+  if (options_.method != Method::stepwise || path.status.code != Code::state_iterations)
+    return reason_to_stop(path, scene_);
+  for (const int times : {10, 100})
+    if (const int substeps = std::min(options_.substeps, most_tried / times) * times; again(substeps).whole())
+      return failure_text(path.status, scene_, "with --substeps " + std::to_string(substeps) + " it goes on");
+  return failure_text(path.status, scene_, "smaller load steps do not help: try --method tracker");
+}
+
 std::string LogFollower::follow(LogReader& log, const RowVisitor& visit) {
   LogRow row = log.first_row();
   if (begun_) {
@@ -173,7 +184,8 @@ std::string LogFollower::follow(LogReader& log, const RowVisitor& visit) {
     if (is_stream()) remark_on_left_out(log);
     if (first_load_) take_first_load(row);
     if (const Followed path = model_->advance(row, options_.substeps); !path.whole())
-      return place(row) + part(path.fraction) + ": " + reason_to_stop(path, scene_);
+      return place(row) + part(path.fraction) + ": " +
+             reason(path, [&](int substeps) { return model_->advance(row, substeps); });
     model_->read(answer);
     if (const std::string number = impossible_number(scene_, answer); !number.empty())
       return place(row) + ": " + number + "; " + remedy_of_impossible_numbers;

@@ -60,6 +60,7 @@ class LogFollower {
   void open_stream();
   void begin();
   std::string follow(LogReader& log, const RowVisitor& visit);
+  std::string reason(const Followed& path, const std::function<Followed(int)>& again) const;
   void take_first_load(const LogRow& row);
   void warn_of_bend(const LogRow& row, const Answer& answer);
   void remark_on_left_out(const LogReader& log);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/files/hanging_joints.hpp"
 #include "lib/files/number_range.hpp"
 #include "lib/files/text.hpp"
 
@@ -341,18 +342,34 @@ bool is_on_beam(const SceneDescription& scene, const Status& status) {
   return false;
 }
 
+// Whether linear theory fails where tension holds a node.
+bool lacks_tension(const SceneDescription& scene, const Status& status) {
+  if (scene.second_order) return false;
+  for (const HangingJoint& hanging : hanging_joints(scene)) {
+    if (status.place == Place::node && status.index == hanging.node) return true;
+    if (status.place == Place::joint && status.cable == static_cast<int>(hanging.cable) &&
+        status.index == static_cast<int>(hanging.joint))
+      return true;
+  }
+  return false;
+}
+
 std::string failure_remedy(const Status& status, const SceneDescription& scene) {
+  const std::string tension = lacks_tension(scene, status) ? std::string(tension_remedy) + ", or " : "";
   switch (status.code) {
     case Code::mechanism:
-      if (status.place == Place::joint) return sliding_remedy;
-      return std::string("add a strut, a support or a substructure that holds it") +
+      if (status.place == Place::joint) return tension + sliding_remedy;
+      return tension + "add a strut, a support or a substructure that holds it" +
              (is_on_beam(scene, status) ? ", or hold the rotation of a beam that turns freely" : "");
     case Code::pulled_through:
       return "bring the jack forces closer together, or anchor one end";
     case Code::gives_way:
-      return "hold the node of this joint sideways (a second strut, a substructure), or stay below this load";
+      return tension +
+             "hold the node of this joint sideways (a second strut, a substructure), or stay below this load";
     case Code::state_iterations:
-      return "divide the path: add rows in between, or use --method stepwise with --substeps";
+      // Events are found wherever a row ends: rows in between change nothing.
+      if (scene.second_order) return "hold the nodes of these joints sideways, or stay below this load";
+      return tension + "try --method stepwise with --substeps, or stay below this load";
     case Code::ill_conditioned:
       return "use --scalar double, or check for stiffnesses that differ by many powers of ten";
     case Code::not_finite:
@@ -376,8 +393,9 @@ std::string joint_text(const SceneDescription& scene, int cable, int joint) {
   return subject(Status::along(Code::ok, Place::joint, cable, joint), scene);
 }
 
-std::string failure_text(const Status& status, const SceneDescription& scene) {
-  return subject(status, scene) + ": " + failure_problem(status) + "; " + failure_remedy(status, scene);
+std::string failure_text(const Status& status, const SceneDescription& scene, const std::string& remedy) {
+  return subject(status, scene) + ": " + failure_problem(status) + "; " +
+         (remedy.empty() ? failure_remedy(status, scene) : remedy);
 }
 
 }  // namespace taut::host

@@ -18,7 +18,12 @@ inline constexpr const char* sliding_remedy = "add a second strut, a support or 
 /// `joint 3 of cable "C" at node "top"`, from numbers that count from 0.
 std::string joint_text(const SceneDescription& scene, int cable, int joint);
 
-/// Why there is no answer, as `joint 3 of cable "C": problem; remedy`.
-std::string failure_text(const Status& status, const SceneDescription& scene);
+/// What may help a linear scene where a node hangs on its cable alone, see hanging_joints().
+inline constexpr const char* tension_remedy =
+    "\"second_order\" in the scene makes the cable's tension count, which may hold it";
+
+/// Why there is no answer, as `joint 3 of cable "C": problem; remedy`. `remedy` is what the caller has found
+/// to help; without it, what is known to.
+std::string failure_text(const Status& status, const SceneDescription& scene, const std::string& remedy = "");
 
 }  // namespace taut::host

@@ -1,0 +1,206 @@
+// What `taut check` says of a theory that does not do for its scene, and what `taut simulate` says then.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+
+#include "files/run_program.hpp"
+#include "lib/files/hanging_joints.hpp"
+#include "lib/files/scene_file.hpp"
+
+namespace {
+
+using namespace taut::host;
+
+const std::string root = TAUT_FILES "/../..";
+
+void write(const Scratch& scratch, const std::string& name, const std::string& text) {
+  std::ofstream(scratch.path / name) << text;
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// The number behind the words; NaN without them.
+double number_after(const std::string& text, const std::string& words) {
+  const auto at = text.find(words);
+  return at == std::string::npos ? std::nan("") : std::strtod(text.c_str() + at + words.size(), nullptr);
+}
+
+// A strut that is pinned at its top, under a cable that is jacked at its right end. The lean of the strut at
+// large displacements follows from moments about its top; so do the load at which it runs away and
+// T1 = 1 994 345 N, extension 0.0497816 m, strut -199 017 N at a jack of 1 991 880 N.
+std::string one_strut(const std::string& mu) {
+  return R"({ "taut": 1, "name": "one strut", "dimension": 2,
+    "nodes": { "l": [-10, 0.5], "p": [0, 0], "r": [10, 0.5], "t": [0, 2] },
+    "supports": { "l": "xy", "r": "xy", "t": "xy" },
+    "struts": [ { "nodes": ["p", "t"], "E": 2e11, "A": 100 } ],
+    "cables": [ { "name": "C", "path": ["l", "p", "r"], "E": 1.6e11, "A": 5e-3, "start": "anchored", "end": "jacked",
+                  "friction": { "law": "point", "mu": )" +
+         mu + " } } ] }";
+}
+const std::string strut_log = "time,C.end\n1,500000\n2,1000000\n3,1991880\n4,1000000\n";
+
+// Eight struts under a ring, each with one rod outwards: sideways only the hoop's tension holds their feet.
+std::string hoop(const std::string& theory) {
+  std::string nodes, supports, struts, path, bearings;
+  const double pi = std::acos(-1.0);
+  for (int i = 0; i < 8; ++i) {
+    const std::string n = std::to_string(i), comma = i == 0 ? "" : ", ";
+    const double x = std::cos(i * pi / 4), y = std::sin(i * pi / 4);
+    const auto at = [&](double radius, double z) {
+      return "[" + std::to_string(radius * x) + ", " + std::to_string(radius * y) + ", " + std::to_string(z) +
+             "]";
+    };
+    nodes += comma + "\"h" + n + "\": " + at(20, -3) + ", \"t" + n + "\": " + at(20, 0) + ", \"s" + n +
+             "\": " + at(26, 0);
+    supports += comma + "\"t" + n + "\": \"xyz\", \"s" + n + "\": \"xyz\"";
+    struts += comma + R"({ "nodes": ["h)" + n + "\", \"t" + n +
+              R"("], "E": 2.1e11, "A": 4e-3 }, { "nodes": ["h)" + n + "\", \"s" + n +
+              R"("], "E": 2.1e11, "A": 2e-3 })";
+    path += comma + "\"h" + n + "\"";
+  }
+  return R"({ "taut": 1, "name": "hoop", "dimension": 3, "nodes": { )" + nodes + " }, \"supports\": { " +
+         supports + " }, \"struts\": [ " + struts + R"( ], "cables": [ { "name": "C", "path": [ )" + path +
+         R"( ], "E": 1.6e11, "A": 2e-3, "closed": true, "prestrain": 0.003, "friction": { "law": "point", "mu": 0.1 } } ])" +
+         theory + " }";
+}
+
+int directions(const std::string& members) {
+  const SceneDescription scene = read_scene(R"({ "taut": 1, "name": "", "dimension": 2,
+    "nodes": { "l": [-8, 1], "p": [0, 0], "r": [8, 1], "a": [-3, 4], "b": [3, 4], "t": [0, 5] },
+    "supports": { "l": "xy", "r": "xy", "a": "xy", "b": "xy", "t": "xy" },
+    )" + members + R"(
+    "cables": [ { "name": "C", "path": ["l", "p", "r"], "E": 1.6e11, "A": 2e-3, "start": "anchored", "end": "jacked",
+                  "friction": { "law": "point", "mu": 0.1 } } ] })",
+                                            "scene.json");
+  const auto joints = hanging_joints(scene);
+  return joints.empty() ? 0 : joints[0].directions;
+}
+
+}  // namespace
+
+TEST_CASE("a joint hangs on its cable in every direction that no member resists") {
+  CHECK(directions("") == 2);
+  CHECK(directions(R"("struts": [ { "nodes": ["p", "t"], "E": 2e11, "A": 4e-3 } ],)") == 1);
+  // Off the bisector, too.
+  CHECK(directions(R"("struts": [ { "nodes": ["p", "a"], "E": 2e11, "A": 4e-3 } ],)") == 1);
+  CHECK(directions(R"("struts": [ { "nodes": ["p", "a"], "E": 2e11, "A": 4e-3 },
+                                  { "nodes": ["p", "b"], "E": 2e11, "A": 4e-3 } ],)") == 0);
+  // A strut that is rigid in the beam above it; with a hinge there, or pinned to the ground, it leans.
+  const std::string strut = R"({ "nodes": ["p", "t"], "E": 2.1e11, "A": 6e-3, "I": 3e-5)",
+                    roof = R"({ "nodes": ["a", "t", "b"], "E": 2.1e11, "A": 2e-2, "I": 4e-4 })";
+  CHECK(directions("\"beams\": [ " + strut + " }, " + roof + " ],") == 0);
+  CHECK(directions("\"beams\": [ " + strut + R"(, "hinges": ["t"] }, )" + roof + " ],") == 1);
+  CHECK(directions("\"beams\": [ " + strut + R"(, "hinges": ["p"] }, )" + roof + " ],") == 0);
+  CHECK(directions("\"beams\": [ " + strut + " } ],") == 1);
+  CHECK(
+      directions(
+          R"("substructures": [ { "name": "saddle", "nodes": ["p"], "stiffness": [[1e8, 0], [0, 0]] } ],)") ==
+      1);
+  CHECK(
+      directions(
+          R"("substructures": [ { "name": "saddle", "nodes": ["p"], "stiffness": [[1e8, 0], [0, 1e8]] } ],)") ==
+      0);
+}
+
+TEST_CASE("check says how far linear theory is off, as the closed form of a strut that leans has it") {
+  const Scratch scratch;
+  write(scratch, "scene.json", one_strut("0.1"));
+  write(scratch, "log.csv", strut_log);
+  const Outcome outcome =
+      run_taut(scratch, "check " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv"));
+  CHECK(outcome.status == 0);
+  CHECK(has(outcome.out, "theory                  linear\n"));
+  CHECK(has(outcome.out, "on the cable alone      joint 1 of cable \"C\" at node \"p\", in 1 direction\n"));
+  // Linear theory has T1 = F.
+  const double segments = 100 * (1994345 - 1991880) / 1994345.;
+  CHECK(std::fabs(number_after(outcome.out, "linear theory           is off by ") - segments) <
+        0.05 * segments);
+  // Both theories are within what load cells are, but nothing holds the joint when it slides.
+  CHECK(has(outcome.err,
+            "joint 1 of cable \"C\" at node \"p\": when the cable slides there, nothing holds the node"));
+  CHECK_FALSE(has(outcome.err, "is off by"));
+}
+
+TEST_CASE("check says at which load a strut runs away that linear theory does not see leaning") {
+  const Scratch scratch;
+  // At large displacements it runs away at 805 531 N, with mu 0.01 at 1 609 993 N.
+  for (const auto& [mu, load] : {std::pair{"0.005", 805531.}, {"0.01", 1609993.}}) {
+    CAPTURE(mu);
+    write(scratch, "scene.json", one_strut(mu));
+    write(scratch, "log.csv", strut_log);
+    const Outcome outcome =
+        run_taut(scratch, "check " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv"));
+    CHECK(outcome.status == 0);
+    const double found = number_after(outcome.err, "second-order theory has no answer from C.end ");
+    CHECK(std::fabs(found - load) < 0.005 * load);
+    CHECK(has(outcome.err, "joint 1 of cable \"C\" at node \"p\": friction gives way"));
+    CHECK(has(outcome.err, "; linear theory does not see it and goes on\n"));
+  }
+}
+
+TEST_CASE("a sound truss string gets a number and no warning") {
+  const Scratch scratch;
+  const std::string stem = root + "/firmware_example/data/truss_string";
+  const Outcome outcome = run_taut(scratch, "check '" + stem + ".json' '" + stem + ".csv'");
+  CHECK(outcome.status == 0);
+  CHECK(outcome.err.empty());
+  CHECK(has(outcome.out, "on the cable alone      no joint\n"));
+  const double segments = number_after(outcome.out, "linear theory           is off by ");
+  CHECK(segments > 0);
+  CHECK(segments < 0.1);
+}
+
+TEST_CASE("without a log check says how to learn how far linear theory is off") {
+  const Scratch scratch;
+  write(scratch, "scene.json", one_strut("0.1"));
+  const Outcome outcome = run_taut(scratch, "check " + scratch.quoted("scene.json"));
+  CHECK(outcome.status == 0);
+  CHECK(has(outcome.out, "linear theory           how far it is off says: taut check SCENE LOG\n"));
+}
+
+TEST_CASE(
+    "where linear theory refuses and second-order theory does not, the key that check shows makes the scene "
+    "stand") {
+  const Scratch scratch;
+  write(scratch, "scene.json", hoop(""));
+  const Outcome refused = run_taut(scratch, "check " + scratch.quoted("scene.json"));
+  CHECK(refused.status == 1);
+  CHECK(has(refused.err, "mechanism: nothing holds this node; second-order theory has an answer; write "));
+  const auto from = refused.err.find("\"second_order\": "), to = refused.err.find(" into the scene");
+  REQUIRE(from < to);
+  REQUIRE(to != std::string::npos);
+  write(scratch, "leaning.json", hoop(", " + refused.err.substr(from, to - from)));
+  const Outcome stands = run_taut(scratch, "check " + scratch.quoted("leaning.json"));
+  CHECK(stands.status == 0);
+  CHECK(stands.err.empty());
+  CHECK(has(stands.out, "on the cable alone      joints 1 to 8 of cable \"C\", in 1 direction\n"));
+}
+
+TEST_CASE("between rigid saddles nothing leans, and a log is read all the same") {
+  const Scratch scratch;
+  const std::string stem = root + "/firmware_example/data/rolling_joint";
+  const Outcome outcome = run_taut(scratch, "check '" + stem + ".json' '" + stem + ".csv'");
+  CHECK(outcome.status == 0);
+  CHECK(outcome.err.empty());
+  CHECK(has(outcome.out, "theory                  linear: nothing leans between rigid saddles\n"));
+  write(scratch, "log.csv", "time,D.end\n1,5\n");
+  CHECK(run_taut(scratch, "check '" + stem + ".json' " + scratch.quoted("log.csv")).status == 2);
+}
+
+TEST_CASE("load steps that jam are tried smaller before that is recommended") {
+  const Scratch scratch;
+  const std::string stem = root + "/host_tests/hard_cases/data/lacing_soft";
+  const std::string files =
+      "simulate '" + stem + ".json' '" + stem + ".csv' -o " + scratch.quoted("result.csv");
+  const Outcome outcome = run_taut(scratch, files + " --method stepwise");
+  CHECK(outcome.status == 1);
+  CHECK(has(outcome.err,
+            "jammed: the joint states do not settle; smaller load steps do not help: try --method tracker"));
+  // Which helps.
+  CHECK(run_taut(scratch, files).status == 0);
+}
