@@ -165,8 +165,9 @@ std::string joint_numbers(const std::vector<std::size_t>& joints) {
   for (std::size_t i = 0, next = 0; i < joints.size(); i = next) {
     next = i + 1;
     while (next < joints.size() && joints[next] == joints[next - 1] + 1) ++next;
-    const std::string first = std::to_string(joints[i] + 1), last = std::to_string(joints[next - 1] + 1);
-    runs.push_back(next == i + 1 ? first : first + (next == i + 2 ? ", " : " to ") + last);
+    if (next == i + 2) --next;
+    const std::string first = std::to_string(joints[i] + 1);
+    runs.push_back(next == i + 1 ? first : first + " to " + std::to_string(joints[next - 1] + 1));
   }
   std::string text = joints.size() == 1 ? "joint " : "joints ";
   for (std::size_t i = 0; i < runs.size(); ++i)

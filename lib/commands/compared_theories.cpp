@@ -87,7 +87,8 @@ TargetDescription empty_target(const SceneDescription& scene) {
   return {std::vector<double>(scene.loads.size()), std::vector<std::array<double, 2>>(scene.cables.size())};
 }
 
-// The row with the largest strains by jacks, else with the largest factors. What is locked keeps its force.
+// The row with the largest strains by jacks, else with the largest factors; of what has a jack, only rows in
+// which one is at work: a target takes no locked end. What is locked beside it keeps its force.
 TargetDescription largest_load(const SceneDescription& scene, const std::string& log_path,
                                const LogRules& rules) {
   TargetDescription largest = empty_target(scene), now = largest;
@@ -95,13 +96,17 @@ TargetDescription largest_load(const SceneDescription& scene, const std::string&
   each_row(log_path, scene, rules, [&](const LogRow& row, const std::string&) {
     now.factor = row.factor;
     double force = 0, factor = 0;
+    bool has_jack = false, works = false;
     for (std::size_t c = 0; c < scene.cables.size(); ++c)
       for (std::size_t end = 0; end < 2; ++end) {
         if (!scene.cables[c].is_jacked(end)) continue;
+        has_jack = true;
+        works = works || !row.cables[c][end].locked;
         if (!row.cables[c][end].locked) now.force[c][end] = row.cables[c][end].force;
         force += now.force[c][end] / (scene.cables[c].E * scene.cables[c].A);
       }
     for (const double each : row.factor) factor += std::fabs(each);
+    if (has_jack && !works) return true;
     if (force > most_force || (force >= most_force && factor > most_factor)) {
       most_force = force;
       most_factor = factor;

@@ -371,7 +371,8 @@ std::string failure_remedy(const Status& status, const SceneDescription& scene) 
       if (scene.second_order) return "hold the nodes of these joints sideways, or stay below this load";
       return tension + "try --method stepwise with --substeps, or stay below this load";
     case Code::ill_conditioned:
-      return "use --scalar double, or check for stiffnesses that differ by many powers of ten";
+      return "use --scalar double; in double, look for what nothing holds, or for stiffnesses that differ by "
+             "many powers of ten";
     case Code::not_finite:
       return remedy_of_impossible_numbers;
     case Code::bad_sample:
