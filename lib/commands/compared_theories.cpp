@@ -117,6 +117,46 @@ TargetDescription largest_load(const SceneDescription& scene, const std::string&
   return largest;
 }
 
+// Rows between which something goes on by more than a fiftieth of the most it ever is: readings scatter, and
+// friction remembers every reversal. The last row is one of them, and every lock-off.
+class Steps {
+ public:
+  Steps(const SceneDescription& scene, const std::string& log_path, const LogRules& rules) {
+    each_row(log_path, scene, rules, [&](const LogRow& row, const std::string&) {
+      const std::vector<double> now = values(row);
+      most_.resize(now.size());
+      for (std::size_t i = 0; i < now.size(); ++i) most_[i] = std::max(most_[i], std::fabs(now[i]));
+      last_ = row.row;
+      return true;
+    });
+    before_.resize(most_.size());
+  }
+
+  bool counts(const LogRow& row) {
+    constexpr double least = 0.02;
+    const std::vector<double> now = values(row);
+    bool any = row.row == last_;
+    for (std::size_t i = 0; i < now.size(); ++i)
+      any = any || std::fabs(now[i] - before_[i]) > least * most_[i];
+    if (any) before_ = now;
+    return any;
+  }
+
+ private:
+  static std::vector<double> values(const LogRow& row) {
+    std::vector<double> all = row.factor;
+    for (const auto& cable : row.cables)
+      for (const EndRow& end : cable) {
+        all.push_back(end.force);
+        all.push_back(end.locked ? 1 : 0);
+      }
+    return all;
+  }
+
+  std::vector<double> most_, before_;
+  std::size_t last_ = 0;
+};
+
 std::string loads_of(const SceneDescription& scene, const TargetDescription& load) {
   std::string text;
   const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
@@ -217,10 +257,13 @@ ComparedTheories compare_theories(const SceneDescription& scene, const std::stri
     take();
     return linear.goes_on() || second.goes_on();
   };
-  if (!log_path.empty())
-    each_row(log_path, scene, rules, visit);
-  else if (scene.second_order)
-    each_step(scene, compared.target, visit);
+  if (!log_path.empty()) {
+    Steps steps(scene, log_path, rules);
+    each_row(log_path, scene, rules, [&](const LogRow& row, const std::string& place) {
+      return !steps.counts(row) || visit(row, place);
+    });
+  }
+  if (log_path.empty() && scene.second_order) each_step(scene, compared.target, visit);
   compared.segments = segments.part();
   compared.struts = struts.part();
   compared.extensions = extensions.part();

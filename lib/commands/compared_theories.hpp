@@ -26,9 +26,10 @@ struct ComparedTheories {
 };
 
 /// Follows the rows of the log with both theories; without one (empty path) the way from no load to the
-/// target of the scene, or where there is none prestrain alone. In a log the forces are taken for those of
-/// the jacks, negative ones for zero. The method is `tracker` in double. Throws InputError for a log that
-/// cannot be used. Cost: two condensations, of which that of second order is done three times over.
+/// target of the scene, or where there is none prestrain alone. Rows in which nothing goes on by a fiftieth
+/// of the most that it ever is are left out: readings scatter. In a log the forces are taken for those of the
+/// jacks, negative ones for zero. The method is `tracker` in double. Throws InputError for a log that cannot
+/// be used. Cost: two condensations, of which that of second order is done three times over.
 ComparedTheories compare_theories(const SceneDescription& scene, const std::string& log_path);
 
 /// `"second_order": { "target": .. }` as it is to be written into the scene.
