@@ -107,6 +107,14 @@ TEST_CASE("a joint hangs on its cable in every direction that no member resists"
       0);
 }
 
+TEST_CASE("in space two rods and a strut hold a joint, one rod leaves it to the cable along the hoop") {
+  const std::string stem = root + "/firmware_example/data/suspen_dome_";
+  CHECK(hanging_joints(read_scene_file(stem + "two_rods.json")).empty());
+  const auto joints = hanging_joints(read_scene_file(stem + "one_rod.json"));
+  CHECK(joints.size() == 11);
+  for (const HangingJoint& joint : joints) CHECK(joint.directions == 1);
+}
+
 TEST_CASE("check says how far linear theory is off, as the closed form of a strut that leans has it") {
   const Scratch scratch;
   write(scratch, "scene.json", one_strut("0.1"));

@@ -369,7 +369,7 @@ std::string failure_remedy(const Status& status, const SceneDescription& scene) 
     case Code::state_iterations:
       // Events are found wherever a row ends: rows in between change nothing.
       if (scene.second_order) return "hold the nodes of these joints sideways, or stay below this load";
-      return tension + "try --method stepwise with --substeps, or stay below this load";
+      return tension + "try taut simulate --method stepwise --substeps 100, or stay below this load";
     case Code::ill_conditioned:
       return "use --scalar double; in double, look for what nothing holds, or for stiffnesses that differ by "
              "many powers of ten";
