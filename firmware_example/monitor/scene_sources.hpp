@@ -168,6 +168,7 @@ void add_scene(Crc32& crc, const taut::SecondOrder<float, Capacity>& model) {
   add_rows(model.lean.aside);
   if constexpr (Capacity::struts + Capacity::beams > 0) add(model.lean.tension_by_bar);
   add(model.target_force);
+  add(model.curve);
 }
 
 /// A number that changes with everything that the scene's answers depend on.

@@ -113,6 +113,7 @@ void check_bits(const std::string& file, const SecondOrder<Scalar, Cap>& found,
   check_linear(found.low, expected.low);
   check_linear(found.high, expected.high);
   CHECK(found.target_force == expected.target_force);
+  CHECK(found.curve == expected.curve);
   CHECK(found.lean.struts == expected.lean.struts);
   CHECK(found.lean.beams == expected.lean.beams);
   check_rows(found.lean.bends, expected.lean.bends);

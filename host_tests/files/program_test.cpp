@@ -100,10 +100,11 @@ TEST_CASE("check warns of a joint that sets its node free when it slides, and sa
   CHECK(outcome.status == 0);
   CHECK(outcome.out.find("mechanisms              none before any load; 1 joint free to slide\n") !=
         std::string::npos);
-  CHECK(outcome.err ==
-        "warning: joint 1 of cable \"C\" at node \"top\": when the cable slides there, nothing holds the node; "
-        "\"second_order\" in the scene makes the cable's tension count, which may hold it, or add a second "
-        "strut, a support or a substructure at that node\n");
+  CHECK(
+      outcome.err ==
+      "warning: joint 1 of cable \"C\" at node \"top\": when the cable slides there, nothing holds the node; "
+      "\"second_order\" in the scene makes the cable's tension count, which may hold it, or add a second "
+      "strut, a support or a substructure at that node\n");
 }
 
 TEST_CASE("check says how many beams there are and what they bring") {
@@ -242,10 +243,11 @@ TEST_CASE("a node that a sliding joint sets free ends the result with the row, t
   CHECK(outcome.status == 1);
   CHECK(lines(outcome.out) == 2);
   CHECK(outcome.err.find("log.csv: line 3 (row 2, time 2.5 s), after ") != std::string::npos);
-  CHECK(outcome.err.find("joint 1 of cable \"C\" at node \"top\": mechanism: when the cable slides over this "
-                         "joint, nothing holds its node; \"second_order\" in the scene makes the cable's tension "
-                         "count, which may hold it, or add a second strut, a support or a substructure at that "
-                         "node") != std::string::npos);
+  CHECK(outcome.err.find(
+            "joint 1 of cable \"C\" at node \"top\": mechanism: when the cable slides over this "
+            "joint, nothing holds its node; \"second_order\" in the scene makes the cable's tension "
+            "count, which may hold it, or add a second strut, a support or a substructure at that "
+            "node") != std::string::npos);
 }
 
 TEST_CASE("jacks that pull the cable through are told with the place on the path where it begins") {

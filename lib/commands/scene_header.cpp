@@ -206,7 +206,8 @@ class Constants {
     return cables + linear("make_low", a) + linear("make_high", a.level->high) + lean(*a.level) +
            "constexpr ::taut::SecondOrder<" + name() + ", Capacity> make_condensed(" + name() + ") {\n" +
            "  return {make_low(" + name() + "()), make_high(" + name() + "()), make_lean(" + name() +
-           "()),\n" + "          /*target_force*/ " + number(a.level->target_force) + "};\n}\n";
+           "()),\n" + "          /*target_force*/ " + number(a.level->target_force) + ", /*curve*/ " +
+           number(a.level->curve) + "};\n}\n";
   }
   std::string struts() const {
     const CondensedArrays& a = arrays_;

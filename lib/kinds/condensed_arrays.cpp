@@ -60,7 +60,7 @@ bool are_possible(const LevelArrays& arrays) {
   return are_possible(arrays.high) && are_possible(arrays.high_struts) && are_possible(arrays.bends) &&
          are_possible(arrays.grip_by_bend) && are_possible(arrays.aside) &&
          are_possible(arrays.tension_by_bar) && are_possible(arrays.strut_by_bar) &&
-         is_possible(arrays.target_force);
+         is_possible(arrays.target_force) && is_possible(arrays.curve);
 }
 bool are_possible(const CondensedArrays& arrays) {
   return is_possible(arrays.condensing.condition) && are_possible(static_cast<const LinearArrays&>(arrays)) &&
@@ -122,6 +122,7 @@ LevelArrays level_arrays(const SecondOrder<Scalar, Cap>& condensed, const LevelS
   arrays.beams = condensed.lean.beams;
   arrays.normals = Dimension - 1;
   arrays.target_force = static_cast<double>(condensed.target_force);
+  arrays.curve = static_cast<double>(condensed.curve);
   arrays.high = copied(condensed.high);
   arrays.high_struts = copied(struts.high, low, arrays.struts);
   arrays.bends = copied(condensed.lean.bends, low, low.joints);

@@ -44,7 +44,7 @@ struct LevelArrays {
   Row grip_by_bend;
   std::vector<Row> tension_by_bar, strut_by_bar;  ///< of struts and beams
   int struts = 0, beams = 0, normals = 0;
-  double target_force = 0;
+  double target_force = 0, curve = 0;
 };
 
 /// A condensed scene, in second-order theory at its low level, and CondensedStruts.

@@ -36,7 +36,7 @@ struct LevelRows {
           const Stretches& q) const {
     const Real below = number_of(low, i, model, drive, e);
     Real number =
-        below + Model::Source::part(sum / model.target_force) * (number_of(high, i, model, drive, e) - below);
+        below + model.part(sum / model.target_force) * (number_of(high, i, model, drive, e) - below);
     model.lean().for_each_bar(model.segments, [&](int b) {
       number += q[b] * (b < Cap::segments ? high.elongation[b][i] : by_bar[b - Cap::segments][i]);
     });
@@ -64,7 +64,7 @@ template <class Scalar, int Count, class Cap, class Model, class Elongations>
 Wide<Scalar> change_of(const LevelRows<Scalar, Count, Cap>& rows, int i, const Model& model,
                        const Elongations& e) {
   const auto low = change_of(rows.low, i, model, e);
-  return low + Model::Source::part(model.anchor.level) * (change_of(rows.high, i, model, e) - low);
+  return low + model.part(model.anchor.level) * (change_of(rows.high, i, model, e) - low);
 }
 
 template <class Scalar, class Cap>
@@ -84,13 +84,28 @@ struct SecondOrder {
   using Struts = LevelStruts<Scalar, Cap>;
   using Displacements = LevelDisplacements<Scalar, Cap>;
   /// Levels of the two. The lowest is above zero: without tension nothing may hold a pinned strut.
-  static constexpr Real low_level = Real(1) / 48, high_level = Real(1.1);
-  /// Of the way from the low level to the high one.
-  static constexpr Real part(Real level) { return (level - low_level) / (high_level - low_level); }
-
+  static constexpr Real low_level = Real(1) / 48, high_level = 1;
   Linear low, high;
   CondensedLean<Scalar, Cap> lean;  ///< at the high level
   Real target_force = 0;            ///< T* of all segments together [N]
+  Real curve = 0;                   ///< k of Eq. (47): 0 is a straight line between the two
+
+  /// How far numbers have come from the low level to the high one: Eq. (47).
+  constexpr Real part(Real level) const {
+    const Real at = larger(level, low_level);
+    return (at - low_level) / (high_level - low_level) * (1 + curve * high_level) / (1 + curve * at);
+  }
+  /// Its derivative with respect to the level.
+  constexpr Real part_slope(Real level) const {
+    const Real by = 1 + curve * level;
+    return (1 + curve * high_level) * (1 + curve * low_level) / ((high_level - low_level) * by * by);
+  }
+  /// The curve that comes to `part` at `level`.
+  static constexpr Real curve_through(Real level, Real part) {
+    const Real steeper = part * (high_level - low_level) / (level - low_level);
+    const Real left = high_level - steeper * level;
+    return steeper > 1 && left > 0 ? (steeper - 1) / left : Real(0);
+  }
 };
 
 /// What a condensed scene says whatever the level is: its counts, the layout of its cables, and friction in
@@ -208,6 +223,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     least_sum = is_lowest() ? std::numeric_limits<Real>::lowest() : target_force * (anchor.level - step);
   }
   const CondensedLean<Scalar, Cap>& lean() const { return source_->lean; }
+  Real part(Real level) const { return source_->part(level); }
   /// rho of a joint that holds rho in the scene's geometry.
   static Real scaled(Real flat, Real by) {
     const Real kappa = by * kappa_of(flat);
@@ -243,7 +259,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   bool is_lowest() const { return anchor.level <= step; }
   /// While the prestrain comes on there is nowhere to put what does not grow with it.
   bool is_tangent() const { return anchor.prestrain == 1 && !is_lowest(); }
-  Real between(Real low, Real high) const { return low + Source::part(anchor.level) * (high - low); }
+  Real between(Real low, Real high) const { return low + part(anchor.level) * (high - low); }
   Real coupling_at(int i, int k) const {
     return between(source_->low.coupling(i, k), source_->high.coupling(i, k));
   }
@@ -259,7 +275,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   }
   /// What the level changes in all tensions [N].
   void find_bend(Tensions& G) const {
-    const Real unit = 1 / (Source::high_level - Source::low_level);
+    const Real unit = source_->part_slope(anchor.level);
     for (int i = 0; i < this->segments; ++i) {
       Real change = source_->high.prestrain[i] - source_->low.prestrain[i];
       for (int k = 0; k < this->loads; ++k)

@@ -45,6 +45,8 @@ class SecondOrderCondensation {
 
  private:
   static constexpr int rounds = 3;
+  /// Where the curve between the levels is found.
+  static constexpr Real middle_level = Real(0.3);
 
   /// The largest force of a jack in all segments, or what prestrain gives them.
   void find_guess(const SceneType& scene, const Sample<Scalar, Cap>& target) {
@@ -84,7 +86,23 @@ class SecondOrderCondensation {
       request.displacement_by_bar = &displacements->rows.by_bar;
     }
     geometry_.level = Model::high_level;
-    return condensation_.run(scene, geometry_, condensed.high, request);
+    const Status stands = condensation_.run(scene, geometry_, condensed.high, request);
+    return stands ? find_curve(scene, condensed) : stands;
+  }
+  /// k of Eq. (47), by least squares of what lies between the two levels.
+  Status find_curve(const SceneType& scene, Model& condensed) {
+    geometry_.level = middle_level;
+    const Status status = condensation_.run(scene, geometry_, middle_, CondensationRequest<Scalar, Cap>());
+    const auto &low = condensed.low, &high = condensed.high;
+    Real along = 0, all = 0;
+    for (int k = 0; k < low.segments; ++k)
+      for (int i = 0; i < low.segments; ++i) {
+        const Real way = high.coupling(i, k) - low.coupling(i, k);
+        along += way * (middle_.coupling(i, k) - low.coupling(i, k));
+        all += way * way;
+      }
+    condensed.curve = all > 0 ? Model::curve_through(middle_level, along / all) : Real(0);
+    return status;
   }
   /// What comes of the target with the present geometry; where it is not reached, of where the path ends, in
   /// proportion. False if that is nowhere: then what was stays.
@@ -104,6 +122,7 @@ class SecondOrderCondensation {
   }
 
   Condensation<Scalar, SceneType, Geometry> condensation_;
+  typename Model::Linear middle_;
   typename Model::Struts struts_;
   CondensedBeams<Scalar, Cap> beams_;
   Tracker<Model> tracker_;
