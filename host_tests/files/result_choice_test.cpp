@@ -1,6 +1,7 @@
 // `--columns` and `--every`: which of a result is written.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -44,6 +45,38 @@ TEST_CASE("chosen columns have what they have in the whole result, after the tim
   CHECK(run(scratch, "simulate", ramp(1), " --columns C.T2").out == "time,C.T2\n1,20000\n");
 }
 
+// A plane tripod of stiffness k (1, 1): under a force the free node moves by that force over k.
+TEST_CASE("displacements and the friction that is used are columns on request") {
+  const Scratch scratch;
+  std::ofstream(scratch.path / "tie.json") << R"({ "taut": 1, "name": "tie", "dimension": 2,
+    "nodes": { "l": [-3, 0], "r": [3, 0], "m": [0, 0], "d": [0, -2] },
+    "supports": { "l": "xy", "r": "xy", "d": "xy" },
+    "struts": [ { "nodes": ["l", "m"], "E": 3e10, "A": 1e-3 }, { "nodes": ["d", "m"], "E": 2e10, "A": 1e-3 } ],
+    "cables": [ { "name": "C", "path": ["l", "r"], "E": 1.95e11, "A": 8e-4, "start": "anchored", "end": "jacked" } ],
+    "loads": { "push": { "forces": { "m": [5000, -2000] } } } })";
+  std::ofstream(scratch.path / "log.csv") << "time,push,C.end\n0,0,0\n1,1,1000\n2,-2,1000\n";
+  const std::string files = scratch.quoted("tie.json") + " " + scratch.quoted("log.csv");
+  const Table table(run_taut(scratch, "simulate " + files + " --columns m.y,C.T1,m.x,l.x").out);
+  CHECK(table.header == std::vector<std::string>{"time", "m.y", "C.T1", "m.x", "l.x"});
+  REQUIRE(table.rows.size() == 3);
+  for (std::size_t row = 0; row < 3; ++row) {
+    const double factor = row == 0 ? 0 : row == 1 ? 1 : -2;
+    CHECK(table.number(row, "m.x") == doctest::Approx(factor * 5000 / 1e7));
+    CHECK(table.number(row, "m.y") == doctest::Approx(factor * -2000 / 1e7));
+    CHECK(table.number(row, "l.x") == 0);
+  }
+  const std::string stepwise = " --method stepwise --columns m.x";
+  const Outcome refused = run_taut(scratch, "simulate " + files + stepwise);
+  CHECK(refused.status == 2);
+  CHECK(refused.err.find("the method stepwise does not give \"m.x\"") != std::string::npos);
+  // A joint that slides uses all of its friction; let out until both tensions are the same, none.
+  const Table used(run(scratch, "simulate", "time,C.end\n1,20000\n", " --columns C.used1,C.T1").out);
+  CHECK(used.number(0, "C.used1") == doctest::Approx(1).epsilon(1e-12));
+  const std::string back = "time,C.end\n1,20000\n2," + used.at(0, "C.T1") + "\n";
+  const Table rest(run(scratch, "simulate", back, " --columns C.used1").out);
+  CHECK(std::fabs(rest.number(1, "C.used1")) < 1e-12);
+}
+
 TEST_CASE(
     "a column that the result does not have is refused with those that it has, and nothing is written") {
   const Scratch scratch;
@@ -52,7 +85,8 @@ TEST_CASE(
   CHECK(outcome.status == 2);
   CHECK(outcome.err ==
         "--columns: the result has no column \"C.T9\"; did you mean \"C.T1\"? the columns are \"time\", "
-        "\"C.T1\", \"C.T2\", \"C.slip1\", \"C.state1\", \"C.N1\", \"C.f1\", \"C.end.payout\"\n");
+        "\"C.T1\", \"C.T2\", \"C.slip1\", \"C.state1\", \"C.N1\", \"C.f1\", \"C.end.payout\", and on request "
+        "\"C.used1\" to \"right.y\"\n");
   CHECK_FALSE(std::filesystem::exists(scratch.path / "result"));
   // Simulated forces have no deviation.
   CHECK(run(scratch, "simulate", ramp(3), " --columns C.sd1").status == 2);

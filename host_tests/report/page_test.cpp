@@ -128,6 +128,25 @@ TEST_CASE("beams are drawn member by member with their hinges, and what supports
   CHECK_FALSE(has(page_of(scratch), "class=\"beam\""));
 }
 
+TEST_CASE("in second-order theory every strut shows how much friction its lean uses") {
+  const Scratch scratch;
+  const std::string mast = R"({ "taut": 1, "name": "mast", "dimension": 2,
+    "nodes": { "l": [-10, 0.5], "p": [0, 0], "r": [10, 0.5], "t": [0, 2] },
+    "supports": { "l": "xy", "r": "xy", "t": "xy" },
+    "struts": [ { "nodes": ["p", "t"], "E": 2.0e11, "A": 2.0e-3 } ],
+    "cables": [ { "name": "C", "path": ["l", "p", "r"], "E": 2.0e11, "A": 4.0e-3, "start": "anchored", "end": "jacked",
+                  "friction": { "law": "point", "mu": 0.1 } } ],
+    "second_order": { "target": { "loads": {}, "forces": { "C.end": 2.0e6 } } } })";
+  REQUIRE(report(scratch, mast, "time,C.end\n1,797508\n2,1991880\n").status == 0);
+  const std::string page = page_of(scratch);
+  // It leans by 0.0125, all but a hundredth of that from the bisector of its cable: 12 % of mu.
+  CHECK(has(page, "leans: 12 % of friction used"));
+  CHECK(has(page, "Friction used"));
+  CHECK(has(page, "per cent at a strut"));
+  REQUIRE(report(scratch, chain, chain_log(20)).status == 0);
+  CHECK_FALSE(has(page_of(scratch), "per cent at a strut"));
+}
+
 TEST_CASE("all points lie within their charts, and long logs have no more of them") {
   const Scratch scratch;
   // A strain of 13 % in the end.

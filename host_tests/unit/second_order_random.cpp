@@ -9,6 +9,10 @@
 #include "support/random.hpp"
 #include "taut/taut.hpp"
 
+#ifndef TAUT_SECOND_ORDER_SCENES
+#define TAUT_SECOND_ORDER_SCENES 400
+#endif
+
 namespace {
 
 using taut::End;
@@ -109,7 +113,7 @@ double follow(const Jacking& given, Run& run, int pieces) {
 TEST_CASE(
     "second-order theory gives random struts the same forces however a path is cut, turned and mirrored") {
   const std::uint64_t first = 20261123;
-  constexpr int scenes = 400;
+  constexpr int scenes = TAUT_SECOND_ORDER_SCENES;
   int ran = 0, ended = 0;
   for (std::uint64_t seed = first; seed < first + scenes; ++seed) {
     INFO("seed ", seed);

@@ -184,7 +184,7 @@ std::string LogFollower::follow(LogReader& log, const RowVisitor& visit) {
     if (is_stream()) remark_on_left_out(log);
     if (first_load_) take_first_load(row);
     if (const Followed path = model_->advance(row, options_.substeps); !path.whole())
-      return place(row) + part(path.fraction) + ": " +
+      return place(row) + part(path.fraction) + loads_at_end(path, row) + ": " +
              reason(path, [&](int substeps) { return model_->advance(row, substeps); });
     model_->read(answer);
     if (const std::string number = impossible_number(scene_, answer); !number.empty())
@@ -197,6 +197,27 @@ std::string LogFollower::follow(LogReader& log, const RowVisitor& visit) {
   last_ = row;
   origin_ = log.origin();
   return "";
+}
+
+// The forces of the jacks where something runs away.
+std::string LogFollower::loads_at_end(const Followed& path, const LogRow& row) const {
+  if (path.status.code != Code::gives_way) return "";
+  Answer reached;
+  model_->read(reached);
+  std::string loads;
+  std::size_t segment = 0;
+  for (std::size_t c = 0; c < scene_.cables.size(); ++c) {
+    const CableDescription& cable = scene_.cables[c];
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (!cable.is_jacked(end) || row.cables[c][end].locked) continue;
+      std::array<char, 32> force{};
+      std::snprintf(force.data(), force.size(), "%.6g",
+                    reached.tension[end == 0 ? segment : segment + cable.segments() - 1]);
+      loads += ", " + cable.name + "." + end_name(end) + " " + force.data() + " N";
+    }
+    segment += cable.segments();
+  }
+  return loads;
 }
 
 // Once, where displacements become too large for second-order theory.

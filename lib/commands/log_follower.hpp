@@ -62,6 +62,7 @@ class LogFollower {
   std::string follow(LogReader& log, const RowVisitor& visit);
   std::string reason(const Followed& path, const std::function<Followed(int)>& again) const;
   void take_first_load(const LogRow& row);
+  std::string loads_at_end(const Followed& path, const LogRow& row) const;
   void warn_of_bend(const LogRow& row, const Answer& answer);
   void remark_on_left_out(const LogReader& log);
   void remark_on_columns(const LogReader& log);

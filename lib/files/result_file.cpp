@@ -207,16 +207,21 @@ std::vector<DisplacementDescription> displacements_among(const std::vector<std::
 
 ResultSelection select_columns(const std::vector<std::string>& names, const SceneDescription& scene,
                                ResultColumns columns) {
-  std::vector<std::string> known = result_columns(scene, columns);
-  for (const std::string& name : further_columns(scene, columns)) known.push_back(name);
+  const std::vector<std::string> usual = result_columns(scene, columns),
+                                 further = further_columns(scene, columns);
+  std::vector<std::string> known = usual;
+  known.insert(known.end(), further.begin(), further.end());
   std::vector<std::size_t> chosen = {0};
   for (const std::string& name : names) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) {
-      const std::string all = "the columns are", list = suggestion("", known, all),
+      const std::string all = "the columns are", list = suggestion("", usual, all),
                         meant = suggestion(name, known, all);
+      const std::string asked =
+          further.empty() ? ""
+                          : ", and on request " + quote(further.front()) + " to " + quote(further.back());
       throw InputError("--columns", "", "the result has no column " + quote(name),
-                       meant == list ? list : meant + " " + list);
+                       (meant == suggestion("", known, all) ? list : meant + " " + list) + asked);
     }
     const auto column = static_cast<std::size_t>(found - known.begin());
     if (std::find(chosen.begin(), chosen.end(), column) == chosen.end()) chosen.push_back(column);

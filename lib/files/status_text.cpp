@@ -325,8 +325,26 @@ std::string subject(const Status& status, const SceneDescription& scene) {
   }
 }
 
+// The struts that end at a node: `strut 3 from node "a"`.
+std::string struts_at(const SceneDescription& scene, int node) {
+  std::string text;
+  for (std::size_t i = 0; i < scene.struts.size(); ++i) {
+    const auto& ends = scene.struts[i].nodes;
+    if (ends[0] != node && ends[1] != node) continue;
+    text += (text.empty() ? "strut " : ", strut ") + std::to_string(i + 1) + " from " +
+            node_text(scene, ends[0] == node ? ends[1] : ends[0]);
+  }
+  return text;
+}
+
 // What is wrong, where describe() speaks of something else than the place does.
-std::string failure_problem(const Status& status) {
+std::string failure_problem(const Status& status, const SceneDescription& scene) {
+  if (status.code == Code::gives_way && status.place == Place::joint) {
+    const std::string struts = struts_at(scene, joint_node(scene, status.cable, status.index));
+    if (!struts.empty())
+      return "friction gives way, and what it held runs away (" + struts +
+             "): the structure would jump to a state far away";
+  }
   if (status.code == Code::mechanism && status.place == Place::joint)
     return "mechanism: when the cable slides over this joint, nothing holds its node";
   if (status.code == Code::not_finite)
@@ -395,7 +413,7 @@ std::string joint_text(const SceneDescription& scene, int cable, int joint) {
 }
 
 std::string failure_text(const Status& status, const SceneDescription& scene, const std::string& remedy) {
-  return subject(status, scene) + ": " + failure_problem(status) + "; " +
+  return subject(status, scene) + ": " + failure_problem(status, scene) + "; " +
          (remedy.empty() ? failure_remedy(status, scene) : remedy);
 }
 

@@ -30,6 +30,7 @@ figure{margin:.5rem 0 1rem;break-inside:avoid}
 .patch{width:1.4rem;height:.8rem;flex:none}
 .plot{padding:16px 10px 24px 60px}
 svg{display:block;overflow:visible}
+svg text.lean{font-size:10px}
 svg text{font-size:12px;fill:var(--soft);stroke:none;font-variant-numeric:tabular-nums}
 .x-title{text-align:right;padding-right:10px;margin-top:-2px}
 .grid line{stroke:var(--rule);stroke-width:1}

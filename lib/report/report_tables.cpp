@@ -151,7 +151,7 @@ std::string final_table(const ReportView& view, std::size_t c) {
       .word("State")
       .number("mu")
       .number("sd of mu");
-  head.number("Contact force" + unit);
+  head.number("Contact force" + unit).number("Friction used");
   std::string rows;
   for (std::size_t i = 0; i < cable.segments(); ++i) {
     const std::size_t s = first.segment + i, j = first.joint + i;
@@ -165,8 +165,9 @@ std::string final_table(const ReportView& view, std::size_t c) {
       row.word(std::to_string(i + 1) + " (" + node_name(view.scene, joint_node(cable, i)) + ")");
       row.word(state_word(end.state[j])).number(fixed(end.mu[j], mu_digits));
       row.number(significant(end.mu_deviation[j], 2)).number(view.unit.number(end.contact[j]));
+      row.number(percent(end.friction_used[j]));
     } else {
-      row.word("").word("").number("").number("").number("");
+      row.word("").word("").number("").number("").number("").number("");
     }
     rows += row.finished();
   }

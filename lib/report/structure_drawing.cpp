@@ -70,11 +70,32 @@ class StructureDrawing {
       if (has_answer())
         name += ": " + unit_.text(force) + (force > 0 ? ", tension" : force < 0 ? ", compression" : "");
       const CurvePoint from = points_.at(nodes[0]), to = points_.at(nodes[1]);
+      const std::string lean = has_answer() && scene_.second_order ? lean_of(i) : "";
+      if (!lean.empty()) name += "; leans: " + lean + " of friction used";
       drawn += element(
           "g", {},
           line("hit", from, to) + line(force > 0 ? "strut tension" : "strut", from, to) + title(name));
+      if (!lean.empty())
+        drawn += element("text",
+                         {{"class", "lean"},
+                          {"x", coordinate((from.x + to.x) / 2 + 5)},
+                          {"y", coordinate((from.y + to.y) / 2 + 4)}},
+                         lean);
     }
     return drawn;
+  }
+
+  // How much of friction is used where a strut meets a cable; empty if it meets none.
+  std::string lean_of(std::size_t strut) const {
+    const auto& nodes = scene_.struts[strut].nodes;
+    for (std::size_t c = 0; c < scene_.cables.size(); ++c) {
+      const CableDescription& cable = scene_.cables[c];
+      const std::size_t first = start_of(scene_, c).joint;
+      for (std::size_t j = 0; j < cable.joints(); ++j)
+        if (const int at = cable.path[cable.closed ? j : j + 1]; at == nodes[0] || at == nodes[1])
+          return fixed(100 * record_.end.friction_used[first + j], 0) + " %";
+    }
+    return "";
   }
 
   // Members, and a ring at every hinge.
@@ -291,6 +312,8 @@ std::string structure_legend(const SceneDescription& scene) {
                joint_symbol(JointState::backward, "slides to its start") +
                joint_symbol(JointState::open, "open");
   }
+  if (joints && scene.second_order && !scene.struts.empty())
+    entries += element("li", {}, "per cent at a strut: how much of friction its lean uses, at the end");
   return element("ul", {{"class", "legend"}}, entries);
 }
 
