@@ -10,6 +10,7 @@
 #include "lib/commands/check.hpp"
 #include "lib/commands/export_scene.hpp"
 #include "lib/commands/log_template.hpp"
+#include "lib/commands/plan.hpp"
 #include "lib/commands/report.hpp"
 #include "lib/commands/run_log.hpp"
 #include "lib/files/input_error.hpp"
@@ -55,6 +56,7 @@ class CommandLine {
     add_simulate();
     add_estimate();
     add_report();
+    add_plan();
     add_export();
     add_template();
   }
@@ -69,6 +71,7 @@ class CommandLine {
     if (export_->parsed()) return export_scenes({scenes_, options_.output});
     if (template_->parsed()) return write_log_template(options_.scene, options_.output);
     if (report_->parsed()) return report({options_.scene, options_.log, options_.output, options_.limits});
+    if (plan_->parsed()) return plan(plan_options_);
     options_.method = estimate_->parsed() ? Method::estimate : method_called(method_);
     options_.numbers.scalar = scalar_ == "float" ? ScalarType::float32 : ScalarType::float64;
     return run_log(options_);
@@ -109,6 +112,15 @@ class CommandLine {
     report_->add_option("LOG", options_.log, "Log of readings (CSV)")->required();
     report_->add_option("-o", options_.output, "The page (HTML)")->required();
     add_limits(*report_);
+  }
+
+  void add_plan() {
+    plan_ = app_.add_subcommand(
+        "plan", "Find how to jack so that every segment comes as near to its target as friction allows");
+    plan_->add_option("SCENE", plan_options_.scene, "Scene file (JSON)")->required();
+    plan_->add_option("GOAL", plan_options_.goal, "Goal file: targets, limits, moves (JSON)")->required();
+    plan_->add_option("-o", plan_options_.log, "Log of the plan (CSV), for simulate");
+    plan_->add_option("--report", plan_options_.sheet, "Sheet for the site (HTML)");
   }
 
   void add_limits(CLI::App& command) {
@@ -162,9 +174,11 @@ class CommandLine {
   CLI::App* check_ = nullptr;
   CLI::App* estimate_ = nullptr;
   CLI::App* export_ = nullptr;
+  CLI::App* plan_ = nullptr;
   CLI::App* report_ = nullptr;
   CLI::App* template_ = nullptr;
   RunOptions options_;
+  PlanOptions plan_options_;
   std::vector<std::string> scenes_;
   std::string method_ = methods.front().first, scalar_ = "double";
 };

@@ -43,6 +43,7 @@ class Field {
   struct Member;
   std::vector<Member> members(const std::string& meaning) const;
 
+  bool is_null() const { return value_->kind == JsonValue::Kind::null; }
   bool is_number() const { return value_->kind == JsonValue::Kind::number; }
   bool is_array() const { return value_->kind == JsonValue::Kind::array; }
   bool is_object() const { return value_->kind == JsonValue::Kind::object; }

@@ -3,6 +3,7 @@
 #include "lib/files/input_error.hpp"
 #include "lib/kinds/condensed_kind.hpp"
 #include "lib/kinds/kind_models.hpp"
+#include "lib/kinds/leg_model.hpp"
 #include "lib/kinds/valid_scene.hpp"
 
 namespace taut::host {
@@ -42,6 +43,13 @@ std::unique_ptr<Model> stepwise_model(const SceneDescription& scene, ScalarType 
 }
 
 }  // namespace
+
+std::unique_ptr<LegModel> make_leg_model(const SceneDescription& scene) {
+  require_valid(scene);
+  return with_condensed_capacity(scene, [&](auto kind) -> std::unique_ptr<LegModel> {
+    return make_leg_tracker<double, typename decltype(kind)::Capacity>(scene);
+  });
+}
 
 std::unique_ptr<Model> make_model(const SceneDescription& scene, Method method, ScalarType scalar,
                                   const AlarmLimits<double>& limits) {

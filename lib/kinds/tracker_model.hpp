@@ -1,17 +1,19 @@
 // The method `tracker` as a Model.
 #pragma once
 
+#include <cstring>
 #include <memory>
+#include <string>
 
 #include "lib/kinds/condense_scene.hpp"
-#include "lib/kinds/model.hpp"
+#include "lib/kinds/leg_model.hpp"
 #include "lib/kinds/solver_values.hpp"
 #include "taut/tracking/tracker.hpp"
 
 namespace taut::host {
 
 template <class Scalar, class Cap>
-class TrackerModel : public Model {
+class TrackerModel : public LegModel {
  public:
   explicit TrackerModel(const SceneDescription& scene)
       : scene_(scene),
@@ -29,6 +31,21 @@ class TrackerModel : public Model {
     const auto sample = sample_of<Scalar, Cap>(row, scene_);
     return go_on(tracker_->advance(sample), sample);
   }
+  Followed advance_to_event(const LogRow& row) override {
+    const auto progress = tracker_->advance(sample_of<Scalar, Cap>(row, scene_), 1);
+    return {progress.status, static_cast<double>(progress.fraction)};
+  }
+  std::string save() const override {
+    const State state = tracker_->save();
+    return {reinterpret_cast<const char*>(&state), sizeof(State)};
+  }
+  Followed go_to(const std::string& bytes) override {
+    if (bytes.size() != sizeof(State)) return {Status::at(Code::bad_sample, Place::none, 0), 0};
+    State state;
+    std::memcpy(static_cast<void*>(&state), bytes.data(), sizeof(State));
+    const Status restored = tracker_->restore(*condensed_, state);
+    return {restored, restored ? 1.0 : 0.0};
+  }
   void read(Answer& answer) const override {
     Response<Scalar, Cap> response;
     tracker_->respond(response, struts_.get());
@@ -45,6 +62,7 @@ class TrackerModel : public Model {
   using Displacements = DisplacementsOf<Scalar, Cap>;
   using StrutRows = StrutsOf<Scalar, Cap>;
   using TrackerType = Tracker<CondensedType>;
+  using State = typename TrackerType::State;
   static constexpr int most_calls = 64;
 
   template <int Dimension>

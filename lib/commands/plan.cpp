@@ -1,0 +1,75 @@
+#include "lib/commands/plan.hpp"
+
+#include <iostream>
+#include <optional>
+
+#include "lib/files/input_error.hpp"
+#include "lib/files/output_file.hpp"
+#include "lib/files/scene_file.hpp"
+#include "lib/files/status_text.hpp"
+#include "lib/files/text.hpp"
+#include "lib/kinds/valid_scene.hpp"
+#include "lib/plan/find_plan.hpp"
+#include "lib/plan/goal_file.hpp"
+#include "lib/plan/objective.hpp"
+#include "lib/plan/plan_log.hpp"
+#include "lib/plan/plan_table.hpp"
+#include "lib/plan/plan_words.hpp"
+#include "lib/plan/prior.hpp"
+
+namespace taut::host {
+namespace {
+
+void keep_files_apart(const PlanOptions& options) {
+  keep_inputs(options.log, {options.scene, options.goal});
+  keep_inputs(options.sheet, {options.scene, options.goal});
+  if (!options.log.empty() && options.log == options.sheet)
+    throw InputError(options.log, "", "is the log and the sheet of one plan", "name another file");
+}
+
+// What is said of the plan is what simulate finds for its log.
+void take_simulated(const PlanGoal& goal, PlanResult& result) {
+  CourseOutcome& outcome = result.plan.outcome;
+  for (std::size_t row = 0; row < result.simulated.answers.size(); ++row)
+    if (const int stage = stage_of_row(result.plan, row); stage >= 0)
+      outcome.tension[static_cast<std::size_t>(stage)] = result.simulated.answers[row].tension;
+  outcome.error = off_target(outcome.tension.back(), goal.target);
+}
+
+}  // namespace
+
+int plan(const PlanOptions& options) {
+  const SceneDescription scene = read_scene_file(options.scene);
+  require_valid(scene);
+  const PlanGoal goal = read_goal_file(options.goal, scene);
+  keep_files_apart(options);
+  PlanResult result;
+  result.plan = find_plan(scene, goal);
+  if (!result.plan.status) {
+    std::cerr << options.scene << ": " << failure_text(result.plan.status, scene) << '\n';
+    return 1;
+  }
+  const std::string log = plan_log(scene, goal, result.plan);
+  result.simulated = simulate(log, scene);
+  if (!result.simulated.stopped.empty()) {
+    std::cerr << options.scene << ": the plan comes to no end: " << result.simulated.stopped << '\n';
+    return 1;
+  }
+  take_simulated(goal, result);
+  if (has_prior(scene)) result.prior = outcome_over_prior(scene, goal, result.plan.jacks, result.plan.stages);
+  if (!options.log.empty()) {
+    OutputFile file(options.log);
+    file.write(log);
+    file.finish();
+  }
+  OutputFile table("");
+  table.write(plan_table(scene, goal, result));
+  table.finish();
+  if (!result.plan.limits_stop_it) return 0;
+  std::cerr << options.goal << ": /limits: they leave no way to come nearer to the targets than "
+            << part_text(result.plan.outcome.error) << ", without them " << part_text(result.plan.without_limits)
+            << " is possible; write larger limits, or other targets\n";
+  return 1;
+}
+
+}  // namespace taut::host

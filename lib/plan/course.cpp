@@ -1,0 +1,96 @@
+#include "lib/plan/course.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "lib/plan/objective.hpp"
+
+namespace taut::host {
+namespace {
+
+// A limit is kept in the log, too, whose forces may differ by rounding.
+constexpr double just_below = 1 - 1e-9;
+constexpr double no_answer = 1e12, beyond_limits = 1e6;
+
+}  // namespace
+
+std::size_t open_forces(const CourseShape& shape) {
+  std::size_t count = 0;
+  for (const CourseStep& step : shape) count += step.locks ? 0 : step.jacks.size();
+  return count;
+}
+
+std::vector<PlanStage> stages_of(const CourseShape& shape, const std::vector<double>& force,
+                                 std::size_t jacks) {
+  std::vector<PlanStage> stages;
+  PlanStage stage{std::vector<double>(jacks, 0), std::vector<char>(jacks, 0)};
+  std::size_t next = 0;
+  for (const CourseStep& step : shape) {
+    for (const std::size_t jack : step.jacks) {
+      if (step.locks)
+        stage.locked[jack] = 1;
+      else
+        stage.force[jack] = force[next++];
+    }
+    stages.push_back(stage);
+  }
+  return stages;
+}
+
+double CourseOutcome::merit() const {
+  if (!whole) return no_answer;
+  return excess > 0 ? beyond_limits * (1 + excess) : error;
+}
+
+double excess_at(const LegPoint& point, const PlanGoal& goal, const std::vector<PlanJack>& jacks) {
+  double most = 0;
+  for (std::size_t i = 0; i < point.tension.size(); ++i)
+    most = std::max(most, point.tension[i] / (just_below * goal.most_segment[i]) - 1);
+  for (std::size_t k = 0; k < jacks.size(); ++k)
+    most = std::max(most, point.stroke[k] / (just_below * jacks[k].most_stroke) - 1);
+  return most;
+}
+
+Course::Course(Jacking& jacking, const PlanGoal& goal, CourseShape shape, std::string start)
+    : jacking_(jacking), goal_(goal), shape_(std::move(shape)), state_{std::move(start)}, excess_{0} {
+  for (std::size_t s = 0; s < shape_.size(); ++s)
+    for (const std::size_t jack : shape_[s].jacks) {
+      if (shape_[s].locks) continue;
+      step_of_.push_back(s);
+      jack_of_.push_back(jack);
+    }
+}
+
+double Course::excess_of(const Leg& leg) const {
+  double most = 0;
+  for (const LegPoint& point : leg.points) most = std::max(most, excess_at(point, goal_, jacking_.jacks()));
+  return most;
+}
+
+CourseOutcome Course::at(const std::vector<double>& force) {
+  const std::vector<PlanStage> stages = stages_of(shape_, force, jacking_.jacks().size());
+  std::size_t same = 0;
+  while (same < known_.size() && stages[same].force == known_[same].force) ++same;
+  known_.resize(same);
+  state_.resize(same + 1);
+  excess_.resize(same + 1);
+  last_.tension.resize(same);
+  last_.stroke.resize(same);
+  last_.whole = true;
+  if (same < shape_.size()) jacking_.go_to(state_[same]);
+  for (std::size_t s = same; s < shape_.size(); ++s) {
+    const Leg leg = jacking_.follow(stages[s]);
+    last_.whole = leg.whole;
+    if (!leg.whole) return last_;
+    excess_.push_back(std::max(excess_.back(), excess_of(leg)));
+    known_.push_back(stages[s]);
+    state_.push_back(jacking_.state());
+    last_.tension.push_back(leg.end().tension);
+    last_.stroke.push_back(leg.end().stroke);
+  }
+  last_.excess = excess_.back();
+  last_.error = off_target(last_.tension.back(), goal_.target);
+  return last_;
+}
+
+}  // namespace taut::host

@@ -1,0 +1,103 @@
+#include "lib/plan/jacking.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "lib/files/plausible_scene.hpp"
+
+namespace taut::host {
+namespace {
+
+// Of a leg; no scene needs nearly as many.
+constexpr int most_events = 100000;
+// Events in the same place.
+constexpr int most_stalls = 64;
+
+}  // namespace
+
+std::vector<PlanJack> plan_jacks(const SceneDescription& scene, const PlanGoal& goal,
+                                 const std::vector<double>& most_possible) {
+  // A log may hold what is given as its limit, and a limit may not fail by a rounding.
+  constexpr double just_below = 1 - 1e-12;
+  std::vector<PlanJack> jacks;
+  for (std::size_t c = 0; c < scene.cables.size(); ++c) {
+    const CableDescription& cable = scene.cables[c];
+    double most = just_below * most_possible[c];
+    if (scene.plausible) most = std::min(most, just_below * largest_plausible_strain * cable.E * cable.A);
+    for (std::size_t end = 0; end < 2; ++end)
+      if (cable.is_jacked(end))
+        jacks.push_back({c, end, std::min(most, goal.most_force[c][end]), goal.most_stroke[c][end],
+                         cable.name + "." + end_name(end)});
+  }
+  return jacks;
+}
+
+Jacking::Jacking(const SceneDescription& scene, const PlanGoal& goal, std::vector<PlanJack> jacks)
+    : scene_(scene), goal_(goal), jacks_(std::move(jacks)), model_(make_leg_model(scene)) {}
+
+bool Jacking::begin() {
+  if (const Followed start = model_->start(1); !start.whole()) {
+    why_ = start.status;
+    return false;
+  }
+  const std::string before = state();
+  const Followed loaded = model_->advance(row_of(at_rest()), 1);
+  loads_come_first_ = loaded.whole();
+  if (!loads_come_first_) go_to(before);
+  return true;
+}
+
+LogRow Jacking::row_of(const PlanStage& stage) const {
+  LogRow row;
+  row.factor = goal_.factor;
+  row.cables.resize(scene_.cables.size());
+  for (std::size_t k = 0; k < jacks_.size(); ++k) {
+    EndRow& end = row.cables[jacks_[k].cable][jacks_[k].end];
+    end.force = stage.force[k];
+    end.locked = stage.locked[k] != 0;
+  }
+  return row;
+}
+
+LegPoint Jacking::here() const {
+  Answer answer;
+  model_->read(answer);
+  LegPoint point;
+  point.tension = std::move(answer.tension);
+  point.state = std::move(answer.state);
+  for (const PlanJack& jack : jacks_) point.stroke.push_back(answer.payout[jack.cable][jack.end]);
+  return point;
+}
+
+Leg Jacking::follow(const PlanStage& stage, std::vector<std::string>* seen) {
+  ++legs_;
+  const LogRow row = row_of(stage);
+  Leg leg;
+  leg.points.push_back(here());
+  if (seen != nullptr) seen->push_back(state());
+  double rest = 1;
+  for (int event = 0, stalls = 0; event < most_events && stalls < most_stalls; ++event) {
+    const Followed step = model_->advance_to_event(row);
+    stalls = step.fraction > 0 ? 0 : stalls + 1;
+    rest *= 1 - step.fraction;
+    leg.whole = step.whole();
+    if (step.fraction > 0 || leg.whole) {
+      leg.points.push_back(here());
+      leg.points.back().part = leg.whole ? 1 : 1 - rest;
+      if (seen != nullptr) seen->push_back(state());
+    }
+    if (leg.whole || !step.status) break;
+  }
+  return leg;
+}
+
+Leg Jacking::jump(const PlanStage& stage) {
+  ++legs_;
+  Leg leg;
+  leg.whole = model_->advance(row_of(stage), 1).whole();
+  leg.points.push_back(here());
+  leg.points.back().part = 1;
+  return leg;
+}
+
+}  // namespace taut::host

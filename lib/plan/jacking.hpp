@@ -1,0 +1,89 @@
+// Moves of jacks on a model: from stage to stage, event by event, and back to any state that was kept.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lib/files/log_file.hpp"
+#include "lib/files/scene_description.hpp"
+#include "lib/kinds/leg_model.hpp"
+#include "lib/plan/goal.hpp"
+
+namespace taut::host {
+
+/// A jacked end, and how far it may go. Units: N, m.
+struct PlanJack {
+  std::size_t cable = 0, end = 0;
+  double most_force = 0;   ///< by the goal, by the cable and by what a log may hold
+  double most_stroke = 0;  ///< by the goal
+  std::string name;        ///< of its column
+};
+
+/// The jacked ends of a scene, in its order. `most_possible` are the largest forces that the condensed cables
+/// take.
+std::vector<PlanJack> plan_jacks(const SceneDescription& scene, const PlanGoal& goal,
+                                 const std::vector<double>& most_possible);
+
+/// Where all jacks stand after a move.
+struct PlanStage {
+  std::vector<double> force;  ///< of every jack [N]
+  std::vector<char> locked;
+};
+
+/// Forces and extensions somewhere on the path of a move.
+struct LegPoint {
+  double part = 0;                ///< of the whole move
+  std::vector<double> tension;    ///< of every segment [N]
+  std::vector<double> stroke;     ///< of every jack [m]
+  std::vector<JointState> state;  ///< of every joint on the way here
+};
+
+/// The path of a move. Between two points that follow each other all is linear.
+struct Leg {
+  bool whole = false;            ///< else the model has no answer behind the last point
+  std::vector<LegPoint> points;  ///< where it begins, the events, and where it ends
+  const LegPoint& end() const { return points.back(); }
+};
+
+/// A model that is jacked.
+class Jacking {
+ public:
+  /// Throws InputError if the scene cannot be used. The description and the goal must outlive it.
+  Jacking(const SceneDescription& scene, const PlanGoal& goal, std::vector<PlanJack> jacks);
+
+  /// Brings prestrain and loads on, with all jacks at zero. If the structure does not stand under its loads
+  /// without its cables, the loads come with the first move. False if there is no answer even without loads;
+  /// why() says the reason.
+  [[nodiscard]] bool begin();
+  const Status& why() const { return why_; }
+  bool loads_come_first() const { return loads_come_first_; }
+
+  const std::vector<PlanJack>& jacks() const { return jacks_; }
+  PlanStage at_rest() const {
+    return {std::vector<double>(jacks_.size(), 0), std::vector<char>(jacks_.size(), 0)};
+  }
+  /// The state reached, to come back to.
+  std::string state() const { return model_->save(); }
+  void go_to(const std::string& state) { static_cast<void>(model_->go_to(state)); }
+  /// Moves the jacks to a stage, event by event; `seen`, if given, gets the state at every point of the leg.
+  Leg follow(const PlanStage& stage, std::vector<std::string>* seen = nullptr);
+  /// The same in one go; no points but the last.
+  Leg jump(const PlanStage& stage);
+  /// Moves until now, parts of moves counted as moves.
+  std::size_t legs() const { return legs_; }
+  LegPoint here() const;
+
+ private:
+  LogRow row_of(const PlanStage& stage) const;
+
+  const SceneDescription& scene_;
+  const PlanGoal& goal_;
+  std::vector<PlanJack> jacks_;
+  std::unique_ptr<LegModel> model_;
+  bool loads_come_first_ = true;
+  Status why_ = Status::success();
+  std::size_t legs_ = 0;
+};
+
+}  // namespace taut::host

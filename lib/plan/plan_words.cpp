@@ -1,0 +1,113 @@
+#include "lib/plan/plan_words.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "lib/files/text.hpp"
+
+namespace taut::host {
+namespace {
+
+// The segments that are the furthest off.
+struct Furthest {
+  std::size_t low = 0, high = 0;
+  double least = 0, most = 0;
+};
+Furthest furthest(const std::vector<double>& tension, const PlanGoal& goal) {
+  Furthest found;
+  for (std::size_t i = 0; i < goal.target.size(); ++i) {
+    if (!goal.matters(i)) continue;
+    const double off = tension[i] / goal.target[i] - 1;
+    if (off < found.least) {
+      found.least = off;
+      found.low = i;
+    }
+    if (off > found.most) {
+      found.most = off;
+      found.high = i;
+    }
+  }
+  return found;
+}
+
+std::string moves_text(const Plan& plan) {
+  std::size_t moves = 0;
+  for (const CourseStep& step : plan.shape) moves += step.locks ? 0 : 1;
+  return counted(moves, "move");
+}
+
+std::size_t first_segment(const SceneDescription& scene, std::size_t of) {
+  std::size_t first = 0;
+  for (std::size_t c = 0; c < of; ++c) first += scene.cables[c].segments();
+  return first;
+}
+
+}  // namespace
+
+std::string segment_text(const SceneDescription& scene, std::size_t segment) {
+  for (const CableDescription& cable : scene.cables) {
+    if (segment < cable.segments())
+      return "segment " + std::to_string(segment + 1) + " of cable " + quote(cable.name);
+    segment -= cable.segments();
+  }
+  return "";
+}
+
+std::string part_text(double part) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3f %%", 100 * part);
+  return text.data();
+}
+
+std::vector<std::string> plan_sentences(const SceneDescription& scene, const PlanGoal& goal,
+                                        const PlanResult& result) {
+  const Plan& plan = result.plan;
+  std::vector<std::string> said;
+  const double error = plan.outcome.error;
+  said.push_back("with " + moves_text(plan) + (goal.lock ? " and lock-off" : "") +
+                 " the forces come within " + part_text(error) + " of their targets, at the mean of mu");
+  if (result.prior) {
+    const PriorOutcome& prior = *result.prior;
+    said.push_back("over what is known of mu: at its mean " + part_text(error) + ", expected " +
+                   part_text(prior.expected) + ", at 95 % " + part_text(prior.at_95));
+    if (prior.failed > 0)
+      said.push_back(counted(prior.failed, "draw") + " of " + std::to_string(prior.draws) +
+                     " of mu had no answer and do not count");
+  }
+  const Furthest far = furthest(plan.outcome.tension.back(), goal);
+  std::string stop;
+  if (far.least < 0) stop += segment_text(scene, far.low) + " (" + part_text(-far.least) + " too low)";
+  if (far.most > 0)
+    stop += (stop.empty() ? "" : " and ") + segment_text(scene, far.high) + " (" + part_text(far.most) +
+            " too high)";
+  if (error > 1e-9) {
+    const std::string friction = has_limits(goal) ? "friction and the limits allow" : "friction allows";
+    switch (plan.certainty) {
+      case Certainty::best_of_all:
+        said.push_back(friction + " nothing nearer, however it is jacked: " + stop + " stop it");
+        break;
+      case Certainty::best_of_moves:
+        said.push_back(friction + " nothing nearer in so many moves (proved): " + stop + " stop it");
+        break;
+      case Certainty::best_found:
+        said.push_back("nothing nearer was found (not proved): " + stop + " stop it");
+        break;
+    }
+  }
+  if (plan.bound.error > 1e-9 && plan.certainty != Certainty::best_of_all) {
+    const std::size_t first = first_segment(scene, plan.bound_cable);
+    const std::string low = segment_text(scene, first + plan.bound.low);
+    said.push_back(
+        "by friction alone no jacking whatever comes nearer than " + part_text(plan.bound.error) + ": " + low +
+        (plan.bound.low == plan.bound.high ? " is held by its limit"
+                                           : " and segment " + std::to_string(plan.bound.high + 1) +
+                                                 " differ by more than the joints between them hold"));
+  }
+  if (plan.limits_stop_it)
+    said.push_back("the limits of " + goal.file + " stand in the way: without them " +
+                   part_text(plan.without_limits) + " would be possible");
+  return said;
+}
+
+}  // namespace taut::host
