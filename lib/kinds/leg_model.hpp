@@ -18,6 +18,9 @@ class LegModel : public Model {
   /// After start(): goes back, or on, to a state that save() gave in a model of the same scene. Fails with
   /// `bad_sample` if it is none. Cost: that of one event.
   virtual Followed go_to(const std::string& state) = 0;
+  /// The present state without the forces of struts, which take most of the time of read() where there are
+  /// many.
+  virtual void read_cables(Answer& answer) const = 0;
 };
 
 /// The method `tracker` for the capacity `Cap`. Compiled for each kind in a unit of its own.

@@ -47,15 +47,13 @@ class TrackerModel : public LegModel {
     return {restored, restored ? 1.0 : 0.0};
   }
   void read(Answer& answer) const override {
-    Response<Scalar, Cap> response;
-    tracker_->respond(response, struts_.get());
-    read_response(response, scene_, answer);
-    read_lean(*tracker_, scene_, answer);
+    read(answer, struts_.get());
     if (displacements_ == nullptr) return;
     FixedArray<Scalar, Cap::displacements> found;
     displacements_->evaluate(tracker_->model(), tracker_->loads(), tracker_->elongations(), found);
     detail::copy_numbers(found, scene_.displaced.size(), answer.displacement);
   }
+  void read_cables(Answer& answer) const override { read(answer, nullptr); }
 
  private:
   using CondensedType = CondensedOf<Scalar, Cap>;
@@ -68,6 +66,12 @@ class TrackerModel : public LegModel {
   template <int Dimension>
   Condensing condense() {
     return condense_scene<Scalar, Dimension, Cap>(scene_, *condensed_, *struts_, displacements_.get());
+  }
+  void read(Answer& answer, const StrutRows* struts) const {
+    Response<Scalar, Cap> response;
+    tracker_->respond(response, struts);
+    read_response(response, scene_, answer);
+    read_lean(*tracker_, scene_, answer);
   }
   /// Calls again while nothing but the event budget of a call ended the path.
   Followed go_on(Progress<Scalar> progress, const Sample<Scalar, Cap>& sample) {

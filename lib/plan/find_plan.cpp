@@ -15,7 +15,7 @@
 namespace taut::host {
 namespace {
 
-constexpr std::size_t moves_up_and_back = 150, moves_short = 500, moves_long = 4000;
+constexpr std::size_t moves_up_and_back = 105, moves_polish = 30, moves_short = 500, moves_long = 4000;
 constexpr std::size_t samples = 48, most_descents = 5;
 // As equal as makes no difference on a gauge.
 constexpr double as_good = 1e-9;
@@ -115,6 +115,7 @@ class PlanSearch {
 
   Plan find() {
     Plan plan;
+    plan.jacks = jacks_;
     plan.status = condensed_.condensing.status;
     if (!plan.status) return plan;
     if (!jacking_->begin()) {
@@ -130,7 +131,9 @@ class PlanSearch {
     Found best;
     if (groups_.size() == 1 && groups_[0].jacks.size() == 1 && jacking_->loads_come_first())
       best = one_jack();
-    if (!(is_settled_ && stages_ <= 2)) {
+    if (stages_ <= 2 && best.merit() < 1) {
+      if (!is_settled_) polish(best);
+    } else {
       for (const CourseShape& shape : shapes()) take_better(best, search(shape, best));
       best.is_closed = false;
     }
@@ -144,15 +147,16 @@ class PlanSearch {
     }
     be_gentle(best);
     drop_idle_moves(best);
-    plan.jacks = jacks_;
     plan.loads_come_first = jacking_->loads_come_first();
     plan.shape = best.shape;
     plan.stages = stages_of(best.shape, best.plan.force, jacks_.size());
     plan.outcome = best.plan.outcome;
     plan.moves_tried = jacking_->legs();
-    if (plan.outcome.error <= plan.bound.error + as_good)
+    // In second-order theory friction follows the displaced geometry, and pieces do not quite meet.
+    const bool is_linear = !scene_.second_order || condensed_.rigid;
+    if (is_linear && plan.outcome.error <= plan.bound.error + as_good)
       plan.certainty = Certainty::best_of_all;
-    else if (best.is_closed)
+    else if (is_linear && best.is_closed)
       plan.certainty = Certainty::best_of_moves;
     return plan;
   }
@@ -221,6 +225,14 @@ class PlanSearch {
     // Only with rigid saddles is the steepness proved.
     best.is_closed = best.is_closed && (condensed_.rigid || (stages_ == 1 && !goal_.lock));
     return best;
+  }
+
+  // What the whole of it did not settle within its moves, as in second-order theory, whose pieces do not
+  // quite meet.
+  void polish(Found& best) {
+    Course course(*jacking_, goal_, best.shape, start_);
+    CoursePlan plan = descend(course, goal_, best.plan.force, best.plan.force[0] / 50, moves_polish);
+    if (plan.outcome.merit() < best.plan.outcome.merit()) best.plan = std::move(plan);
   }
 
   std::vector<CourseShape> shapes() const {
@@ -370,7 +382,7 @@ class PlanSearch {
       };
       if (!is_enough(1e-4)) continue;
       double good = 1e-4, bad = 1;
-      for (int round = 0; round < 20; ++round) {
+      for (int round = 0; round < 8; ++round) {
         const double part = (good + bad) / 2;
         (is_enough(part) ? good : bad) = part;
       }

@@ -61,7 +61,7 @@ LogRow Jacking::row_of(const PlanStage& stage) const {
 
 LegPoint Jacking::here() const {
   Answer answer;
-  model_->read(answer);
+  model_->read_cables(answer);
   LegPoint point;
   point.tension = std::move(answer.tension);
   point.state = std::move(answer.state);

@@ -98,11 +98,12 @@ std::vector<std::string> plan_sentences(const SceneDescription& scene, const Pla
   if (plan.bound.error > 1e-9 && plan.certainty != Certainty::best_of_all) {
     const std::size_t first = first_segment(scene, plan.bound_cable);
     const std::string low = segment_text(scene, first + plan.bound.low);
-    said.push_back(
-        "by friction alone no jacking whatever comes nearer than " + part_text(plan.bound.error) + ": " + low +
-        (plan.bound.low == plan.bound.high ? " is held by its limit"
-                                           : " and segment " + std::to_string(plan.bound.high + 1) +
-                                                 " differ by more than the joints between them hold"));
+    said.push_back("by friction alone no jacking whatever comes nearer than " + part_text(plan.bound.error) +
+                   ": " + low +
+                   (plan.bound.low == plan.bound.high
+                        ? " is held by its limit"
+                        : " and segment " + std::to_string(plan.bound.high + 1) +
+                              " differ by more than the joints between them hold"));
   }
   if (plan.limits_stop_it)
     said.push_back("the limits of " + goal.file + " stand in the way: without them " +

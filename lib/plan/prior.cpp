@@ -8,7 +8,8 @@
 namespace taut::host {
 namespace {
 
-constexpr std::size_t draws = 100;
+// Condensing in second-order theory takes long.
+constexpr std::size_t draws_linear = 100, draws_second_order = 32;
 
 // The coordinates of a point of the sequence, one after the other.
 class Coordinates {
@@ -92,6 +93,7 @@ PriorOutcome outcome_over_prior(const SceneDescription& scene, const PlanGoal& g
   std::vector<double> error;
   std::vector<std::vector<std::vector<double>>> stroke(stages.size(),
                                                        std::vector<std::vector<double>>(jacks.size()));
+  const std::size_t draws = scene.second_order ? draws_second_order : draws_linear;
   for (std::size_t number = 0; number < draws; ++number) {
     const SceneDescription other = drawn(scene, number);
     Jacking jacking(other, goal, jacks);

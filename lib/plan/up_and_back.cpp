@@ -166,6 +166,7 @@ class Search {
   struct Part {
     double from, to, bound;
   };
+  static constexpr int most_events = 2;  // of the pull, in a part whose cells are looked at
 
   bool has_legs() const { return jacking_.legs() < last_leg_; }
 
@@ -243,16 +244,27 @@ class Search {
 
   void look_into(double from, double to) {
     if (!(to - from > 1e-13 * pull_.end())) return;
+    // Where the lower bounds from both ends meet (Piyavskii and Shubert), not too near to either.
     double middle = (from + to) / 2;
-    // The event of the pull that is nearest to the middle.
+    const double first = release(from).error, second = release(to).error;
+    if (first < unreachable && second < unreachable && steepest_ > 0)
+      middle =
+          std::clamp(middle + (first - second) / (2 * steepest_), mix(from, to, 0.05), mix(from, to, 0.95));
+    // The event of the pull that is nearest to it, where there are few.
     bool has_event = false;
     double nearest = 0;
-    for (const double force : pull_.forces())
-      if (force > from && force < to &&
-          (!has_event || std::fabs(force - middle) < std::fabs(nearest - middle))) {
-        nearest = force;
-        has_event = true;
-      }
+    int events = 0;
+    for (const double force : pull_.forces()) {
+      if (!(force > from && force < to)) continue;
+      ++events;
+      if (!has_event || std::fabs(force - middle) < std::fabs(nearest - middle)) nearest = force;
+      has_event = true;
+    }
+    if (events > most_events) {
+      divide(from, middle);
+      divide(middle, to);
+      return;
+    }
     if (has_event) {
       middle = nearest;
     } else if (const auto cells = best_of_cells(release(from), release(to))) {

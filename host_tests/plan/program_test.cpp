@@ -1,0 +1,2 @@
+// x
+#include <doctest/doctest.h>
