@@ -113,6 +113,10 @@ double best_of_random(const Site& site, Rows& rows, Random& random, int count) {
 class Column {
  public:
   void add(double part) { all_.push_back(100 * part); }
+  // What is usual with two jacks may pull the cable through.
+  void add(const CourseOutcome& outcome) {
+    if (outcome.whole) add(outcome.error);
+  }
   std::string text() {
     if (all_.empty()) return "-";
     std::sort(all_.begin(), all_.end());
@@ -201,8 +205,8 @@ bool compare_one(const Options& options, Kind& kind, std::uint64_t i) {
   }
   const UsualJacking straight = usual_jacking(site.scene, site.goal, 0);
   const UsualJacking rule = usual_jacking(site.scene, site.goal, 0.05);
-  kind.straight.add(straight.outcome.error);
-  kind.rule.add(rule.outcome.error);
+  kind.straight.add(straight.outcome);
+  kind.rule.add(rule.outcome);
   kind.plan.add(plan.outcome.error);
   const auto other_mu = [&](double factor, Column& of_straight, Column& of_rule, Column& of_plan,
                             Column& of_again) {
@@ -238,8 +242,8 @@ bool compare_two(const Options& options, Kind& kind, std::uint64_t i) {
   kind.slowest = std::max(kind.slowest, took);
   kind.most_moves = std::max(kind.most_moves, static_cast<int>(plan.moves_tried));
   kind.plan.add(plan.outcome.error);
-  kind.straight.add(usual_jacking(site.scene, site.goal, 0).outcome.error);
-  kind.rule.add(usual_jacking(site.scene, site.goal, 0.05).outcome.error);
+  kind.straight.add(usual_jacking(site.scene, site.goal, 0).outcome);
+  kind.rule.add(usual_jacking(site.scene, site.goal, 0.05).outcome);
   const double brute = best_of_random(site, rows, random, options.random);
   kind.excess = std::max(kind.excess, plan.outcome.error - brute);
   if (plan.outcome.error <= brute + 1e-9) return true;

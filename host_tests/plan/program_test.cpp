@@ -1,2 +1,206 @@
-// x
+// `taut plan` as people run it.
 #include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "files/run_program.hpp"
+#include "report/well_formed.hpp"
+
+namespace {
+
+const std::string two_bays = R"({ "taut": 1, "name": "bays <&>", "dimension": 2,
+  "nodes": { "a": [0, 0], "b": [10, -1], "c": [20, -1.5], "d": [30, -1], "e": [40, 0] },
+  "supports": { "a": "xy", "b": "xy", "c": "xy", "d": "xy", "e": "xy" },
+  "cables": [ { "name": "C", "path": ["a", "b", "c", "d", "e"], "E": 1.95e11, "A": 1.4e-3, "start": "anchored", "end": "jacked",
+                "seating": 0.006, "friction": { "law": "capstan", "mu": 0.25, "mu_sd": 0.05, "shared": true } } ],
+  "loads": { "dead": { "forces": { "c": [0, -1000] } } },
+  "sensors": { "C.end": { "hysteresis": { "part": 0.02, "calibrated": "up" },
+                          "calibration": [[0, 0], [10, 150000], [50, 790000]] } } })";
+
+struct Run {
+  Outcome outcome;
+  std::string log, sheet;
+  bool has_log = false;
+};
+
+Run plan(const std::string& scene, const std::string& goal) {
+  const Scratch scratch;
+  std::ofstream(scratch.path / "scene.json") << scene;
+  std::ofstream(scratch.path / "goal.json") << goal;
+  Run run;
+  run.outcome =
+      run_taut(scratch, "plan " + scratch.quoted("scene.json") + " " + scratch.quoted("goal.json") + " -o " +
+                            scratch.quoted("log.csv") + " --report " + scratch.quoted("sheet.html"));
+  run.log = text_of(scratch.path / "log.csv");
+  run.sheet = text_of(scratch.path / "sheet.html");
+  run.has_log = std::filesystem::exists(scratch.path / "log.csv");
+  return run;
+}
+
+std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    rows.emplace_back();
+    std::istringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');) {
+      const std::size_t from = field.find_first_not_of(' ');
+      rows.back().push_back(from == std::string::npos ? "" : field.substr(from));
+    }
+  }
+  return rows;
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// The column of this name, without its unit.
+std::size_t column(const std::vector<std::string>& header, const std::string& name) {
+  for (std::size_t k = 0; k < header.size(); ++k)
+    if (header[k] == name || header[k].rfind(name + " [", 0) == 0) return k;
+  return header.size();
+}
+
+}  // namespace
+
+TEST_CASE("simulate gives for the log the forces that plan prints") {
+  for (const std::string rest :
+       {R"("stages": 1)", R"("stages": 2)", R"("stages": 5)", R"("stages": 2, "lock": true)",
+        R"("stages": 2, "limits": { "C.end": 5.1e5, "C": 5.05e5, "stroke": { "C.end": 0.074 } })"}) {
+    CAPTURE(rest);
+    const Run run =
+        plan(two_bays, R"({ "taut": 1, "loads": { "dead": 1 }, "target": { "C": 5e5 }, )" + rest + " }");
+    CHECK(run.outcome.err.empty());
+    REQUIRE(run.outcome.status == 0);
+    const Scratch scratch;
+    std::ofstream(scratch.path / "scene.json") << two_bays;
+    std::ofstream(scratch.path / "log.csv") << run.log;
+    const Outcome simulated =
+        run_taut(scratch, "simulate " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv"));
+    REQUIRE(simulated.status == 0);
+    const auto printed = rows_of(run.outcome.out), found = rows_of(simulated.out);
+    REQUIRE(printed.size() == found.size());
+    for (std::size_t row = 1; row < printed.size(); ++row)
+      for (const std::string name : {"C.T1", "C.T2", "C.T3", "C.T4"}) {
+        const double here = std::stod(printed[row][column(printed[0], name)]);
+        const double there = std::stod(found[row][column(found[0], name)]);
+        CHECK(std::fabs(here - there) <= 1e-9 * std::fabs(there));
+      }
+  }
+}
+
+TEST_CASE("the log holds what the gauge shows by its calibration, and the sheet the friction of its ram") {
+  const Run run = plan(two_bays, R"({ "taut": 1, "target": { "C": 5e5 }, "stages": 2 })");
+  REQUIRE(run.outcome.status == 0);
+  const auto log = rows_of(run.log), table = rows_of(run.outcome.out);
+  const std::size_t gauge = column(log[0], "C.end"), force = column(table[0], "C.end");
+  REQUIRE(log.size() == 4);
+  for (std::size_t row = 2; row < 4; ++row)
+    CHECK(std::stod(log[row][gauge]) ==
+          doctest::Approx(10 + (std::stod(table[row][force]) - 150000) * 40 / 640000).epsilon(1e-9));
+  // Let out, a gauge that is right while it pulls shows 1 - 2 x 0.02 of the force.
+  char shown[32];
+  std::snprintf(shown, sizeof shown, ">%.2f<",
+                10 + (0.96 * std::stod(table[3][force]) - 150000) * 40 / 640000);
+  CHECK(has(run.sheet, shown));
+}
+
+TEST_CASE("the sheet is one well-formed page, and the same every time") {
+  const std::string goal =
+      R"({ "taut": 1, "target": { "C": [5e5, null, 5e5, 5e5] }, "stages": 3, "lock": true })";
+  const Run run = plan(two_bays, goal);
+  REQUIRE(run.outcome.status == 0);
+  CHECK(WellFormed(run.sheet)() == "");
+  CHECK_FALSE(has(run.sheet, "http"));
+  CHECK(has(run.sheet, "bays &lt;&amp;&gt;"));
+  CHECK(has(run.sheet, "105 % and back"));
+  CHECK(has(run.sheet, "lock off"));
+  const Run again = plan(two_bays, goal);
+  // All but the name of the folder.
+  CHECK(again.log == run.log);
+  CHECK(again.sheet.size() == run.sheet.size());
+  CHECK(again.sheet.substr(again.sheet.find("</header>")) == run.sheet.substr(run.sheet.find("</header>")));
+}
+
+TEST_CASE("over the prior the mean, the expected and the 95 % error are said side by side") {
+  const Run run = plan(two_bays, R"({ "taut": 1, "target": { "C": 5e5 } })");
+  CHECK(has(run.outcome.out, "# over what is known of mu: at its mean "));
+  CHECK(has(run.outcome.out, ", expected "));
+  CHECK(has(run.outcome.out, ", at 95 % "));
+  CHECK(has(run.outcome.out, "C.end.stroke.low"));
+}
+
+TEST_CASE("limits that leave no way near end with 1, and with the best that was found") {
+  const Run run = plan(two_bays, R"({ "taut": 1, "target": { "C": 5e5 }, "limits": { "C.end": 3e5 } })");
+  CHECK(run.outcome.status == 1);
+  CHECK(has(run.outcome.err, "goal.json: /limits: "));
+  CHECK(run.has_log);
+  const auto table = rows_of(run.outcome.out);
+  CHECK(std::stod(table[2][column(table[0], "C.end")]) == doctest::Approx(3e5).epsilon(1e-9));
+}
+
+TEST_CASE("friction that leaves no way near ends with 0 and names the segments that stop it") {
+  const Run run = plan(two_bays, R"({ "taut": 1, "target": { "C": [1e5, 9e5, 1e5, 9e5] } })");
+  CHECK(run.outcome.status == 0);
+  CHECK(has(run.outcome.out, "no jacking whatever comes nearer than"));
+  CHECK(has(run.outcome.out, "differ by more than the joints between them hold"));
+}
+
+TEST_CASE("a goal that cannot be used is refused with its place and a remedy, and nothing is written") {
+  struct Bad {
+    std::string goal, place, says;
+  };
+  const std::string head = R"({ "taut": 1, "target": )";
+  const std::vector<Bad> all = {
+      {"[]", "top level", "a goal"},
+      {R"({ "taut": 2, "target": { "C": 5e5 } })", "/taut", "version 2"},
+      {R"({ "taut": 1 })", "top level", "\"target\" is missing"},
+      {head + R"({ "C": 5e5 }, "stage": 2 })", "/stage", "unknown key \"stage\"; did you mean \"stages\""},
+      {head + R"({ "D": 5e5 } })", "/target/D", "there is no cable \"D\""},
+      {head + R"({ "C": 0 } })", "/target/C", "a target of 0"},
+      {head + R"({ "C": -5 } })", "/target/C", "greater than zero"},
+      {head + R"({ "C": [5e5, 5e5] } })", "/target/C", "2 numbers for 4 segments"},
+      {head + R"({ "C": [5e5, 5e5, -1, 5e5] } })", "/target/C/2", "greater than zero"},
+      {head + R"({ "C": [null, null, null, null] } })", "/target", "no segment has a target"},
+      {head + R"({ "C": "5e5" } })", "/target/C", "one force [N], or a list of 4 forces"},
+      {head + R"({ "C": 5e5 }, "loads": { "dad": 1 } })", "/loads/dad", "did you mean \"dead\""},
+      {head + R"({ "C": 5e5 }, "limits": { "C.start": 1e5 } })", "/limits/C.start", "no cable and no jack"},
+      {head + R"({ "C": 5e5 }, "limits": { "C": 0 } })", "/limits/C", "greater than zero"},
+      {head + R"({ "C": 5e5 }, "limits": { "stroke": { "C": 1 } } })", "/limits/stroke/C",
+       "there is no jack"},
+      {head + R"({ "C": 5e5 }, "stages": 0 })", "/stages", "0 moves of jacks"},
+      {head + R"({ "C": 5e5 }, "stages": 2.5 })", "/stages", "whole number"},
+      {head + R"({ "C": 5e5 }, "lock": 1 })", "/lock", "true or false"},
+  };
+  for (const Bad& bad : all) {
+    const Run run = plan(two_bays, bad.goal);
+    CAPTURE(bad.goal);
+    CAPTURE(run.outcome.err);
+    CHECK(run.outcome.status == 2);
+    CHECK(has(run.outcome.err, "goal.json: " + bad.place + ": "));
+    CHECK(has(run.outcome.err, bad.says));
+    CHECK(run.outcome.out.empty());
+    CHECK_FALSE(run.has_log);
+  }
+}
+
+TEST_CASE("a scene without a jack, and one whose joints lock, are refused") {
+  std::string without = two_bays;
+  without.replace(without.find("\"end\": \"jacked\""), 15, "\"end\": \"anchored\"");
+  std::string no_sensors = without.substr(0, without.find(",\n  \"sensors\"")) + " }";
+  const Run anchored = plan(no_sensors, R"({ "taut": 1, "target": { "C": 5e5 } })");
+  CHECK(anchored.outcome.status == 2);
+  CHECK(has(anchored.outcome.err, "goal.json: /target: the scene \"bays <&>\" has no jack"));
+  // A point contact with mu 60 holds whatever comes: kappa = mu cot(alpha) is above one.
+  std::string locked = two_bays;
+  locked.replace(locked.find("\"capstan\", \"mu\": 0.25"), 21, "\"point\", \"mu\": 60");
+  const Run stuck = plan(locked, R"({ "taut": 1, "target": { "C": 5e5 } })");
+  CAPTURE(stuck.outcome.err);
+  CHECK(stuck.outcome.status == 2);
+  CHECK(has(stuck.outcome.err, "goal.json: /target/C: no jack reaches segment 1 of cable \"C\": joint 1"));
+}

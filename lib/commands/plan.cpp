@@ -13,6 +13,7 @@
 #include "lib/plan/goal_file.hpp"
 #include "lib/plan/objective.hpp"
 #include "lib/plan/plan_log.hpp"
+#include "lib/plan/plan_sheet.hpp"
 #include "lib/plan/plan_table.hpp"
 #include "lib/plan/plan_words.hpp"
 #include "lib/plan/prior.hpp"
@@ -62,12 +63,19 @@ int plan(const PlanOptions& options) {
     file.write(log);
     file.finish();
   }
+  if (!options.sheet.empty()) {
+    OutputFile file(options.sheet);
+    file.write(plan_sheet({scene, goal, result, options.scene, usual_jacking(scene, goal, 0),
+                           usual_jacking(scene, goal, rule_excess)}));
+    file.finish();
+  }
   OutputFile table("");
   table.write(plan_table(scene, goal, result));
   table.finish();
   if (!result.plan.limits_stop_it) return 0;
   std::cerr << options.goal << ": /limits: they leave no way to come nearer to the targets than "
-            << part_text(result.plan.outcome.error) << ", without them " << part_text(result.plan.without_limits)
+            << part_text(result.plan.outcome.error) << ", without them "
+            << part_text(result.plan.without_limits)
             << " is possible; write larger limits, or other targets\n";
   return 1;
 }

@@ -51,14 +51,35 @@ double excess_at(const LegPoint& point, const PlanGoal& goal, const std::vector<
   return most;
 }
 
-Course::Course(Jacking& jacking, const PlanGoal& goal, CourseShape shape, std::string start)
-    : jacking_(jacking), goal_(goal), shape_(std::move(shape)), state_{std::move(start)}, excess_{0} {
+Course::Course(Jacking& jacking, const PlanGoal& goal, CourseShape shape, std::string start,
+               std::vector<double> least_ratio)
+    : jacking_(jacking),
+      goal_(goal),
+      shape_(std::move(shape)),
+      least_ratio_(std::move(least_ratio)),
+      state_{std::move(start)},
+      excess_{0} {
   for (std::size_t s = 0; s < shape_.size(); ++s)
     for (const std::size_t jack : shape_[s].jacks) {
       if (shape_[s].locks) continue;
       step_of_.push_back(s);
       jack_of_.push_back(jack);
     }
+}
+
+double Course::least_ratio(std::size_t force) const {
+  if (force + 1 >= step_of_.size() || step_of_[force] != step_of_[force + 1]) return 0;
+  const std::size_t cable = jacking_.jacks()[jack_of_[force]].cable;
+  return jacking_.jacks()[jack_of_[force + 1]].cable == cable ? least_ratio_[cable] : 0;
+}
+
+void Course::bring_together(std::vector<double>& force) const {
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    const double ratio = least_ratio(k);
+    if (ratio == 0) continue;
+    force[k] = std::min(force[k], force[k + 1] / ratio);
+    force[k + 1] = std::min(force[k + 1], force[k] / ratio);
+  }
 }
 
 double Course::excess_of(const Leg& leg) const {

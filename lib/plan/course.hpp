@@ -40,8 +40,10 @@ struct CourseOutcome {
 /// before.
 class Course {
  public:
-  /// From the state that `start` names. All must outlive it.
-  Course(Jacking& jacking, const PlanGoal& goal, CourseShape shape, std::string start);
+  /// From the state that `start` names. `least_ratio` is that of the forces of two jacks, of every cable:
+  /// with less the cable is pulled through. All but the strings and lists must outlive it.
+  Course(Jacking& jacking, const PlanGoal& goal, CourseShape shape, std::string start,
+         std::vector<double> least_ratio);
 
   const CourseShape& shape() const { return shape_; }
   /// The step in which an open force is given, and its jack.
@@ -49,6 +51,11 @@ class Course {
   std::size_t jack_of(std::size_t force) const { return jack_of_[force]; }
   double most(std::size_t force) const { return jacking_.jacks()[jack_of_[force]].most_force; }
   const Jacking& jacking() const { return jacking_; }
+  /// If this force and the next are those of two jacks of one cable in the same step: the least ratio of
+  /// them; else 0.
+  double least_ratio(std::size_t force) const;
+  /// Lowers the larger of such forces as far as it has to be.
+  void bring_together(std::vector<double>& force) const;
 
   /// Cost: that of the legs from the first force that differs on.
   CourseOutcome at(const std::vector<double>& force);
@@ -60,9 +67,10 @@ class Course {
   const PlanGoal& goal_;
   CourseShape shape_;
   std::vector<std::size_t> step_of_, jack_of_;
-  std::vector<std::string> state_;  // before every step that is known
-  std::vector<PlanStage> known_;    // the stages that led there
-  std::vector<double> excess_;      // up to there
+  std::vector<double> least_ratio_;  // by cable
+  std::vector<std::string> state_;   // before every step that is known
+  std::vector<PlanStage> known_;     // the stages that led there
+  std::vector<double> excess_;       // up to there
   CourseOutcome last_;
 };
 

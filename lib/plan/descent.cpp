@@ -161,6 +161,18 @@ class Descent {
       entries[k] = 1;
       program.add(std::move(entries), 1);
     }
+    // Two jacks of a cable may not pull it through.
+    for (std::size_t k = 0; k + 1 < n; ++k) {
+      const double ratio = course_.least_ratio(k);
+      if (ratio == 0) continue;
+      for (const std::size_t big : {k, k + 1}) {
+        const std::size_t small = 2 * k + 1 - big;
+        std::vector<double> entries(n + 1, 0);
+        entries[big] = ratio * span[big] / width_;
+        entries[small] = -span[small] / width_;
+        program.add(std::move(entries), (low[small] - ratio * low[big]) / width_);
+      }
+    }
     const auto x = solve(program);
     if (!x) return std::nullopt;
     expected_ = (*x)[n];

@@ -15,8 +15,8 @@
 namespace taut::host {
 namespace {
 
-constexpr std::size_t moves_up_and_back = 105, moves_polish = 30, moves_short = 500, moves_long = 4000;
-constexpr std::size_t samples = 48, most_descents = 5;
+constexpr std::size_t moves_up_and_back = 100, moves_polish = 28, moves_short = 500, moves_long = 4000;
+constexpr std::size_t samples = 48, most_descents = 8;
 // As equal as makes no difference on a gauge.
 constexpr double as_good = 1e-9;
 
@@ -48,6 +48,19 @@ FrictionChain chain_of(const SceneDescription& scene, const PlanGoal& goal, cons
     if (!goal.lock) most = std::min(most, goal.most_force[c][end]);
   }
   return chain;
+}
+
+// How far apart the forces of two jacks may be on every cable, and a little less.
+std::vector<double> least_ratios(const SceneDescription& scene, const std::vector<double>& rho) {
+  const double inside = scene.second_order ? 1 + 1e-3 : 1 + 1e-7;
+  std::vector<double> ratios;
+  std::size_t joint = 0;
+  for (const CableDescription& cable : scene.cables) {
+    double ratio = 1;
+    for (std::size_t j = 0; j < cable.joints(); ++j) ratio *= rho[joint++];
+    ratios.push_back(std::min(1.0, inside * ratio));
+  }
+  return ratios;
 }
 
 // Jacks that move together.
@@ -111,6 +124,7 @@ class PlanSearch {
     jacks_ = plan_jacks(scene, goal, condensed_.most_force);
     jacking_ = std::make_unique<Jacking>(scene, goal, jacks_);
     groups_ = groups_of(scene, goal, jacks_);
+    least_ratio_ = least_ratios(scene, condensed_.rho);
   }
 
   Plan find() {
@@ -124,6 +138,7 @@ class PlanSearch {
     }
     start_ = jacking_->state();
     plan.before = jacking_->here();
+    require_reach(plan.before);
     require_limits_to_hold(plan.before);
     find_bound(plan);
     stages_ = goal_.has_stages ? static_cast<std::size_t>(goal_.stages) : 2 * groups_.size();
@@ -173,6 +188,31 @@ class PlanSearch {
     if (other.merit() < best.merit()) best = std::move(other);
   }
 
+  // Between rigid saddles nothing comes over a joint that is self-locking.
+  void require_reach(const LegPoint& rest) const {
+    for (std::size_t c = 0; condensed_.rigid && c < scene_.cables.size(); ++c) {
+      const CableDescription& cable = scene_.cables[c];
+      const std::size_t n = cable.segments(), segment = first_segment(scene_, c),
+                        joint = first_joint(scene_, c);
+      if (cable.closed || !(cable.is_jacked(0) || cable.is_jacked(1))) continue;
+      for (std::size_t i = 0; i < n; ++i) {
+        if (!goal_.matters(segment + i) || rest.tension[segment + i] > 0) continue;
+        // The joint next to it that is in the way of each jack; n: none.
+        std::size_t before = n, behind = n;
+        for (std::size_t j = 0; j < i; ++j)
+          if (condensed_.rho[joint + j] == 0) before = j;
+        for (std::size_t j = i; j + 1 < n && behind == n; ++j)
+          if (condensed_.rho[joint + j] == 0) behind = j;
+        if ((cable.is_jacked(0) && before == n) || (cable.is_jacked(1) && behind == n)) continue;
+        throw InputError(goal_.file, "/target" + pointer_step(cable.name),
+                         "no jack reaches segment " + std::to_string(i + 1) + " of cable " +
+                             quote(cable.name) + ": joint " +
+                             std::to_string((cable.is_jacked(1) ? behind : before) + 1) + " is self-locking",
+                         "write null for this segment, or a smaller mu in the scene");
+      }
+    }
+  }
+
   void require_limits_to_hold(const LegPoint& rest) const {
     for (std::size_t c = 0; c < scene_.cables.size(); ++c)
       for (std::size_t i = 0; i < scene_.cables[c].segments(); ++i) {
@@ -203,7 +243,7 @@ class PlanSearch {
       if (!found.found) return;
       Found other;
       other.shape = shape_at_once(groups_, force.size(), goal_.lock);
-      Course course(*jacking_, goal_, other.shape, start_);
+      Course course(*jacking_, goal_, other.shape, start_, least_ratio_);
       other.plan = {force, course.at(force)};
       // A lock-off may show what a release does not.
       other.is_closed = found.is_closed() && std::fabs(other.plan.outcome.merit() - found.error) <= as_good;
@@ -230,7 +270,7 @@ class PlanSearch {
   // What the whole of it did not settle within its moves, as in second-order theory, whose pieces do not
   // quite meet.
   void polish(Found& best) {
-    Course course(*jacking_, goal_, best.shape, start_);
+    Course course(*jacking_, goal_, best.shape, start_, least_ratio_);
     CoursePlan plan = descend(course, goal_, best.plan.force, best.plan.force[0] / 50, moves_polish);
     if (plan.outcome.merit() < best.plan.outcome.merit()) best.plan = std::move(plan);
   }
@@ -285,9 +325,10 @@ class PlanSearch {
   }
 
   Found search(const CourseShape& shape, const Found& known) {
-    Course course(*jacking_, goal_, shape, start_);
+    Course course(*jacking_, goal_, shape, start_, least_ratio_);
     std::vector<CoursePlan> starts;
     const auto add = [&](std::vector<double> force) {
+      course.bring_together(force);
       bring_within_limits(course, force);
       CourseOutcome outcome = course.at(force);
       starts.push_back({std::move(force), std::move(outcome)});
@@ -303,11 +344,26 @@ class PlanSearch {
     for (int round = 0; round < 30; ++round)
       ratio = std::pow(1 + ratio, 1 / (1 + static_cast<double>(count)));
     for (std::size_t n = 0; n < samples; ++n) {
-      std::vector<double> force;
+      std::vector<double> force, at;
       for (std::size_t k = 0; k < count; ++k) {
-        const double at = 0.5 + static_cast<double>(n) * std::pow(ratio, -1 - static_cast<double>(k));
-        force.push_back(std::min(course.most(k), width * (0.5 + 0.7 * (at - std::floor(at)))));
+        const double turns = 0.5 + static_cast<double>(n) * std::pow(ratio, -1 - static_cast<double>(k));
+        at.push_back(turns - std::floor(turns));
+        // The second of two jacks within what friction lets it differ.
+        const double least = k > 0 ? course.least_ratio(k - 1) : 0;
+        force.push_back(
+            std::min(course.most(k), least > 0 ? force[k - 1] * std::pow(std::max(least, 0.7), 1 - 2 * at[k])
+                                               : width * (0.5 + 0.7 * at[k])));
       }
+      add(std::move(force));
+    }
+    // Beyond the targets at the jacks by more and more, and back to them.
+    for (const double beyond : {1.02, 1.05, 1.1, 1.2, 1.35}) {
+      std::vector<double> force;
+      std::vector<std::size_t> left(jacks_.size(), 0);
+      for (std::size_t k = 0; k < count; ++k) ++left[course.jack_of(k)];
+      for (std::size_t k = 0; k < count; ++k)
+        force.push_back(std::min(
+            course.most(k), usual_force(course.jack_of(k)) * (--left[course.jack_of(k)] > 0 ? beyond : 1)));
       add(std::move(force));
     }
     std::stable_sort(starts.begin(), starts.end(), [](const CoursePlan& a, const CoursePlan& b) {
@@ -359,7 +415,7 @@ class PlanSearch {
 
   // No jack goes further than it has to: turning points come nearer to those before and after.
   void be_gentle(Found& best) {
-    Course course(*jacking_, goal_, best.shape, start_);
+    Course course(*jacking_, goal_, best.shape, start_, least_ratio_);
     const double enough = best.merit() + as_good / 10;
     for (std::size_t n = 0; n < best.plan.force.size(); ++n) {
       // The force that the jack comes from, and the one that it goes to next.
@@ -400,7 +456,7 @@ class PlanSearch {
       other.plan.force.erase(from, from + static_cast<std::ptrdiff_t>(best.shape[s].jacks.size()));
       other.shape.erase(other.shape.begin() + static_cast<std::ptrdiff_t>(s));
       if (open_forces(other.shape) == 0) continue;
-      Course course(*jacking_, goal_, other.shape, start_);
+      Course course(*jacking_, goal_, other.shape, start_, least_ratio_);
       other.plan.outcome = course.at(other.plan.force);
       if (other.merit() <= best.merit() + as_good) best = std::move(other);
     }
@@ -413,6 +469,7 @@ class PlanSearch {
   std::unique_ptr<Jacking> jacking_;
   std::vector<Group> groups_;
   std::string start_;
+  std::vector<double> least_ratio_;  // of two jacks of a cable
   std::size_t stages_ = 0;
   bool is_settled_ = false;  // all that one jack can do in the moves was looked at
 };
@@ -450,7 +507,7 @@ UsualJacking usual_jacking(const SceneDescription& scene, const PlanGoal& goal, 
           target = goal.target[first + (jacks[k].end == 0 ? i : n - 1 - i)];
         force.push_back(m + 1 < moves ? (1 + excess) * target : target);
       }
-  Course course(jacking, goal, shape, jacking.state());
+  Course course(jacking, goal, shape, jacking.state(), least_ratios(scene, condensed.rho));
   usual.stages = stages_of(shape, force, jacks.size());
   usual.outcome = course.at(force);
   return usual;
