@@ -204,3 +204,33 @@ TEST_CASE("a scene without a jack, and one whose joints lock, are refused") {
   CHECK(stuck.outcome.status == 2);
   CHECK(has(stuck.outcome.err, "goal.json: /target/C: no jack reaches segment 1 of cable \"C\": joint 1"));
 }
+
+TEST_CASE("the example in the README is what the program prints") {
+  const Scratch scratch;
+  const std::string data = std::string(TAUT_ROOT) + "/firmware_example/data";
+  const Outcome outcome =
+      run_taut(scratch, "plan plan_string.json plan_string_goal.json", "cd '" + data + "'");
+  REQUIRE(outcome.status == 0);
+  const std::string readme = text_of(std::string(TAUT_ROOT) + "/lib/README.md");
+  const std::string mark = "<!-- output of the program -->\n```text\n";
+  const std::size_t begin = readme.find(mark);
+  REQUIRE(begin != std::string::npos);
+  const std::string block =
+      readme.substr(begin + mark.size(), readme.find("```\n<!-- end -->", begin) - begin - mark.size());
+  const auto remarks = [](const std::string& text) {
+    std::string all;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+      if (!line.empty() && line[0] == '#') all += line + "\n";
+    return all;
+  };
+  CHECK(remarks(block) == remarks(outcome.out));
+  const auto there = rows_of(block), here = rows_of(outcome.out);
+  REQUIRE(there.size() == here.size());
+  for (std::size_t row = 1; row < here.size(); ++row)
+    for (std::size_t k = 1; k < here[row].size(); ++k)
+      CHECK(std::stod(there[row][k]) == doctest::Approx(std::stod(here[row][k])).epsilon(1e-6));
+  // The remarks but for the title.
+  const std::string said = remarks(outcome.out);
+  CHECK(has(text_of(std::string(TAUT_ROOT) + "/README.md"), said.substr(said.find('\n') + 1)));
+}
