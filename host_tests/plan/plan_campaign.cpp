@@ -178,7 +178,7 @@ bool compare_one(const Options& options, Kind& kind, std::uint64_t i) {
   ++kind.scenes;
   kind.proved += plan.certainty != Certainty::best_found;
   kind.most_moves = std::max(kind.most_moves, static_cast<int>(plan.moves_tried));
-  kind.time.add(took / 100);
+  kind.time.add(10 * took);
   kind.slowest = std::max(kind.slowest, took);
   bool good = true;
   const auto fail = [&](const char* what, double here, double there) {
@@ -238,7 +238,7 @@ bool compare_two(const Options& options, Kind& kind, std::uint64_t i) {
     return true;
   }
   ++kind.scenes;
-  kind.time.add(took / 100);
+  kind.time.add(10 * took);
   kind.slowest = std::max(kind.slowest, took);
   kind.most_moves = std::max(kind.most_moves, static_cast<int>(plan.moves_tried));
   kind.plan.add(plan.outcome.error);
@@ -273,7 +273,7 @@ int run(const Options& options) {
   std::printf("\nOne jack, up and back; furthest from the target [%%], mean / median / 95 %%\n\n");
   std::printf(
       "| | scenes | straight pull | 105 %% and back | plan | proved | moves tried, at most | "
-      "plan less brute force, at most [%%] | time [s], mean / median / 95 %% |\n"
+      "plan less brute force, at most [%%] | time [ms], mean / median / 95 %% |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   for (Kind& kind : one)
     std::printf("| %s | %d (%d without an answer) | %s | %s | %s | %d | %d | %.4f | %s |\n",
@@ -295,7 +295,8 @@ int run(const Options& options) {
   std::printf(
       "| | scenes | straight pull | 105 %% and back | plan | plan less the best of %d random ones, at most "
       "[%%] | "
-      "moves tried, at most | time [s], mean / median / 95 %% |\n| --- | --- | --- | --- | --- | --- | --- | "
+      "moves tried, at most | time [ms], mean / median / 95 %% |\n| --- | --- | --- | --- | --- | --- | --- "
+      "| "
       "--- |\n",
       options.random);
   for (Kind& kind : two)

@@ -118,11 +118,12 @@ CourseShape shape_at_once(const std::vector<Group>& groups, std::size_t stages, 
 
 class PlanSearch {
  public:
-  PlanSearch(const SceneDescription& scene, const PlanGoal& goal) : scene_(scene), goal_(goal) {
+  PlanSearch(const SceneDescription& scene, const PlanGoal& goal)
+      : scene_(scene), goal_(goal), full_target_(goal.target) {
     condensed_ = condense(scene, ScalarType::float64);
     if (!condensed_.condensing.status) return;
     jacks_ = plan_jacks(scene, goal, condensed_.most_force);
-    jacking_ = std::make_unique<Jacking>(scene, goal, jacks_);
+    jacking_ = std::make_unique<Jacking>(scene_, goal_, jacks_);
     groups_ = groups_of(scene, goal, jacks_);
     least_ratio_ = least_ratios(scene, condensed_.rho);
   }
@@ -141,6 +142,7 @@ class PlanSearch {
     require_reach(plan.before);
     require_limits_to_hold(plan.before);
     find_bound(plan);
+    leave_out_what_stays(plan);
     stages_ = goal_.has_stages ? static_cast<std::size_t>(goal_.stages) : 2 * groups_.size();
 
     Found best;
@@ -166,6 +168,7 @@ class PlanSearch {
     plan.shape = best.shape;
     plan.stages = stages_of(best.shape, best.plan.force, jacks_.size());
     plan.outcome = best.plan.outcome;
+    if (plan.outcome.whole) plan.outcome.error = off_target(plan.outcome.tension.back(), full_target_);
     plan.moves_tried = jacking_->legs();
     // In second-order theory friction follows the displaced geometry, and pieces do not quite meet.
     const bool is_linear = !scene_.second_order || condensed_.rigid;
@@ -223,6 +226,30 @@ class PlanSearch {
                              " has " + plain(std::round(rest.tension[segment])) + " N before any jack pulls",
                          "write a larger limit, or other loads");
       }
+  }
+
+  // Targets of segments that no pull changes would hide what can be done for the others.
+  void leave_out_what_stays(Plan& plan) {
+    std::vector<char> changes(goal_.target.size(), 0);
+    for (const Group& group : groups_)
+      for (const double part : {0.3, 1.0}) {
+        jacking_->go_to(start_);
+        PlanStage stage = jacking_->at_rest();
+        for (const std::size_t k : group.jacks)
+          stage.force[k] = std::min(jacks_[k].most_force, part * usual_force(k));
+        const Leg leg = jacking_->jump(stage);
+        for (std::size_t i = 0; leg.whole && i < changes.size(); ++i)
+          if (std::fabs(leg.end().tension[i] - plan.before.tension[i]) > 1e-9 * goal_.target[i])
+            changes[i] = 1;
+      }
+    jacking_->go_to(start_);
+    bool any = false;
+    for (std::size_t i = 0; i < changes.size(); ++i) any = any || (goal_.matters(i) && changes[i] != 0);
+    for (std::size_t i = 0; any && i < changes.size(); ++i) {
+      if (!goal_.matters(i) || changes[i] != 0) continue;
+      plan.unmoved.push_back(i);
+      goal_.target[i] = 0;
+    }
   }
 
   void find_bound(Plan& plan) const {
@@ -463,7 +490,8 @@ class PlanSearch {
   }
 
   const SceneDescription& scene_;
-  const PlanGoal& goal_;
+  PlanGoal goal_;  // but for find_bound() without the targets that no jack has anything to do with
+  std::vector<double> full_target_;
   CondensedArrays condensed_;
   std::vector<PlanJack> jacks_;
   std::unique_ptr<Jacking> jacking_;

@@ -33,6 +33,7 @@ struct Plan {
   /// The cable and its segments that friction keeps from being nearer however they are jacked, and how near.
   std::size_t bound_cable = 0;
   FrictionBound bound;
+  std::vector<std::size_t> unmoved;  ///< segments with a target that no jack has anything to do with
   double without_limits = 0;  ///< error of the best plan that heeds none, where one is heeded and it is large
   bool limits_stop_it = false;
   std::size_t moves_tried = 0;

@@ -95,6 +95,10 @@ std::vector<std::string> plan_sentences(const SceneDescription& scene, const Pla
         break;
     }
   }
+  for (const std::size_t segment : plan.unmoved)
+    said.push_back("no jack has any effect on " + segment_text(scene, segment) + ", which stays " +
+                   part_text(std::fabs(plan.outcome.tension.back()[segment] / goal.target[segment] - 1)) +
+                   " off");
   if (plan.bound.error > 1e-9 && plan.certainty != Certainty::best_of_all) {
     const std::size_t first = first_segment(scene, plan.bound_cable);
     const std::string low = segment_text(scene, first + plan.bound.low);
