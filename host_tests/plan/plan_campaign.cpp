@@ -1,6 +1,7 @@
 // Random scenes: plans against brute force, and against what is usual.
 //
-//     plan_campaign [--one N] [--grid N] [--two N] [--random N] [--seed S] [--first I]
+//     plan_campaign [--one N] [--grid N] [--three N] [--coarse N] [--two N] [--random N] [--seed S] [--first
+//     I]
 //
 // README.md here says what is compared and what was found. Fails if any brute force is nearer than the plan,
 // if a plan takes more than a thousandth of its end states, or if simulate finds other forces than a plan.
@@ -26,7 +27,7 @@ using namespace plan_test;
 using namespace taut::host;
 
 struct Options {
-  int one = 200, grid = 400, two = 50, random = 20000, first = 0;
+  int one = 200, grid = 400, three = 40, coarse = 60, two = 50, random = 20000, first = 0;
   std::uint64_t seed = 1;
 };
 
@@ -89,6 +90,26 @@ double best_of_grid(const Site& site, Rows& rows, int grid) {
     best = std::min(best, rows.error());
     for (int back = up - 1; back >= 0 && rows.go(0, most * back / grid); --back)
       best = std::min(best, rows.error());
+    rows.go_to(pulled);
+  }
+  return best;
+}
+
+// All triples of a grid of pulls, releases and pulls again, that turn.
+double best_of_triples(const Site& site, Rows& rows, int grid) {
+  // Finer where turning points are: from half of the target to half above it.
+  const double target = *std::max_element(site.goal.target.begin(), site.goal.target.end());
+  const auto force = [&](int k) { return target * (0.5 + 1.2 * k / grid); };
+  double best = 1e300;
+  rows.again();
+  for (int up = 0; up <= grid && rows.go(0, force(up)); ++up) {
+    const std::string pulled = rows.save();
+    for (int back = up - 1; back >= 0 && rows.go(0, force(back)); --back) {
+      const std::string released = rows.save();
+      for (int again = back; again < up && rows.go(0, force(again)); ++again)
+        best = std::min(best, rows.error());
+      rows.go_to(released);
+    }
     rows.go_to(pulled);
   }
   return best;
@@ -222,6 +243,28 @@ bool compare_one(const Options& options, Kind& kind, std::uint64_t i) {
   return good;
 }
 
+bool compare_three(const Options& options, Kind& kind, std::uint64_t i) {
+  Random random(mixed(options.seed, static_cast<std::uint64_t>(kind.kind), i));
+  Site site = random_site(random, kind.kind, false);
+  Rows rows(site);
+  if (!rows.good()) return true;
+  site.goal.stages = 3;
+  const auto begin = std::chrono::steady_clock::now();
+  const Plan plan = find_plan(site.scene, site.goal);
+  const double took = seconds_since(begin);
+  ++kind.scenes;
+  kind.time.add(10 * took);
+  kind.most_moves = std::max(kind.most_moves, static_cast<int>(plan.moves_tried));
+  kind.plan.add(plan.outcome.error);
+  const double brute = best_of_triples(site, rows, options.coarse);
+  kind.excess = std::max(kind.excess, plan.outcome.error - brute);
+  if (plan.outcome.error <= brute + 1e-9) return true;
+  std::printf("FAILED: three moves, %s, scene %llu (seed %llu): brute force is nearer: %.12g beside %.12g\n",
+              name_of(kind.kind), static_cast<unsigned long long>(i),
+              static_cast<unsigned long long>(options.seed), plan.outcome.error, brute);
+  return false;
+}
+
 bool compare_two(const Options& options, Kind& kind, std::uint64_t i) {
   Random random(mixed(options.seed, 10 + static_cast<std::uint64_t>(kind.kind), i));
   const Site site = random_site(random, kind.kind, true);
@@ -262,11 +305,15 @@ int run(const Options& options) {
     const int of = i % 8;
     return of < 4 ? SceneKind::saddles : of < 7 ? SceneKind::truss : SceneKind::second_order;
   };
-  std::vector<Kind> one(3), two(3);
-  for (std::size_t k = 0; k < 3; ++k) one[k].kind = two[k].kind = static_cast<SceneKind>(k);
+  std::vector<Kind> one(3), three(3), two(3);
+  for (std::size_t k = 0; k < 3; ++k) one[k].kind = three[k].kind = two[k].kind = static_cast<SceneKind>(k);
   for (int i = options.first; i < options.first + options.one; ++i)
     good = compare_one(options, one[static_cast<std::size_t>(kind_of(i))], static_cast<std::uint64_t>(i)) &&
            good;
+  for (int i = options.first; i < options.first + options.three; ++i)
+    good =
+        compare_three(options, three[static_cast<std::size_t>(kind_of(i))], static_cast<std::uint64_t>(i)) &&
+        good;
   for (int i = options.first; i < options.first + options.two; ++i)
     good = compare_two(options, two[static_cast<std::size_t>(kind_of(i))], static_cast<std::uint64_t>(i)) &&
            good;
@@ -291,6 +338,14 @@ int run(const Options& options) {
                 kind.straight_high.text().c_str(), kind.rule_high.text().c_str(),
                 kind.plan_high.text().c_str(), kind.again_high.text().c_str());
   }
+  std::printf("\nOne jack, up, back and up again\n\n");
+  std::printf(
+      "| | scenes | plan | plan less brute force, at most [%%] | moves tried, at most | time [ms], mean / "
+      "median / 95 %% |\n"
+      "| --- | --- | --- | --- | --- | --- |\n");
+  for (Kind& kind : three)
+    std::printf("| %s | %d | %s | %.4f | %d | %s |\n", name_of(kind.kind), kind.scenes,
+                kind.plan.text().c_str(), 100 * kind.excess, kind.most_moves, kind.time.text().c_str());
   std::printf("\nTwo jacks, up and back\n\n");
   std::printf(
       "| | scenes | straight pull | 105 %% and back | plan | plan less the best of %d random ones, at most "
@@ -315,6 +370,8 @@ int main(int argc, char** argv) {
     const long value = std::atol(argv[i + 1]);
     if (name == "--one") options.one = static_cast<int>(value);
     if (name == "--grid") options.grid = static_cast<int>(value);
+    if (name == "--three") options.three = static_cast<int>(value);
+    if (name == "--coarse") options.coarse = static_cast<int>(value);
     if (name == "--two") options.two = static_cast<int>(value);
     if (name == "--random") options.random = static_cast<int>(value);
     if (name == "--first") options.first = static_cast<int>(value);

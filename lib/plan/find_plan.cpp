@@ -16,7 +16,7 @@ namespace taut::host {
 namespace {
 
 constexpr std::size_t moves_up_and_back = 100, moves_polish = 28, moves_short = 500, moves_long = 4000;
-constexpr std::size_t samples = 48, most_descents = 8;
+constexpr std::size_t samples = 48, most_descents = 8, most_built_up = 6;
 // As equal as makes no difference on a gauge.
 constexpr double as_good = 1e-9;
 
@@ -146,11 +146,14 @@ class PlanSearch {
     stages_ = goal_.has_stages ? static_cast<std::size_t>(goal_.stages) : 2 * groups_.size();
 
     Found best;
-    if (groups_.size() == 1 && groups_[0].jacks.size() == 1 && jacking_->loads_come_first())
-      best = one_jack();
+    if (is_one_jack()) best = one_jack();
     if (stages_ <= 2 && best.merit() < 1) {
       if (!is_settled_) polish(best);
     } else {
+      // One move more at a time: what fewer moves reach is where more begin.
+      if (is_one_jack())
+        for (std::size_t moves = 3; moves < std::min(stages_, most_built_up); ++moves)
+          take_better(best, search(shape_at_once(groups_, moves, goal_.lock), best));
       for (const CourseShape& shape : shapes()) take_better(best, search(shape, best));
       best.is_closed = false;
     }
@@ -261,6 +264,56 @@ class PlanSearch {
     }
   }
 
+  bool is_one_jack() const {
+    return groups_.size() == 1 && groups_[0].jacks.size() == 1 && jacking_->loads_come_first();
+  }
+
+  // Pulls and releases of one jack on a grid, each pair with the best pull that can follow: one leg shows all
+  // of those. The best few are where more moves begin.
+  void add_triples(const Course& course, double width, std::vector<CoursePlan>& starts) {
+    const std::size_t jack = groups_[0].jacks[0], moves = open_forces(course.shape());
+    const int grid = scene_.second_order ? 16 : 32;
+    struct Triple {
+      double up, back, again, error;
+    };
+    std::vector<Triple> found;
+    const auto force = [&](int k) {
+      return std::min(jacks_[jack].most_force, width * (0.5 + 0.65 * k / grid));
+    };
+    const auto stage = [&](double pull) {
+      PlanStage at = jacking_->at_rest();
+      at.force[jack] = pull;
+      return at;
+    };
+    jacking_->go_to(start_);
+    for (int up = 1; up <= grid && jacking_->jump(stage(force(up))).whole; ++up) {
+      const std::string pulled = jacking_->state();
+      Triple best{0, 0, 0, 1e300};
+      for (int back = up - 1; back >= 0 && jacking_->jump(stage(force(back))).whole; --back) {
+        const std::string released = jacking_->state();
+        const Leg leg = jacking_->follow(stage(force(up)));
+        for (std::size_t k = 1; k < leg.points.size(); ++k) {
+          const LegPoint &from = leg.points[k - 1], &to = leg.points[k];
+          const NearestPart nearest = nearest_part(from.tension, to.tension, goal_.target);
+          if (nearest.error >= best.error) continue;
+          const double part = from.part + nearest.part * (to.part - from.part);
+          best = {force(up), force(back), force(back) + part * (force(up) - force(back)), nearest.error};
+        }
+        jacking_->go_to(released);
+      }
+      jacking_->go_to(pulled);
+      if (best.error < 1e300) found.push_back(best);
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Triple& a, const Triple& b) { return a.error < b.error; });
+    for (std::size_t n = 0; n < most_descents && n < found.size(); ++n) {
+      std::vector<double> all(moves, found[n].again);
+      all[0] = found[n].up;
+      all[1] = found[n].back;
+      starts.push_back({std::move(all), {}});
+    }
+  }
+
   // The whole of what one jack can do in two moves.
   Found one_jack() {
     const std::size_t jack = groups_[0].jacks[0];
@@ -365,6 +418,11 @@ class PlanSearch {
     for (std::size_t k = 0; k < starts[0].force.size(); ++k)
       width = std::max({width, starts[0].force[k], usual_force(course.jack_of(k))});
     if (!known.shape.empty()) add(extended(known, course));
+    if (is_one_jack() && !goal_.lock && open_forces(shape) >= 3) {
+      std::vector<CoursePlan> triples;
+      add_triples(course, width, triples);
+      for (CoursePlan& triple : triples) add(std::move(triple.force));
+    }
     // Plans that fill what is possible evenly, by the sequence of the generalized golden ratio.
     const std::size_t count = starts[0].force.size();
     double ratio = 2;
@@ -399,13 +457,15 @@ class PlanSearch {
     Found best;
     best.shape = shape;
     best.plan = starts[0];
+    // A move takes ten times as long in second-order theory.
+    const std::size_t scale = scene_.second_order ? 5 : 1;
     const auto go_down = [&](const std::vector<double>& force, double from, std::size_t most_legs) {
       CoursePlan found = descend(course, goal_, force, from, most_legs);
       if (found.outcome.merit() < best.plan.outcome.merit()) best.plan = std::move(found);
     };
     for (std::size_t n = 0; n < most_descents && n < starts.size(); ++n)
-      go_down(starts[n].force, width / 5, moves_short * shape.size());
-    go_down(best.plan.force, width / 20, moves_long * shape.size());
+      go_down(starts[n].force, width / 5, moves_short * shape.size() / scale);
+    go_down(best.plan.force, width / 20, moves_long * shape.size() / scale);
     return best;
   }
 
