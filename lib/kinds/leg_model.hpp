@@ -27,8 +27,8 @@ class LegModel : public Model {
 template <class Scalar, class Cap>
 std::unique_ptr<LegModel> make_leg_tracker(const SceneDescription& scene);
 
-/// A model of the scene in the smallest capacity that holds it. Throws InputError if the scene cannot be used.
-/// The description must outlive the model.
+/// A model of the scene in the smallest capacity that holds it. Throws InputError if the scene cannot be
+/// used. The description must outlive the model.
 std::unique_ptr<LegModel> make_leg_model(const SceneDescription& scene);
 
 }  // namespace taut::host

@@ -319,7 +319,7 @@ class PlanSearch {
     const std::size_t jack = groups_[0].jacks[0];
     const double seating = goal_.lock ? scene_.cables[groups_[0].cable].seating : 0;
     Found best;
-    const auto take = [&](const UpAndBack& found, std::vector<double> force) {
+    const auto take = [&](const UpAndBack& found, const std::vector<double>& force) {
       if (!found.found) return;
       Found other;
       other.shape = shape_at_once(groups_, force.size(), goal_.lock);
