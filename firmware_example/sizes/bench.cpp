@@ -12,11 +12,13 @@
 #include "boards/cortex_m/stack.hpp"
 #if BENCH_TRACK
 #include "flash_scene.hpp"
+#include "taut/condensation/second_order.hpp"
 #include "taut/tracking/tracker.hpp"
 #include "taut/tracking/verify.hpp"
 #endif
 #if BENCH_ESTIMATE
 #include "flash_scene.hpp"
+#include "taut/condensation/second_order.hpp"
 #include "taut/estimation/estimator.hpp"
 #endif
 #if BENCH_CONDENSE
@@ -101,14 +103,13 @@ constexpr int far_end_every = 3;
 
 #if BENCH_TRACK
 using Cap = monitor::FlashScene::Capacity;
-using Model = taut::Condensed<float, Cap>;
-taut::Tracker<Model> tracker;
+taut::Tracker<monitor::FlashScene::Model> tracker;
 taut::Sample<float, Cap> sample;
 volatile float worst = 0;
 
 void track() {
-  const Model& model = monitor::FlashScene::model();
-  tracker.start(model).status.ok();
+  const auto& model = taut::linear_part(monitor::FlashScene::model());
+  tracker.start(monitor::FlashScene::model()).status.ok();
   float force = 0;
   for (int step = 0; step < steps; ++step) {
     force = next(force, step);
@@ -139,7 +140,9 @@ void track() {
 #if BENCH_ESTIMATE
 using Cap = monitor::FlashScene::Capacity;
 using Model = taut::Condensed<float, Cap>;
-taut::Estimator<Model, monitor::FlashScene::unknowns, monitor::FlashScene::reading_unknowns> estimator;
+taut::Estimator<monitor::FlashScene::Model, monitor::FlashScene::unknowns,
+                monitor::FlashScene::reading_unknowns>
+    estimator;
 taut::Readings<float, Cap> readings;
 volatile float answered = 0;
 
@@ -167,10 +170,10 @@ float far_end(const Model& model, float force) {
 
 /// The cable is jacked at its end.
 void estimate() {
-  const Model& model = monitor::FlashScene::model();
+  const Model& model = taut::linear_part(monitor::FlashScene::model());
   const auto& knowledge = monitor::FlashScene::knowledge();
   const auto& cell = knowledge.cell[0];
-  estimator.start(model, knowledge).status.ok();
+  estimator.start(monitor::FlashScene::model(), knowledge).status.ok();
   float force = 0;
   for (int step = 0; step < steps; ++step) {
     force = next(force, step);
