@@ -721,3 +721,35 @@ TEST_CASE("the noise that nobody said is found in a log that begins at zero") {
   // About 1.2 / sqrt(100) of itself, says NoiseLevel.
   CHECK(std::strtod(outcome.err.c_str() + at + 5, nullptr) == doctest::Approx(300).epsilon(0.36));
 }
+
+// The readings are those of the large-displacement reference with mu 0.06, a gain of 1.004, a zero of 150 N
+// and noise.
+TEST_CASE("joints over pinned struts stick, and the cell at the far end still teaches mu and the forces") {
+  const Scratch scratch;
+  std::string scene = text_of(TAUT_EXPORT "/beam_string.json");
+  const std::string known = R"("mu": 0.06, "mu_sd": 0.02)";
+  REQUIRE(scene.find(known) != std::string::npos);
+  write(scratch, "scene.json",
+        scene.replace(scene.find(known), known.size(), R"("mu": 0.09, "mu_sd": 0.03)"));
+  write(scratch, "log.csv", text_of(TAUT_EXPORT "/beam_string.csv"));
+  const Outcome outcome = estimate(scratch);
+  REQUIRE(outcome.status == 0);
+  const Table found(outcome.out);
+  const std::size_t last = found.rows.size() - 1;
+  CHECK(found.number(last, "C.mu_sd2") < 0.015);
+  CHECK(std::fabs(found.number(last, "C.mu2") - 0.06) < 2.5 * found.number(last, "C.mu_sd2"));
+  struct True {
+    const char* time;
+    double T1, T3;
+  };
+  for (const True& each : {True{"94", 238528.79, 236656.85}, True{"124", 255484.35, 256924.14},
+                           True{"496", 294680.49, 292771.24}}) {
+    const auto times = found.column("time");
+    const auto row =
+        static_cast<std::size_t>(std::find(times.begin(), times.end(), each.time) - times.begin());
+    REQUIRE(row < found.rows.size());
+    CHECK(std::fabs(found.number(row, "C.T1") - each.T1) < 2.5 * found.number(row, "C.sd1"));
+    CHECK(std::fabs(found.number(row, "C.T3") - each.T3) < 2.5 * found.number(row, "C.sd3"));
+    CHECK(found.number(row, "C.sd1") < 0.01 * each.T1);
+  }
+}
