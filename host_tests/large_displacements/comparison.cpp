@@ -27,7 +27,7 @@ Table table_of(const std::string& text) {
   return table;
 }
 
-/// C.T1, strut2, C.end.payout, C.slip3; empty for others.
+/// C.T1, strut2, C.end.payout, C.slip3, node.x; empty for others.
 std::string kind_of(const std::string& column) {
   const auto last = column.rfind('.');
   const std::string word = last == std::string::npos ? column : column.substr(last + 1);
@@ -38,6 +38,7 @@ std::string kind_of(const std::string& column) {
   };
   if (last == std::string::npos) return numbered("strut") ? "struts" : "";
   if (word == "payout") return "payouts";
+  if (word == "x" || word == "y" || word == "z") return "displacements";
   return numbered("T") ? "segments" : numbered("slip") ? "slips" : "";
 }
 
@@ -46,7 +47,7 @@ std::string kind_of(const std::string& column) {
 std::vector<Difference> compare(const std::string& result, const std::string& reference, double until) {
   const Table found = table_of(result), expected = table_of(reference);
   std::vector<Difference> differences;
-  for (const char* kind : {"segments", "struts", "payouts", "slips"}) {
+  for (const char* kind : {"segments", "struts", "payouts", "slips", "displacements"}) {
     Difference worst;
     worst.kind = kind;
     double most = 0;

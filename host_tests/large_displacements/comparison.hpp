@@ -9,7 +9,7 @@ namespace large_displacements {
 
 /// The largest difference in one kind of columns, of the largest value there.
 struct Difference {
-  std::string kind;  ///< "segments", "struts", "payouts", "slips"
+  std::string kind;  ///< "segments", "struts", "payouts", "slips", "displacements"
   double largest = 0, part = 0;
   std::string column;  ///< where it is
   double time = 0;

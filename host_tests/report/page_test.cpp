@@ -142,9 +142,9 @@ TEST_CASE("in second-order theory every strut shows how much friction its lean u
   // It leans by 0.0125, all but a hundredth of that from the bisector of its cable: 12 % of mu.
   CHECK(has(page, "leans: 12 % of friction used"));
   CHECK(has(page, "Friction used"));
-  CHECK(has(page, "per cent at a strut"));
+  CHECK(has(page, "per cent at a joint"));
   REQUIRE(report(scratch, chain, chain_log(20)).status == 0);
-  CHECK_FALSE(has(page_of(scratch), "per cent at a strut"));
+  CHECK_FALSE(has(page_of(scratch), "per cent at a joint"));
 }
 
 TEST_CASE("all points lie within their charts, and long logs have no more of them") {

@@ -75,12 +75,6 @@ class StructureDrawing {
       drawn += element(
           "g", {},
           line("hit", from, to) + line(force > 0 ? "strut tension" : "strut", from, to) + title(name));
-      if (!lean.empty())
-        drawn += element("text",
-                         {{"class", "lean"},
-                          {"x", coordinate((from.x + to.x) / 2 + 5)},
-                          {"y", coordinate((from.y + to.y) / 2 + 4)}},
-                         lean);
     }
     return drawn;
   }
@@ -90,12 +84,14 @@ class StructureDrawing {
     const auto& nodes = scene_.struts[strut].nodes;
     for (std::size_t c = 0; c < scene_.cables.size(); ++c) {
       const CableDescription& cable = scene_.cables[c];
-      const std::size_t first = start_of(scene_, c).joint;
       for (std::size_t j = 0; j < cable.joints(); ++j)
         if (const int at = cable.path[cable.closed ? j : j + 1]; at == nodes[0] || at == nodes[1])
-          return fixed(100 * record_.end.friction_used[first + j], 0) + " %";
+          return used(start_of(scene_, c).joint + j);
     }
     return "";
+  }
+  std::string used(std::size_t joint) const {
+    return fixed(100 * record_.end.friction_used[joint], 0) + " %";
   }
 
   // Members, and a ring at every hinge.
@@ -198,6 +194,14 @@ class StructureDrawing {
                         {"transform", turned(points_.at(cable.path[at]), difference(after, before))}},
                        element("path", {{"class", state_word(state)}, {"d", joint_outline(state)}}) +
                            title(has_answer() ? name + ": " + state_word(state) : name));
+      if (!has_answer() || !scene_.second_order) continue;
+      const CurvePoint here = points_.at(cable.path[at]);
+      drawn += element("text",
+                       {{"class", "lean"},
+                        {"x", coordinate(here.x)},
+                        {"y", coordinate(here.y + 19)},
+                        {"text-anchor", "middle"}},
+                       used(first + j));
     }
     return drawn;
   }
@@ -313,7 +317,9 @@ std::string structure_legend(const SceneDescription& scene) {
                joint_symbol(JointState::open, "open");
   }
   if (joints && scene.second_order && !scene.struts.empty())
-    entries += element("li", {}, "per cent at a strut: how much of friction its lean uses, at the end");
+    entries += element("li", {},
+                       "per cent at a joint: how much of friction is used there, by a strut that leans or by "
+                       "sliding, at the end");
   return element("ul", {{"class", "legend"}}, entries);
 }
 
