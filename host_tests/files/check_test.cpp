@@ -152,6 +152,37 @@ TEST_CASE("check says at which load a strut runs away that linear theory does no
   }
 }
 
+TEST_CASE(
+    "a pinned strut that nothing can keep from running away is refused with the strut, the reason and the "
+    "remedy") {
+  const auto in_second_order = [](std::string scene) {
+    const std::string target =
+        R"(, "second_order": { "target": { "loads": {}, "forces": { "C.end": 1e6 } } } })";
+    return scene.replace(scene.rfind('}'), 1, target);
+  };
+  const Scratch scratch;
+  write(scratch, "log.csv", "time,C.end\n1,500000\n2,1000000\n");
+  write(scratch, "scene.json", in_second_order(one_strut("0")));
+  const std::string simulate = "simulate " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv");
+  const Outcome smooth = run_taut(scratch, simulate);
+  CHECK(smooth.status == 1);
+  CHECK(has(smooth.err, "joint 1 of cable \"C\" at node \"p\""));
+  CHECK(has(smooth.err, "without friction strut 1 from node \"t\" runs away; give the joint friction"));
+  std::string two = one_strut("0.1");
+  two.replace(two.find("anchored"), 8, "jacked");
+  write(scratch, "scene.json", in_second_order(two));
+  write(scratch, "log.csv", "time,C.start,C.end\n1,500000,500000\n");
+  const Outcome both = run_taut(scratch, simulate);
+  CHECK(both.status == 1);
+  CHECK(
+      has(both.err,
+          "between two jacks at work the cable can follow this node, and strut 1 from node \"t\" runs away"));
+  CHECK(has(both.err, "prescribe the stroke of one jack"));
+  // With the wedge of one of them in, it stands.
+  write(scratch, "log.csv", "time,C.start,C.end,C.start.locked\n1,0,500000,1\n");
+  CHECK(run_taut(scratch, simulate).status == 0);
+}
+
 TEST_CASE("noise of readings is no load that struts run away from") {
   const Scratch scratch;
   std::string scene = text_of(root + "/firmware_example/data/beam_string_radial.json");

@@ -400,6 +400,28 @@ std::string failure_remedy(const Status& status, const SceneDescription& scene) 
   }
 }
 
+// In second-order theory: what lets a strut run away that hangs on its cable alone; empty if nothing does.
+std::string run_away_text(const Status& status, const SceneDescription& scene) {
+  const bool has_no_answer = status.code == Code::mechanism || status.code == Code::gives_way ||
+                             status.code == Code::ill_conditioned || status.code == Code::state_iterations;
+  if (!scene.second_order || !has_no_answer) return "";
+  for (const HangingJoint& hanging : hanging_joints(scene)) {
+    const CableDescription& cable = scene.cables[hanging.cable];
+    const std::string joint =
+        joint_text(scene, static_cast<int>(hanging.cable), static_cast<int>(hanging.joint));
+    const std::string struts = struts_at(scene, hanging.node);
+    if (struts.empty()) continue;
+    if (cable.mu[hanging.joint] == 0 && cable.wobble == 0)
+      return joint + ": the cable alone holds this node sideways, and without friction " + struts +
+             " runs away; give the joint friction, or hold its node (" + sliding_remedy + ")";
+    if (status.code == Code::mechanism && cable.is_jacked(0) && cable.is_jacked(1))
+      return joint + ": between two jacks at work the cable can follow this node, and " + struts +
+             " runs away; prescribe the stroke of one jack (lock its end, or anchor it), or " +
+             sliding_remedy;
+  }
+  return "";
+}
+
 }  // namespace
 
 InputError scene_error(const Status& status, const SceneDescription& scene) {
@@ -413,6 +435,7 @@ std::string joint_text(const SceneDescription& scene, int cable, int joint) {
 }
 
 std::string failure_text(const Status& status, const SceneDescription& scene, const std::string& remedy) {
+  if (const std::string text = run_away_text(status, scene); remedy.empty() && !text.empty()) return text;
   return subject(status, scene) + ": " + failure_problem(status, scene) + "; " +
          (remedy.empty() ? failure_remedy(status, scene) : remedy);
 }

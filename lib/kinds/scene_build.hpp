@@ -128,8 +128,12 @@ Sample<Scalar, Cap> target_of(const TargetDescription& described) {
   for (std::size_t i = 0; i < described.factor.size(); ++i)
     target.factor[static_cast<int>(i)] = static_cast<Scalar>(described.factor[i]);
   for (std::size_t c = 0; c < described.force.size(); ++c)
-    for (std::size_t end = 0; end < 2; ++end)
-      target.jack[static_cast<int>(c)][end].force = static_cast<Scalar>(described.force[c][end]);
+    for (std::size_t end = 0; end < 2; ++end) {
+      auto& jack = target.jack[static_cast<int>(c)][end];
+      jack.force = static_cast<Scalar>(described.force[c][end]);
+      // Of two jacks the one without a force is at rest: its wedge holds.
+      jack.locked = !(described.force[c][end] > 0) && described.force[c][1 - end] > 0;
+    }
   return target;
 }
 /// Geometric stiffness of all substructures, entry by entry as build() adds their stiffness; empty if none
