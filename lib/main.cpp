@@ -13,6 +13,7 @@
 #include "lib/commands/plan.hpp"
 #include "lib/commands/report.hpp"
 #include "lib/commands/run_log.hpp"
+#include "lib/commands/watch.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/number_range.hpp"
 #include "lib/own_stack.hpp"
@@ -55,6 +56,7 @@ class CommandLine {
     add_check();
     add_simulate();
     add_estimate();
+    add_watch();
     add_report();
     add_plan();
     add_export();
@@ -70,6 +72,7 @@ class CommandLine {
     if (check_->parsed()) return check(options_.scene, options_.log);
     if (export_->parsed()) return export_scenes({scenes_, options_.output});
     if (template_->parsed()) return write_log_template(options_.scene, options_.output);
+    if (watch_->parsed()) return watch(watching_);
     if (report_->parsed()) return report({options_.scene, options_.log, options_.output, options_.limits});
     if (plan_->parsed()) return plan(plan_options_);
     options_.method = estimate_->parsed() ? Method::estimate : method_called(method_);
@@ -99,10 +102,27 @@ class CommandLine {
     estimate_ = app_.add_subcommand(
         "estimate", "Estimate the cable forces, and friction, from the readings of a log, with error bars");
     add_run(*estimate_, "Log of readings (CSV); - for standard input");
-    add_limits(*estimate_);
+    add_limits(*estimate_, options_.limits);
     estimate_->add_option(
         "--state", options_.state,
         "Go on where this file says, if there is one; afterwards it says where this log ends");
+  }
+
+  void add_watch() {
+    watch_ = app_.add_subcommand("watch",
+                                 "Show the cable forces while rows come: on the terminal and in browsers");
+    watch_->add_option("SCENE", watching_.scene, "Scene file (JSON)")->required();
+    watch_->add_option("LOG", watching_.log,
+                       "Log of readings (CSV) that is followed as it grows; - for standard input");
+    watch_->add_option("--serial", watching_.serial,
+                       "Take the rows from a serial line: DEVICE[:BAUD], 115200 if absent");
+    watch_->add_option("--http", watching_.http,
+                       "Serve the page at [ADDRESS:]PORT, 127.0.0.1 if absent; port 0: any");
+    watch_->add_option("--record", watching_.record, "Append the answer to every row to this file (CSV)");
+    watch_->add_option("--state", watching_.state,
+                       "Go on where this file says, if there is one; it is kept at every row");
+    watch_->add_option("--speed", watching_.speed, "Play LOG to its end, so many times as fast as its times");
+    add_limits(*watch_, watching_.limits);
   }
 
   void add_report() {
@@ -111,7 +131,7 @@ class CommandLine {
     report_->add_option("SCENE", options_.scene, "Scene file (JSON)")->required();
     report_->add_option("LOG", options_.log, "Log of readings (CSV)")->required();
     report_->add_option("-o", options_.output, "The page (HTML)")->required();
-    add_limits(*report_);
+    add_limits(*report_, options_.limits);
   }
 
   void add_plan() {
@@ -123,8 +143,7 @@ class CommandLine {
     plan_->add_option("--report", plan_options_.sheet, "Sheet for the site (HTML)");
   }
 
-  void add_limits(CLI::App& command) {
-    auto& limits = options_.limits;
+  void add_limits(CLI::App& command, taut::AlarmLimits<double>& limits) {
     const auto add = [&](const char* name, double& limit, const char* meaning) {
       return command.add_option(name, limit, meaning)->check(from_zero_up);
     };
@@ -177,8 +196,10 @@ class CommandLine {
   CLI::App* plan_ = nullptr;
   CLI::App* report_ = nullptr;
   CLI::App* template_ = nullptr;
+  CLI::App* watch_ = nullptr;
   RunOptions options_;
   PlanOptions plan_options_;
+  WatchOptions watching_;
   std::vector<std::string> scenes_;
   std::string method_ = methods.front().first, scalar_ = "double";
 };

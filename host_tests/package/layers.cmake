@@ -1,7 +1,7 @@
 # The folders of lib/ are layers: no file includes one of a layer above its own, and none includes itself by a detour.
 # cmake -D TAUT=folder -P layers.cmake
 cmake_minimum_required(VERSION 3.22)
-set(layers files kinds report plan commands .)
+set(layers files kinds report plan live commands .)
 set(units)
 file(GLOB_RECURSE sources RELATIVE ${TAUT}/lib ${TAUT}/lib/*.hpp ${TAUT}/lib/*.cpp ${TAUT}/lib/*.cpp.in)
 set(wrong "")

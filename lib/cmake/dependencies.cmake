@@ -68,6 +68,32 @@ function(taut_need_cli11)
   endif()
 endfunction()
 
+# Debian's package is compiled, with OpenSSL, zlib and Brotli, and so must be what is linked to it. Releases from 0.15 on
+# have other classes of streams.
+function(taut_need_httplib)
+  find_path(TAUT_HTTPLIB_INCLUDE httplib.h)
+  find_library(TAUT_HTTPLIB_LIBRARY cpp-httplib)
+  set(version 0)
+  if(TAUT_HTTPLIB_INCLUDE)
+    file(STRINGS ${TAUT_HTTPLIB_INCLUDE}/httplib.h line REGEX "define CPPHTTPLIB_VERSION \"")
+    string(REGEX MATCH "[0-9.]+" version "${line}")
+  endif()
+  if(version VERSION_GREATER_EQUAL 0.11 AND version VERSION_LESS 0.15)
+    message(STATUS "taut: using the installed cpp-httplib ${version}")
+    add_library(httplib::httplib INTERFACE IMPORTED GLOBAL)
+    target_include_directories(httplib::httplib INTERFACE ${TAUT_HTTPLIB_INCLUDE})
+    if(TAUT_HTTPLIB_LIBRARY)
+      target_link_libraries(httplib::httplib INTERFACE ${TAUT_HTTPLIB_LIBRARY})
+      target_compile_definitions(httplib::httplib INTERFACE CPPHTTPLIB_OPENSSL_SUPPORT CPPHTTPLIB_ZLIB_SUPPORT
+                                                            CPPHTTPLIB_BROTLI_SUPPORT)
+    endif()
+  else()
+    taut_fetch_headers(
+      taut_httplib httplib::httplib . https://github.com/yhirose/cpp-httplib/archive/refs/tags/v0.11.4.zip
+      9d884bee50ded17de3a51d673bb9c2d7d11f101c595b0891830ba9d02e0cc368)
+  endif()
+endfunction()
+
 function(taut_need_doctest)
   find_package(doctest 2.4 CONFIG QUIET)
   if(doctest_FOUND)

@@ -21,6 +21,7 @@ has_header_of() {
     libeigen3-dev) header=Eigen/Core ;;
     nlohmann-json3-dev) header=nlohmann/json.hpp ;;
     libcli11-dev) header=CLI/CLI.hpp ;;
+    libcpp-httplib-dev) header=httplib.h ;;
     doctest-dev) header=doctest/doctest.h ;;
   esac
   [ -n "$(compiler)" ] && echo "#include <$header>" | "$(compiler)" -std=c++17 -E -x c++ -I/usr/include/eigen3 -I/usr/local/include \
@@ -56,7 +57,7 @@ apt_install() {
 # downloaded by CMake.
 install_missing() {
   local missing_tools missing_headers packages=(libeigen3-dev)
-  [[ " $* " != *" program "* ]] || packages+=(nlohmann-json3-dev libcli11-dev)
+  [[ " $* " != *" program "* ]] || packages+=(nlohmann-json3-dev libcli11-dev libcpp-httplib-dev)
   [[ " $* " != *" tests "* ]] || packages+=(doctest-dev)
   find_missing "${packages[@]}"
   if [ -n "$missing_tools$missing_headers" ]; then
@@ -74,10 +75,10 @@ install_missing() {
   cat <<TEXT
 
 Not installed:$missing_tools$missing_headers
-The build needs cmake 3.22 or newer, make or ninja, a C++17 compiler, Eigen, nlohmann-json, CLI11 and doctest:
-  Debian, Ubuntu   apt-get install cmake make g++ libeigen3-dev nlohmann-json3-dev libcli11-dev doctest-dev
-  Fedora           dnf install cmake make gcc-c++ eigen3-devel json-devel cli11-devel doctest-devel
-  macOS            xcode-select --install; brew install cmake eigen nlohmann-json cli11 doctest
+The build needs cmake 3.22 or newer, make or ninja, a C++17 compiler, Eigen, nlohmann-json, CLI11, cpp-httplib and doctest:
+  Debian, Ubuntu   apt-get install cmake make g++ libeigen3-dev nlohmann-json3-dev libcli11-dev libcpp-httplib-dev doctest-dev
+  Fedora           dnf install cmake make gcc-c++ eigen3-devel json-devel cli11-devel cpp-httplib-devel doctest-devel
+  macOS            xcode-select --install; brew install cmake eigen nlohmann-json cli11 cpp-httplib doctest
 TEXT
   if [ -n "$missing_tools" ]; then
     exit 1

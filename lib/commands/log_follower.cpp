@@ -94,11 +94,24 @@ LogFollower::LogFollower(const RunOptions& options)
   keep_inputs(options.state, {options.scene, options.log});
   if (!options.state.empty() && options.state == options.output)
     throw InputError(options.state, "", "is the output and the state of one run", "name another file");
-  if (is_stream())
+  if (options.log == "-") {
+    source_.emplace(LogStream{std::cin, standard_input, "", {}, {}, {}});
+    read_state();
     open_stream();
-  else
+  } else {
     read_log();
+  }
   remark_on_substeps();
+}
+
+LogFollower::LogFollower(const RunOptions& options, LogStream stream)
+    : options_(options),
+      scene_(read_scene_file(options.scene)),
+      model_(make_model(scene_, options.method, options.numbers.scalar, options.limits)),
+      rules_(rules_for(options, scene_)),
+      source_(std::move(stream)) {
+  if (!source_->state.empty()) take_state(options.state, source_->state);
+  open_stream();
 }
 
 // The whole of it is checked before anything is computed.
@@ -123,8 +136,7 @@ void LogFollower::read_log() {
 
 // What is not in its header is not known.
 void LogFollower::open_stream() {
-  read_state();
-  stream_ = std::make_unique<LogReader>(std::cin, standard_input, scene_, rules_);
+  stream_ = std::make_unique<LogReader>(source_->text, source_->name, scene_, rules_);
   remark_on_columns(*stream_);
   if (begun_)
     fill_in_mu_deviations(scene_);
@@ -138,14 +150,26 @@ std::string LogFollower::follow(const RowVisitor& visit) {
   if (!start.whole())
     return options_.scene + ": before the first row" + part(start.fraction) + ": " +
            reason(start, [&](int substeps) { return model_->start(substeps); });
-  if (!is_stream()) {
-    std::ifstream file = open_log(options_.log);
-    LogReader log(file, options_.log, scene_, rules_);
-    begin();
-    return follow(log, visit);
+  if (begun_) {
+    last_.time = begun_->time;
+    last_.factor = begun_->factor;
+    last_.cables = begun_->cables;
+    origin_ = begun_->origin;
+    verdict_ = Verdict(begun_->raised);
   }
   begin();
-  return follow(*stream_, visit);
+  if (is_stream()) return follow_stream(visit);
+  std::ifstream file = open_log(options_.log);
+  LogReader log(file, options_.log, scene_, rules_);
+  return follow(log, visit);
+}
+
+std::string LogFollower::go_on(LogStream stream, const RowVisitor& visit) {
+  source_.emplace(std::move(stream));
+  stream_ = std::make_unique<LogReader>(source_->text, source_->name, scene_, rules_);
+  left_out_ = 0;
+  remark_on_new_columns(*stream_);
+  return follow_stream(visit);
 }
 
 // Of a stream, the first row has to say whether there was a load before, until the second one does.
@@ -173,29 +197,84 @@ std::string LogFollower::reason(const Followed& path, const std::function<Follow
 std::string LogFollower::follow(LogReader& log, const RowVisitor& visit) {
   LogRow row = log.first_row();
   if (begun_) {
-    row.factor = begun_->factor;
-    row.cables = begun_->cables;
-    log.count_from(begun_->origin);
-    verdict_ = Verdict(begun_->raised);
+    row.factor = last_.factor;
+    row.cables = last_.cables;
+    log.count_from(origin_);
   }
   Answer answer;
-  ProgressLine progress(rows_, !is_stream() && wants_progress(options_));
+  ProgressLine progress(rows_, wants_progress(options_));
   while (log.next(row)) {
-    if (is_stream()) remark_on_left_out(log);
-    if (first_load_) take_first_load(row);
-    if (const Followed path = model_->advance(row, options_.substeps); !path.whole())
-      return place(row) + part(path.fraction) + loads_at_end(path, row) + ": " +
-             reason(path, [&](int substeps) { return model_->advance(row, substeps); });
-    model_->read(answer);
-    if (const std::string number = impossible_number(scene_, answer); !number.empty())
-      return place(row) + ": " + number + "; " + remedy_of_impossible_numbers;
-    warn_of_bend(row, answer);
-    if (options_.method == Method::estimate) answer.verdict = verdict_.take(answer.alarms);
-    visit(row, answer);
+    origin_ = log.origin();
+    if (const std::string end = follow_row(row, answer, visit); !end.empty()) return end;
     progress.reach(row.row);
   }
+  return "";
+}
+
+std::string LogFollower::follow_stream(const RowVisitor& visit) {
+  if (source_->begins) source_->begins();
+  LogRow row = stream_->first_row();
+  const bool goes_on = begun_ || followed_ > 0;
+  if (goes_on) {
+    row.factor = last_.factor;
+    row.cables = last_.cables;
+    stream_->count_from(origin_);
+  }
+  const double last_time = last_.time;
+  bool is_first = true, is_known = false;
+  Answer answer;
+  while (next_of_stream(row)) {
+    if (is_first) is_known = goes_on && source_->is_known && source_->is_known();
+    is_first = false;
+    remark_on_left_out(*stream_);
+    if (is_known && row.time <= last_time) continue;
+    is_known = false;
+    origin_ = stream_->origin();
+    if (first_load_) take_first_load(row);
+    if (const std::string end = follow_row(row, answer, visit); !end.empty()) return end;
+  }
+  return "";
+}
+
+// The next row that can be used; what is left out is as if it were not there.
+bool LogFollower::next_of_stream(LogRow& row) {
+  if (!source_->leaves_out) return stream_->next(row);
+  std::optional<double> after;  // a reader that begins anew does not know the time of the row before
+  while (true) {
+    const LogRow before = row;
+    try {
+      if (!stream_->next(row)) return false;
+      if (after && !(row.time - *after >= rules_.shortest_step && row.time > *after))
+        throw InputError(
+            source_->name, "",
+            "the time " + plain(row.time) + " is not after " + plain(*after) + " of the row before",
+            "let the time increase from row to row");
+      return true;
+    } catch (const InputError& error) {
+      if (!source_->leaves_out(error)) throw;
+      if (!after && before.row > 0) after = before.time;
+      row = before;
+      const std::optional<Moment> origin = stream_->origin();
+      stream_ = std::make_unique<LogReader>(source_->text, source_->name, scene_, rules_);
+      stream_->count_from(origin);
+      left_out_ = 0;
+    }
+  }
+}
+
+// Returns why it has no answer; empty if it has one.
+std::string LogFollower::follow_row(const LogRow& row, Answer& answer, const RowVisitor& visit) {
+  if (const Followed path = model_->advance(row, options_.substeps); !path.whole())
+    return place(row) + part(path.fraction) + loads_at_end(path, row) + ": " +
+           reason(path, [&](int substeps) { return model_->advance(row, substeps); });
+  model_->read(answer);
+  if (const std::string number = impossible_number(scene_, answer); !number.empty())
+    return place(row) + ": " + number + "; " + remedy_of_impossible_numbers;
+  warn_of_bend(row, answer);
+  if (options_.method == Method::estimate) answer.verdict = verdict_.take(answer.alarms);
+  ++followed_;
   last_ = row;
-  origin_ = log.origin();
+  visit(row, answer);
   return "";
 }
 
@@ -247,9 +326,9 @@ void LogFollower::take_first_load(const LogRow& row) {
   if (!first_load_->is_under_load()) {
     model_->deny_past();
     first_load_.reset();
-  } else if (row.row == 2 && model_->has_unknown_past()) {
+  } else if (followed_ == 1 && model_->has_unknown_past()) {
     remark(under_load);
-  } else if (row.row > 1 && !model_->has_unknown_past()) {
+  } else if (followed_ > 0 && !model_->has_unknown_past()) {
     first_load_.reset();
   }
 }
@@ -265,6 +344,17 @@ void LogFollower::keep_state() const {
                  "since for their forces to be known\n";
     return;
   }
+  OutputFile file(options_.state);
+  file.write(state_text(present_state(), read_text(options_.scene, most_bytes)));
+  file.finish();
+}
+
+std::optional<std::string> LogFollower::state() const {
+  if (model_->has_unknown_past()) return std::nullopt;
+  return state_text(present_state(), read_text(options_.scene, most_bytes));
+}
+
+SavedState LogFollower::present_state() const {
   SavedState state;
   state.scalar = name_of(options_.numbers.scalar);
   state.assumed = assumptions(scene_);
@@ -274,15 +364,17 @@ void LogFollower::keep_state() const {
   state.cables = last_.cables;
   state.raised = verdict_.memory();
   state.bytes = model_->save();
-  OutputFile file(options_.state);
-  file.write(state_text(state, read_text(options_.scene, most_bytes)));
-  file.finish();
+  return state;
 }
 
 void LogFollower::read_state() {
   if (options_.state.empty() || !std::filesystem::exists(options_.state)) return;
-  begun_ = taut::host::read_state(options_.state, read_text(options_.state, most_bytes),
-                                  read_text(options_.scene, most_bytes), name_of(options_.numbers.scalar));
+  take_state(options_.state, read_text(options_.state, most_bytes));
+}
+
+void LogFollower::take_state(const std::string& path, const std::string& text) {
+  begun_ = taut::host::read_state(path, text, read_text(options_.scene, most_bytes),
+                                  name_of(options_.numbers.scalar));
   assume(begun_->assumed, scene_);
 }
 
@@ -348,7 +440,7 @@ void LogFollower::remark_on_substeps() {
 }
 
 std::string LogFollower::place(const LogRow& row) const {
-  return (is_stream() ? standard_input : options_.log) + ": line " + std::to_string(row.line) + " (row " +
+  return (is_stream() ? source_->name : options_.log) + ": line " + std::to_string(row.line) + " (row " +
          std::to_string(row.row) + ", time " + plain(row.time) + " s)";
 }
 

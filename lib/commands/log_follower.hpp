@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <istream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "lib/commands/first_load.hpp"
 #include "lib/commands/result_writer.hpp"
+#include "lib/files/input_error.hpp"
 #include "lib/files/state_file.hpp"
 #include "lib/files/verdict.hpp"
 #include "lib/kinds/make_model.hpp"
@@ -27,6 +29,20 @@ struct RunOptions {
   std::string state;    ///< for `estimate`: where the log goes on from, and what it leaves; empty: nothing
 };
 
+/// A log that comes while it is followed, in place of RunOptions::log.
+struct LogStream {
+  std::istream& text;
+  std::string name;              ///< for messages
+  std::string state;             ///< what LogFollower::state() gave, to go on from; empty: nothing
+  std::function<void()> begins;  ///< called when the header has been read
+  /// Asked where a row cannot be used: whether it is left out. Then the next line of `text` must be the
+  /// header again. Without it such a row ends the log with an InputError.
+  std::function<bool(const InputError&)> leaves_out;
+  /// Asked in the first row of a log: whether this log has been followed before, and rows up to the last time
+  /// are no news.
+  std::function<bool()> is_known;
+};
+
 /// Gets every row that has an answer, in order.
 using RowVisitor = std::function<void(const LogRow&, const Answer&)>;
 
@@ -35,6 +51,8 @@ class LogFollower {
  public:
   /// Remarks go to standard error. Throws InputError for unusable input. The options must outlive it.
   explicit LogFollower(const RunOptions& options);
+  /// Of a log that comes while it is followed; RunOptions::state has no effect then.
+  LogFollower(const RunOptions& options, LogStream stream);
   ~LogFollower() = default;
   LogFollower(const LogFollower&) = delete;
   LogFollower& operator=(const LogFollower&) = delete;
@@ -42,13 +60,21 @@ class LogFollower {
   const SceneDescription& scene() const { return scene_; }
   /// Whether the log comes from standard input: then rows are checked as they come, follow() throws
   /// InputError where one cannot be used, and nothing is known of rows to come.
-  bool is_stream() const { return options_.log == "-"; }
+  bool is_stream() const { return source_.has_value(); }
   /// What a reader of the result may not expect.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
   /// Follows the log to its last row or to the first that has no answer. Returns where and why the answer
   /// ends; empty if the log is whole.
   std::string follow(const RowVisitor& visit);
+  /// After follow(): the same with another log, whose times may begin anew. Columns that were not in the
+  /// first one are not used, with a remark.
+  std::string go_on(LogStream stream, const RowVisitor& visit);
+  /// While a stream is followed, and after it: whether it has the column.
+  bool has_column(const std::string& name) const { return stream_ != nullptr && stream_->has(name); }
+  /// All that a LogStream needs to go on after the last row that was visited, or is being; nothing as long as
+  /// forces depend on a past that is not known.
+  std::optional<std::string> state() const;
   /// What has been learned of friction, and from which columns.
   std::vector<LearnedFriction> learned() const { return model_->learned(); }
   /// After a log that is whole: writes what the next one goes on from, if the options name a file for it.
@@ -61,6 +87,9 @@ class LogFollower {
   void begin();
   std::string follow(LogReader& log, const RowVisitor& visit);
   std::string reason(const Followed& path, const std::function<Followed(int)>& again) const;
+  std::string follow_stream(const RowVisitor& visit);
+  std::string follow_row(const LogRow& row, Answer& answer, const RowVisitor& visit);
+  bool next_of_stream(LogRow& row);
   void take_first_load(const LogRow& row);
   std::string loads_at_end(const Followed& path, const LogRow& row) const;
   void warn_of_bend(const LogRow& row, const Answer& answer);
@@ -68,6 +97,8 @@ class LogFollower {
   void remark_on_columns(const LogReader& log);
   void remark_on_substeps();
   void read_state();
+  void take_state(const std::string& path, const std::string& text);
+  SavedState present_state() const;
   void remark_on_new_columns(const LogReader& log);
   std::string place(const LogRow& row) const;
 
@@ -75,9 +106,10 @@ class LogFollower {
   SceneDescription scene_;
   std::unique_ptr<Model> model_;
   LogRules rules_;
-  std::unique_ptr<LogReader> stream_;      // of standard input
+  std::optional<LogStream> source_;        // where a stream comes from
+  std::unique_ptr<LogReader> stream_;      // the log that it is now
   std::unique_ptr<FirstLoad> first_load_;  // of a stream, as long as it is in question
-  std::size_t rows_ = 0, left_out_ = 0;
+  std::size_t rows_ = 0, left_out_ = 0, followed_ = 0;
   std::optional<SavedState> begun_;  // with the log before
   Verdict verdict_;
   LogRow last_;

@@ -14,15 +14,6 @@ namespace {
 
 constexpr const char* magic = "taut-state-3";
 
-// FNV-1a, 64 bits.
-std::string fingerprint(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037U;
-  for (const char byte : text) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211U;
-  std::array<char, 17> digits{};
-  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash));
-  return digits.data();
-}
-
 // What lies in memory as this program has it.
 std::string build() { return fingerprint(TAUT_VERSION " " __VERSION__); }
 
@@ -110,6 +101,15 @@ std::optional<Moment> origin_of(const std::vector<double>& numbers) {
 
 }  // namespace
 
+// FNV-1a, 64 bits.
+std::string fingerprint(const std::string& text) {
+  std::uint64_t hash = 14695981039346656037U;
+  for (const char byte : text) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211U;
+  std::array<char, 17> digits{};
+  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return digits.data();
+}
+
 std::vector<double> assumptions(const SceneDescription& scene) {
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> all;
@@ -161,7 +161,11 @@ SavedState read_state(const std::string& path, const std::string& text, const st
                       const std::string& scalar) {
   const std::string new_one = "name a new file: it begins anew";
   Head head(path, text);
-  if (head.word() != magic) head.fail();
+  const std::string found_magic = head.word();
+  if (found_magic == "taut-watch-1")
+    throw InputError(path, "", "is the state of taut watch",
+                     "go on with taut watch, or name a new file: it begins anew");
+  if (found_magic != magic) head.fail();
   if (head.word() != build())
     throw InputError(path, "", "was written by another version or build of taut", new_one);
   if (const std::string found = head.word(); found != scalar)

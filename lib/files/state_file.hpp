@@ -25,6 +25,9 @@ struct SavedState {
   std::string bytes;                          ///< of the model
 };
 
+/// A number that other text is most unlikely to have.
+std::string fingerprint(const std::string& text);
+
 /// What the scene says, or was taken for what it does not say, of how well instruments are known: a list of
 /// numbers whose order and length depend on the scene alone.
 std::vector<double> assumptions(const SceneDescription& scene);

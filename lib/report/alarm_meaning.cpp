@@ -6,7 +6,7 @@
 namespace taut::host {
 namespace {
 
-constexpr std::array<std::pair<const char*, AlarmMeaning>, 14> meanings = {{
+constexpr std::array<std::pair<const char*, AlarmMeaning>, 16> meanings = {{
     {"outlier",
      {"A reading of the load cell at this jack does not belong to the others. It was left out.",
       "Nothing, if it is rare. If it comes again and again, check the cell, its cable and its sd in the "
@@ -62,6 +62,12 @@ constexpr std::array<std::pair<const char*, AlarmMeaning>, 14> meanings = {{
     {"lift-off",
      {"The jack pulls what this locked end holds: its wedge comes free.",
       "Unlock the end in the log from here on (locked 0), so that the jack drives it again."}},
+    {"silent",
+     {"No row comes from the line. What is shown is the last that was known.",
+      "Check the cable, its plugs and the logger. The line is opened again as soon as it is there."}},
+    {"unreadable",
+     {"A line came that is no row of the log. It was left out.",
+      "Nothing, if it is rare. If it comes again and again, check baud, plugs and the logger."}},
 }};
 
 }  // namespace

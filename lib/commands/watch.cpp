@@ -1,0 +1,268 @@
+#include "lib/commands/watch.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <functional>
+#include <iostream>
+#include <istream>
+#include <memory>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "lib/commands/log_follower.hpp"
+#include "lib/files/file_text.hpp"
+#include "lib/files/input_error.hpp"
+#include "lib/files/output_file.hpp"
+#include "lib/files/result_file.hpp"
+#include "lib/files/scene_file.hpp"
+#include "lib/files/text.hpp"
+#include "lib/live/answer_board.hpp"
+#include "lib/live/file_source.hpp"
+#include "lib/live/http_server.hpp"
+#include "lib/live/live_page.hpp"
+#include "lib/live/load_history.hpp"
+#include "lib/live/pace.hpp"
+#include "lib/live/pipe_source.hpp"
+#include "lib/live/record_file.hpp"
+#include "lib/live/serial_source.hpp"
+#include "lib/live/stop_signal.hpp"
+#include "lib/live/terminal.hpp"
+#include "lib/live/watch_state.hpp"
+
+namespace taut::host {
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{1} << 28;
+constexpr const char* silent = "silent:line";
+constexpr const char* unreadable = "unreadable:line";
+
+void require_possible(const WatchOptions& options) {
+  if (options.log.empty() == options.serial.empty())
+    throw InputError("taut watch", "",
+                     options.log.empty() ? "has no rows to follow" : "has two logs to follow",
+                     "name a log, - for standard input, or --serial DEVICE");
+  if (options.speed && (options.log.empty() || options.log == "-"))
+    throw InputError("--speed", "", "needs a log that is a file",
+                     "leave it out: rows are answered as they come");
+  if (options.speed && !(*options.speed > 0))
+    throw InputError("--speed", "", "is not greater than zero", "write 1 for the speed of the log");
+  const std::vector<std::string> inputs = {options.scene, options.log};
+  keep_inputs(options.record, inputs);
+  keep_inputs(options.state, inputs);
+  keep_inputs(options.record, {options.state});
+  if (!options.state.empty() && options.state == options.record)
+    throw InputError(options.state, "", "is the record and the state of one run", "name another file");
+}
+
+class Watch {
+ public:
+  explicit Watch(const WatchOptions& options)
+      : options_(options), scene_(read_scene_file(options.scene)), is_serial_(!options.serial.empty()) {
+    run_.scene = options.scene;
+    run_.log = name();
+    run_.state = options.state;
+    run_.method = Method::estimate;
+    run_.limits = options.limits;
+    if (options.speed) pace_ = std::make_unique<Pace>(*options.speed, stop_);
+    if (!options.state.empty())
+      state_ = std::make_unique<WatchState>(options.state, read_text(options.scene, most_bytes));
+    if (!options.record.empty())
+      record_ = std::make_unique<RecordFile>(options.record, result_header(scene_, ResultColumns::estimate));
+  }
+
+  int run() {
+    std::unique_ptr<LineSource> source = open_source();
+    agree_on_record();
+    std::unique_ptr<HttpServer> server;
+    if (!options_.http.empty()) {
+      server = std::make_unique<HttpServer>(
+          http_address("--http", options_.http), board_, history_,
+          [this](const LiveAnswerPtr& now) { return live_page(scene_, name(), now); });
+      std::cerr << server->url() << std::endl;
+    }
+    const Terminal terminal(scene_, board_);
+    struct Closer {
+      AnswerBoard& board;
+      ~Closer() { board.close(); }
+    } const closer{board_};
+
+    std::string end = replay();
+    while (end.empty() && !stop_.is_requested()) {
+      LineBuffer lines(*source);
+      end = follow_live(lines);
+      if (!is_serial_) break;
+    }
+    if (follower_ && state_) renew_state();
+    if (end.empty()) return 0;
+    std::cerr << end << "; what is shown ends before it\n";
+    return 1;
+  }
+
+ private:
+  std::string name() const {
+    return is_serial_            ? serial_line(options_.serial).device
+           : options_.log == "-" ? "standard input"
+                                 : options_.log;
+  }
+
+  std::unique_ptr<LineSource> open_source() {
+    if (is_serial_)
+      return std::make_unique<SerialSource>(serial_line(options_.serial), state_ ? state_->last_header() : "",
+                                            stop_, [this](bool is_silent) { tell(is_silent); });
+    if (options_.log == "-") return std::make_unique<PipeSource>(STDIN_FILENO, stop_);
+    return std::make_unique<FileSource>(options_.log, !options_.speed, stop_);
+  }
+
+  // The record holds what the state knows, and no more.
+  void agree_on_record() {
+    if (!state_ || !record_) return;
+    if (state_->is_new())
+      state_->renew("", record_->size());
+    else if (state_->record_size())
+      record_->go_back_to(*state_->record_size());
+    repeats_record_ = state_->record_size().has_value();
+  }
+
+  // Rows that were answered before the program was killed, after the state that was written last.
+  std::string replay() {
+    if (!state_) return "";
+    std::string end;
+    for (const KeptRows& part : state_->rows()) {
+      if (part.rows.empty() || !end.empty()) continue;
+      std::string text = part.header + "\n";
+      for (const std::string& row : part.rows) text += row + "\n";
+      std::istringstream lines(text);
+      end = follow({lines, options_.state, state_->state(), {}, {}, {}},
+                   [this](const LogRow& row, const Answer& answer) {
+                     if (record_ && repeats_record_) record(row, answer);
+                     show(row, answer);
+                   });
+    }
+    return end;
+  }
+
+  std::string follow_live(LineBuffer& lines) {
+    std::string header;
+    std::istream text(&lines);
+    LogStream log{text, name(), state_ ? state_->state() : "", {}, {}, {}};
+    log.begins = [&] {
+      header = lines.last_line();
+      if (state_) state_->begin_log(header);
+    };
+    if (is_serial_)
+      log.leaves_out = [&](const InputError& error) { return leave_out(error, lines, header); };
+    else if (state_)
+      log.is_known = [&] {
+        if (!state_->is_known(header, lines.last_line())) return false;
+        std::cerr << "remark: this is the log that " << options_.state
+                  << " stands in: rows that it has are skipped\n";
+        state_->continue_log();
+        return true;
+      };
+    try {
+      return follow(std::move(log), [&](const LogRow& row, const Answer& answer) {
+        if (pace_) pace_->wait_for(row.time);
+        if (state_) state_->append(lines.last_line());
+        if (record_) record(row, answer);
+        show(row, answer);
+        if (state_ && state_->is_due()) renew_state();
+      });
+    } catch (const InputError&) {
+      // A log without a header, or without rows, is none where it was to end, or where a line was lost.
+      if (stop_.is_requested() || (is_serial_ && lines.is_over())) return "";
+      throw;
+    }
+  }
+
+  std::string follow(LogStream log, const RowVisitor& visit) {
+    if (follower_) return follower_->go_on(std::move(log), visit);
+    follower_ = std::make_unique<LogFollower>(run_, std::move(log));
+    return follower_->follow(visit);
+  }
+
+  // Noise on the line must not end the watch.
+  bool leave_out(const InputError& error, LineBuffer& lines, const std::string& header) {
+    constexpr int most_remarks = 20;
+    if (lines.is_over()) return false;
+    if (++left_out_ <= most_remarks)
+      std::cerr << "remark: " << error.what() << "; the line is left out"
+                << (left_out_ == most_remarks ? ", as will be others without a word" : "") << '\n';
+    unreadable_rows_ = Verdict::rows;
+    lines.insert(header);
+    return true;
+  }
+
+  void record(const LogRow& row, const Answer& answer) {
+    record_->append(result_row(scene_, row.time, answer, NumberFormat{}, ResultColumns::estimate));
+  }
+
+  void renew_state() {
+    if (const std::optional<std::string> text = follower_->state())
+      state_->renew(*text, record_ ? std::optional<std::int64_t>(record_->size()) : std::nullopt);
+  }
+
+  void show(const LogRow& row, const Answer& answer) {
+    std::vector<std::array<bool, 2>> has_stroke;
+    for (const CableDescription& cable : scene_.cables)
+      has_stroke.push_back({follower_->has_column(cable.name + ".start.stroke"),
+                            follower_->has_column(cable.name + ".end.stroke")});
+    LiveAnswer live;
+    live.row = ++rows_;
+    live.time = row.time;
+    live.answer = answer;
+    live.jacks = jacks_of(scene_, row, answer, has_stroke);
+    live.alarms = words_of(answer.alarms);
+    live.notices = words_of(answer.notices);
+    if (unreadable_rows_ > 0) {
+      --unreadable_rows_;
+      live.notices.emplace_back(unreadable);
+    }
+    publish(std::move(live));
+  }
+
+  // Between two rows: the same numbers once more, with or without a word about the line.
+  void tell(bool is_silent) {
+    if (!is_silent && !is_silent_) return;
+    is_silent_ = is_silent;
+    std::cerr << "remark: " << name() << ": " << (is_silent ? "the line is silent" : "rows come again")
+              << std::endl;
+    if (!is_silent) return;  // the next row says so
+    LiveAnswer live;
+    if (const LiveAnswerPtr newest = board_.newest()) live = *newest;
+    live.alarms.emplace_back(silent);
+    publish(std::move(live));
+  }
+
+  void publish(LiveAnswer live) {
+    live.json = answer_json(scene_, live);
+    history_.add(live);
+    board_.put(std::make_shared<const LiveAnswer>(std::move(live)));
+  }
+
+  const WatchOptions& options_;
+  SceneDescription scene_;  // as the file has it
+  bool is_serial_;
+  RunOptions run_;
+  StopSignal stop_;
+  AnswerBoard board_;
+  LoadHistory history_;
+  std::unique_ptr<Pace> pace_;
+  std::unique_ptr<WatchState> state_;
+  std::unique_ptr<RecordFile> record_;
+  bool repeats_record_ = false;
+  std::unique_ptr<LogFollower> follower_;
+  std::size_t rows_ = 0;
+  int left_out_ = 0, unreadable_rows_ = 0;
+  bool is_silent_ = false;
+};
+
+}  // namespace
+
+int watch(const WatchOptions& options) {
+  require_possible(options);
+  return Watch(options).run();
+}
+
+}  // namespace taut::host
