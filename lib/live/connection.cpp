@@ -9,8 +9,10 @@ namespace taut::host {
 
 Connection::Connection(socket_t socket) : socket_(socket), asked_until_(Clock::now() + to_ask) {
   fcntl(socket_, F_SETFL, fcntl(socket_, F_GETFL) | O_NONBLOCK);
-  const int yes = 1;
+  const int yes = 1, kept = 1 << 17;
   setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  // What a slow client has before it is soon behind the present; the system would keep megabytes of it.
+  setsockopt(socket_, SOL_SOCKET, SO_SNDBUF, &kept, sizeof kept);
 }
 
 bool Connection::wait_for(short event, Clock::time_point until) const {

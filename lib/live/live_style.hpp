@@ -27,6 +27,7 @@ font-variant-numeric:tabular-nums}
 .live-chart polyline{stroke-width:2.5}
 .live-chart .band{stroke:none}
 .forces td:nth-child(2){font-size:1.15rem;font-weight:600}
+@media (max-width:40rem){.forces td:nth-child(4),.forces th:nth-child(4){display:none}}
 )";
 
 /// Without `<` and `&`, so that the page is XML as well.
@@ -148,10 +149,10 @@ inline constexpr const char* live_script = R"(
       add('line', { 'class': 'rule', x1: left, x2: width - right, y1: y(v), y2: y(v) });
       add('text', { x: left - 6, y: y(v) + 4, 'text-anchor': 'end' }, labels.y(v));
     }
-    for (var k = 0; k !== 4; ++k) {
-      var at = xs[0] + k / 3 * (xs[1] - xs[0]);
-      add('text', { x: x(at), y: height - 6, 'text-anchor': k === 0 ? 'start' : k === 3 ? 'end' : 'middle' }, labels.x(at));
-    }
+    labels.at.forEach(function (at) {
+      var anchor = at === xs[0] ? 'start' : at === xs[1] ? 'end' : 'middle';
+      add('text', { x: x(at), y: height - 6, 'text-anchor': anchor }, labels.x(at));
+    });
     function points(list) { return list.map(function (p) { return x(p[0]).toFixed(1) + ',' + y(p[1]).toFixed(1); }).join(' '); }
     if (band) add('polygon', { 'class': 'band', points: points(band) });
     lines.forEach(function (line) { add('polyline', { 'class': line.look, points: points(line.points) }); });
@@ -170,8 +171,10 @@ inline constexpr const char* live_script = R"(
         high.push([i, part.high], [i + 1, part.high]);
         values.push(part.low, part.high);
       });
+      var every = Math.ceil(list.length / 8), middles = [];
+      for (var m = 0; list.length > m; m += every) middles.push(m + 0.5);
       draw(by('along' + c), [{ look: 'estimate', points: line }], around(values, 0.01), [0, list.length],
-        { y: number, x: function (v) { return 'joint ' + Math.round(v); } }, high.concat(low.reverse()));
+        { y: number, at: middles, x: function (v) { return 'T' + Math.round(v + 0.5); } }, high.concat(low.reverse()));
     });
   }
   function clock(t) { return short(t, 4) + ' s'; }
@@ -185,7 +188,9 @@ inline constexpr const char* live_script = R"(
         if (points.length === 0) return;
         draw(by(what + j), [{ look: k ? 'second' : 'estimate', points: points }],
           around(points.map(function (p) { return p[1]; }), k ? 0.001 : 0.02), xs,
-          { y: k ? function (v) { return (1000 * v).toFixed(1); } : number, x: clock });
+          { y: k ? function (v) { return (1000 * v).toFixed(1); } : number, x: clock, at: [0, 1, 2, 3].map(function (i) {
+            return i === 3 ? xs[1] : xs[0] + i / 3 * (xs[1] - xs[0]);
+          }) });
         if (k) put(by('unit-stroke' + j), 'Stroke [mm]'); else put(by('unit-load' + j), 'Load [' + unit.name + ']');
       });
     });
@@ -202,7 +207,7 @@ inline constexpr const char* live_script = R"(
     drawn = true;
     showAlarms();
     if (answer.time === null) return;
-    put(by('time'), short(answer.time, 6) + ' s');
+    put(by('time'), Math.round(1000 * answer.time) / 1000 + ' s');
     var list = all();
     list.forEach(function (part) { choose(part.force); });
     showDigits();
