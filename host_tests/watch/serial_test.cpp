@@ -26,6 +26,8 @@ class Line {
   void plug_in() {
     char path[256];
     REQUIRE(openpty(&logger_, &program_, path, nullptr, nullptr) == 0);
+    // Else the program would hold the logger's end open itself.
+    for (const int end : {logger_, program_}) fcntl(end, F_SETFD, FD_CLOEXEC);
     fs::remove(name_);
     fs::create_symlink(path, name_);
   }
@@ -66,6 +68,9 @@ TEST_CASE("a serial line that is pulled out and put back goes on, and is said to
     return comes_true([&] { return lines_of(text_of(scratch.path / "record.csv")) == count + 1; });
   };
   const auto answer = [&] { return nlohmann::json::parse(page_at(port, "/answer.json")); };
+  const auto is_silent = [&] {
+    return answer().at("alarms").dump().find("\"silent:line\"") != std::string::npos;
+  };
   line.write(log_header + joined(rows, 0, 10));
   REQUIRE(recorded(10));
   // 8 data bits, no parity, one stop bit.
@@ -74,18 +79,18 @@ TEST_CASE("a serial line that is pulled out and put back goes on, and is said to
   CHECK((settings.c_cflag & CSIZE) == CS8);
   CHECK((settings.c_cflag & (PARENB | CSTOPB)) == 0);
   CHECK((settings.c_lflag & (ICANON | ECHO)) == 0);
-  CHECK(answer().at("alarms").empty());
+  CHECK_FALSE(is_silent());
 
   line.pull_out();
-  CHECK(comes_true([&] { return answer().at("alarms") == nlohmann::json({"silent:line"}); }));
+  CHECK(comes_true(is_silent));
   CHECK(answer().at("time").get<double>() == 9);
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   CHECK(watch.is_running());
   line.plug_in();
   // The first line may be the rest of one; the header does not come again.
   line.write(rows[11].substr(rows[11].find(',') - 1) + joined(rows, 12, 20));
-  REQUIRE(recorded(18));
-  CHECK(answer().at("alarms").empty());
+  REQUIRE_MESSAGE(recorded(18), watch.err());
+  CHECK_FALSE(is_silent());
 
   // The logger starts anew while the line is up.
   line.write(log_header + joined(rows, 20, 25));

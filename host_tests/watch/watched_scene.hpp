@@ -59,7 +59,7 @@ inline std::string joined(const std::vector<std::string>& lines, std::size_t fro
 
 /// What `taut estimate -` makes of the log.
 inline Outcome estimated(const Scratch& scratch, const std::string& log) {
-  std::ofstream(scratch.path / "whole.csv") << log;
-  return run_taut(scratch,
-                  "estimate " + scratch.quoted("scene.json") + " - < " + scratch.quoted("whole.csv"));
+  const Scratch own;
+  std::ofstream(own.path / "log.csv") << log;
+  return run_taut(own, "estimate " + scratch.quoted("scene.json") + " - < " + own.quoted("log.csv"));
 }
