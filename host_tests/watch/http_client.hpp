@@ -51,6 +51,11 @@ class HttpClient {
       text_.append(bytes, static_cast<std::size_t>(count));
     return text_;
   }
+  /// The first bytes are not needed any more; returns how many they were.
+  std::size_t forget(std::size_t count) {
+    text_.erase(0, count);
+    return count;
+  }
   /// Whether the other side has closed.
   bool is_over() const { return is_over_; }
   int status() const { return text_.size() > 12 ? std::atoi(text_.c_str() + 9) : 0; }
