@@ -110,6 +110,20 @@ TEST_CASE("a log that begins under load goes on after a kill, though its past is
   CHECK(text_of(scratch.path / "record.csv") == whole.out);
 }
 
+TEST_CASE("the same log from standard input again: what is known of it is skipped") {
+  const Scratch scratch;
+  write_scene(scratch);
+  const std::vector<std::string> rows = log_rows(50);
+  for (const std::size_t to : {20U, 20U, 37U, 50U}) {
+    WatchedProgram watch(scratch, with_state({"scene.json", "-"}));
+    watch.write(log_header + joined(rows, 0, to));
+    watch.close_input();
+    CHECK(watch.ended() == 0);
+    CHECK(lines_of(text_of(scratch.path / "record.csv")) == to + 1);
+  }
+  CHECK(text_of(scratch.path / "record.csv") == estimated(scratch, log_header + joined(rows)).out);
+}
+
 TEST_CASE("rows in state and record that were being written count as not there") {
   const Scratch scratch;
   write_scene(scratch);

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "files/result_table.hpp"
+#include "lib/live/frame_rows.hpp"
+#include "monitor/frame.hpp"
 #include "watch/http_client.hpp"
 #include "watch/watched_program.hpp"
 #include "watch/watched_scene.hpp"
@@ -53,6 +55,21 @@ class Line {
 std::size_t lines_of(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
+
+// As the monitor of the firmware writes them.
+std::string framed(const std::string& kind, const std::vector<std::string>& fields) {
+  monitor::FrameWriter<400> writer;
+  writer.begin(kind[0]);
+  for (const std::string& field : fields) writer.word(field.c_str());
+  writer.finish();
+  return {writer.text(), static_cast<std::size_t>(writer.size())};
+}
+std::string hexadecimal(std::uint32_t value) {
+  char digits[9];
+  std::snprintf(digits, sizeof digits, "%08x", value);
+  return digits;
+}
+std::string bits(double value) { return hexadecimal(monitor::bits_of(static_cast<float>(value))); }
 
 }  // namespace
 
@@ -131,4 +148,46 @@ TEST_CASE("after a kill a serial line needs no second header") {
   line.write("rest of a line\n" + joined(rows, 10));
   REQUIRE(recorded(20));
   CHECK(text_of(scratch.path / "record.csv") == estimated(scratch, log_header + joined(rows)).out);
+}
+
+TEST_CASE("a frame is one with its checksum") {
+  using taut::host::frame_body;
+  CHECK(frame_body("$I*dd0216b9\n") == "I");  // computed with zlib
+  CHECK(frame_body("rest$I*dd0216b9\r\n") == "I");
+  for (const char* bad :
+       {"$I*dd0216b8\n", "I*dd0216b9\n", "$J*dd0216b9\n", "$I*DD0216B9\n", "$Idd0216b9\n", "$\n", ""})
+    CHECK_MESSAGE(!frame_body(bad), bad);
+}
+
+TEST_CASE("frames of the monitor on a serial line are rows, each once, with lock-off and jacking again") {
+  const Scratch scratch;
+  write_scene(scratch);
+  const Line line(scratch.path / "line");
+  WatchedProgram watch(scratch, {"scene.json", "--serial", "line", "--record", "record.csv", "--http", "0"});
+  watch.port();
+  // What a float holds exactly, so that the log below has the same numbers.
+  std::string log = "time,C.start,C.end,C.end.stroke,C.end.locked\n", sent;
+  for (int i = 0; i < 30; ++i) {
+    const double force = i < 20 ? 8000.0 * i : 160000, far = 6500.0 * i;
+    const bool has_far = i % 3 == 0 && i < 20, is_locked = i >= 22 && i < 26;
+    if (i == 22) sent += framed("L", {hexadecimal(0), hexadecimal(1)});
+    if (i == 26) sent += framed("J", {hexadecimal(0), hexadecimal(1)});
+    const std::string frame = framed("S", {hexadecimal(static_cast<std::uint32_t>(i + 1)), bits(0.5),
+                                           has_far ? bits(far) : "-", bits(force), bits(force / 16777216)});
+    sent += frame;
+    if (i % 7 == 0) sent += frame;                                        // its answer was lost
+    if (i % 5 == 0) sent += framed("A", {hexadecimal(1), "g"});           // what the device says
+    if (i == 10) sent += frame.substr(0, 20) + "\n";                      // cut short
+    if (i == 11) sent += framed("S", {hexadecimal(99), bits(0.5), "-"});  // of another scene
+    std::ostringstream row;
+    row.precision(17);
+    row << 0.5 * i << ',';
+    if (has_far) row << far;
+    row << ',' << force << ',' << static_cast<double>(static_cast<float>(force / 16777216)) << ','
+        << is_locked << '\n';
+    log += row.str();
+  }
+  line.write(sent);
+  REQUIRE(comes_true([&] { return lines_of(text_of(scratch.path / "record.csv")) == 31; }));
+  CHECK(text_of(scratch.path / "record.csv") == estimated(scratch, log).out);
 }

@@ -109,8 +109,9 @@ class Watch {
 
   std::unique_ptr<LineSource> open_source() {
     if (is_serial_)
-      return std::make_unique<SerialSource>(serial_line(options_.serial), state_ ? state_->last_header() : "",
-                                            stop_, [this](bool is_silent) { tell(is_silent); });
+      return std::make_unique<SerialSource>(
+          serial_line(options_.serial), state_ ? state_->last_header() : "", stop_,
+          [this](bool is_silent) { tell(is_silent); }, FrameRows(scene_));
     if (options_.log == "-") return std::make_unique<PipeSource>(STDIN_FILENO, stop_);
     return std::make_unique<FileSource>(options_.log, !options_.speed, stop_);
   }
@@ -140,6 +141,7 @@ class Watch {
                      show(row, answer);
                    });
     }
+    if (record_) record_->cut();
     return end;
   }
 

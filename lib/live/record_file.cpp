@@ -36,22 +36,16 @@ RecordFile::RecordFile(const std::string& path, const std::string& header) : pat
     throw InputError(path, "", "is no file", "name a file for the record");
   descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0 || fstat(descriptor_, &now) != 0) fail("opened");
-  size_ = end_of_lines(descriptor_, now.st_size);
-  if (size_ == 0) {
-    // What has no line in it is a header that was cut short, or nothing.
-    std::string begin(static_cast<std::size_t>(std::min<std::int64_t>(now.st_size, 1 << 20)), '\0');
-    if (pread(descriptor_, begin.data(), begin.size(), 0) < 0) fail("read");
-    if (header.compare(0, begin.size(), begin) != 0)
-      throw InputError(path, "", "is not a record of this scene", "name another file, or a new one");
-    go_back_to(0);
-    append(header);
-    return;
-  }
-  std::string begin(header.size(), '\0');
+  size_ = now.st_size;
+  at_ = end_of_lines(descriptor_, now.st_size);
+  // What has no line in it is a header that was cut short, or nothing.
+  std::string begin(std::min(at_ == 0 ? static_cast<std::size_t>(size_) : header.size(), header.size() + 1),
+                    '\0');
   if (pread(descriptor_, begin.data(), begin.size(), 0) != static_cast<ssize_t>(begin.size()) ||
-      begin != header)
+      header.compare(0, begin.size(), begin) != 0)
     throw InputError(path, "", "is not a record of this scene", "name another file, or a new one");
-  go_back_to(size_);
+  cut();
+  if (at_ == 0) append(header);
 }
 
 RecordFile::~RecordFile() {
@@ -64,16 +58,28 @@ void RecordFile::fail(const std::string& doing) const {
 }
 
 void RecordFile::go_back_to(std::int64_t size) {
-  if (size > size_ && size > 0)
+  if (size > size_)
     throw InputError(path_, "", "has fewer rows than the state knows",
                      "name the record that belongs to the state");
-  if (ftruncate(descriptor_, size) != 0 || lseek(descriptor_, size, SEEK_SET) < 0) fail("cut");
-  size_ = size;
+  at_ = size;
+}
+
+void RecordFile::cut() {
+  if (ftruncate(descriptor_, at_) != 0) fail("cut");
+  size_ = at_;
 }
 
 void RecordFile::append(const std::string& line) {
-  if (!write_all(descriptor_, line)) fail("written");
-  size_ += static_cast<std::int64_t>(line.size());
+  if (at_ < size_) {
+    std::string there(line.size(), '\0');
+    const ssize_t count = pread(descriptor_, there.data(), there.size(), at_);
+    if (count != static_cast<ssize_t>(line.size()) || there != line) cut();
+  }
+  if (at_ == size_) {
+    if (lseek(descriptor_, at_, SEEK_SET) < 0 || !write_all(descriptor_, line)) fail("written");
+    size_ += static_cast<std::int64_t>(line.size());
+  }
+  at_ += static_cast<std::int64_t>(line.size());
 }
 
 }  // namespace taut::host

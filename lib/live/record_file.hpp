@@ -16,10 +16,13 @@ class RecordFile {
   RecordFile(const RecordFile&) = delete;
   RecordFile& operator=(const RecordFile&) = delete;
 
-  /// Size of the file [bytes].
-  std::int64_t size() const { return size_; }
-  /// Cuts off what was written after it had this size. Throws InputError if it is shorter.
+  /// Size of the file up to the row that was appended last [bytes].
+  std::int64_t size() const { return at_; }
+  /// The rows after this size come again: until cut() a line that is there stays, so that at no instant one
+  /// is missing. Throws InputError if the file is shorter.
   void go_back_to(std::int64_t size);
+  /// What has not come again is cut off.
+  void cut();
   /// A line with its end. Throws InputError if it cannot be written.
   void append(const std::string& line);
 
@@ -28,7 +31,7 @@ class RecordFile {
 
   std::string path_;
   int descriptor_ = -1;
-  std::int64_t size_ = 0;
+  std::int64_t at_ = 0, size_ = 0;  // of the row appended last, and of the file
 };
 
 }  // namespace taut::host

@@ -70,12 +70,12 @@ SerialLine serial_line(const std::string& text) {
 }
 
 SerialSource::SerialSource(const SerialLine& line, std::string header, const StopSignal& stop, Tell tell,
-                           Translate translate)
+                           FrameRows frames)
     : serial_(line),
       header_(std::move(header)),
       stop_(stop),
       tell_(std::move(tell)),
-      translate_(std::move(translate)),
+      frames_(std::move(frames)),
       heard_(Clock::now()) {
   errno = 0;
   if (!open_device())
@@ -153,10 +153,13 @@ std::optional<std::string> SerialSource::line() {
     if (std::optional<std::string> text = lines_.take()) {
       heard_ = Clock::now();
       say(false);
-      const bool counts = !is_fresh_ || is_header(*text) || (*text)[0] == '$';
+      const bool is_frame = text->find('$') != std::string::npos;
+      const bool counts = !is_fresh_ || is_header(*text) || (is_frame && frame_body(*text));
       is_fresh_ = false;
       if (!counts) continue;
-      if (translate_ && (*text)[0] == '$') text = translate_(*text);
+      if (!is_frame) return text;
+      text = frames_.row(*text);
+      if (text && header_.empty()) header_ = frames_.header();
       if (text) return text;
       continue;
     }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "lib/live/frame_rows.hpp"
 #include "lib/live/line_source.hpp"
 #include "lib/live/pending_lines.hpp"
 #include "lib/live/stop_signal.hpp"
@@ -20,22 +21,19 @@ struct SerialLine {
 /// Throws InputError for a speed that no line has.
 SerialLine serial_line(const std::string& text);
 
-/// Lines of the log's format at 8 data bits, no parity, one stop bit. A log ends where the line is lost or
-/// the header comes again; the next one begins with that header, or where there is none with that of the log
-/// before. The first line after the device was opened may be the rest of one: it counts only if it is a
-/// header.
+/// Lines of the log's format, or frames of the firmware's monitor, at 8 data bits, no parity, one stop bit. A
+/// log ends where the line is lost or the header comes again; the next one begins with that header, or where
+/// there is none with that of the log before. The first line after the device was opened may be the rest of
+/// one: it counts only if it is a header.
 class SerialSource : public LineSource {
  public:
   static constexpr std::chrono::milliseconds silence{10000}, retry{200};
 
   /// Told when nothing has come for so long or the device is gone, and when lines come again.
   using Tell = std::function<void(bool is_silent)>;
-  /// Makes a line of a log out of one from the line: its header, a row, or nothing; see FrameRows.
-  using Translate = std::function<std::optional<std::string>(const std::string& line)>;
-
   /// Throws InputError if the device cannot be opened. `header` is what the log before had; empty: not known.
   SerialSource(const SerialLine& line, std::string header, const StopSignal& stop, Tell tell,
-               Translate translate = {});
+               FrameRows frames);
   ~SerialSource() override;
 
   std::optional<std::string> next() override;
@@ -55,7 +53,7 @@ class SerialSource : public LineSource {
   std::string header_;
   const StopSignal& stop_;
   Tell tell_;
-  Translate translate_;
+  FrameRows frames_;
   PendingLines lines_;
   int descriptor_ = -1;
   bool is_fresh_ = true;  // since it was opened no line has ended
