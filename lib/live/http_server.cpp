@@ -22,6 +22,10 @@ constexpr std::chrono::milliseconds look_up{250}, heartbeat{5000};
 
 // One request a connection, each with its deadlines.
 class Server : public httplib::Server {
+ public:
+  // Five at a time, as the library has it, would make a browser among others wait for seconds.
+  void let_wait(int connections) { ::listen(svr_sock_, connections); }
+
  private:
   bool process_and_close_socket(socket_t socket) override {
     bool is_served = false;
@@ -89,6 +93,7 @@ class HttpServer::Impl {
     return server_.bind_to_port(at.address, at.port) ? at.port : -1;
   }
   void start() {
+    server_.let_wait(static_cast<int>(ConnectionThreads::most));
     const SignalsHeldBack held;
     thread_ = std::thread([this] { server_.listen_after_bind(); });
     while (!server_.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
