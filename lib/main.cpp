@@ -70,7 +70,7 @@ class CommandLine {
       return app_.exit(error) == 0 ? 0 : unusable_input;
     }
     if (check_->parsed()) return check(options_.scene, options_.log);
-    if (export_->parsed()) return export_scenes({scenes_, options_.output});
+    if (export_->parsed()) return export_scenes({scenes_, options_.output, c_name_});
     if (template_->parsed()) return write_log_template(options_.scene, options_.output);
     if (watch_->parsed()) return watch(watching_);
     if (report_->parsed()) return report({options_.scene, options_.log, options_.output, options_.limits});
@@ -181,6 +181,7 @@ class CommandLine {
     export_->add_option("SCENE", scenes_, "Scene files (JSON); several share one capacity and so their code")
         ->required();
     export_->add_option("-o", options_.output, "Header file (C++); standard output if absent");
+    export_->add_option("--c", c_name_, "Write also a C interface, NAME.h and NAME.cpp, beside the header");
   }
 
   void add_template() {
@@ -201,6 +202,7 @@ class CommandLine {
   PlanOptions plan_options_;
   WatchOptions watching_;
   std::vector<std::string> scenes_;
+  std::string c_name_;
   std::string method_ = methods.front().first, scalar_ = "double";
 };
 

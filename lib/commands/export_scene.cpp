@@ -1,8 +1,10 @@
 #include "lib/commands/export_scene.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 
+#include "lib/commands/c_interface.hpp"
 #include "lib/commands/scene_header.hpp"
 #include "lib/commands/usual_deviations.hpp"
 #include "lib/files/input_error.hpp"
@@ -54,9 +56,29 @@ void require_same_theory(const ExportedScene& scene, const std::vector<ExportedS
                    "export scenes of either theory into a header of their own");
 }
 
+// One scene has one set of functions; their names begin with that of the interface.
+void require_possible(const ExportOptions& options) {
+  if (options.c_name.empty()) return;
+  if (identifier(options.c_name) != options.c_name)
+    throw InputError(
+        "--c", "", quote(options.c_name) + " is no identifier of C that is free",
+        "write letters, digits and single underscores, such as " + quote(identifier(options.c_name)));
+  if (options.output.empty())
+    throw InputError("--c", "", "has no folder to write to", "name the header with -o FOLDER/SCENE.hpp");
+  if (options.scenes.size() > 1)
+    throw InputError("--c", "",
+                     "is an interface to one scene, and there are " + std::to_string(options.scenes.size()),
+                     "export every scene by itself");
+}
+
+std::string beside(const ExportOptions& options, const char* ending) {
+  return (std::filesystem::path(options.output).parent_path() / (options.c_name + ending)).string();
+}
+
 }  // namespace
 
 int export_scenes(const ExportOptions& options) {
+  require_possible(options);
   std::vector<ExportedScene> scenes;
   for (const std::string& file : options.scenes) {
     ExportedScene scene = exported_scene(file);
@@ -75,9 +97,31 @@ int export_scenes(const ExportOptions& options) {
     scenes.push_back(std::move(scene));
   }
   keep_inputs(options.output, options.scenes);
-  OutputFile output(options.output);
-  output.write(scene_header(scenes));
+  const std::string header = scene_header(scenes);
+  if (options.c_name.empty()) {
+    OutputFile output(options.output);
+    output.write(header);
+    output.finish();
+    return 0;
+  }
+  const ExportedScene& scene = scenes.front();
+  if (!scene.in_float.condensed.condensing.status) {
+    std::cerr << "--c: the interface computes in float, and the scene cannot be condensed in float\n";
+    return 1;
+  }
+  const std::string file = std::filesystem::path(options.output).filename().string();
+  const std::string c_file = beside(options, ".h"), source_file = beside(options, ".cpp");
+  for (const std::string& written : {c_file, source_file}) {
+    keep_inputs(written, options.scenes);
+    keep_inputs(written, {options.output});
+  }
+  OutputFile output(options.output), c_output(c_file), source(source_file);
+  output.write(header);
+  c_output.write(c_header(scene, options.c_name));
+  source.write(c_source(scene, options.c_name, file));
   output.finish();
+  c_output.finish();
+  source.finish();
   return 0;
 }
 

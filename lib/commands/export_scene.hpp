@@ -9,10 +9,12 @@ namespace taut::host {
 struct ExportOptions {
   std::vector<std::string> scenes;  ///< at least one
   std::string output;               ///< empty: standard output
+  std::string c_name;               ///< of a C interface beside it; empty: none
 };
 
 /// Writes the header and returns the exit status: 0, or 1 if a structure cannot be condensed, with the
-/// reason on standard error and nothing written. Throws InputError for unusable input.
+/// reason on standard error and nothing written. With a C interface its two files lie beside the header,
+/// which then needs a name. Throws InputError for unusable input.
 int export_scenes(const ExportOptions& options);
 
 }  // namespace taut::host
