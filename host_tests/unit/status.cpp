@@ -11,7 +11,7 @@ using taut::Place;
 using taut::Status;
 
 namespace {
-constexpr Code last_code = Code::ill_conditioned;
+constexpr Code last_code = Code::not_started;
 }
 
 TEST_CASE("a status is true when all is well and only then") {

@@ -33,6 +33,9 @@ enum class Code : std::uint8_t {
   gives_way,         ///< friction at this joint holds no longer: the structure would jump to a state far away
   state_iterations,  ///< the joint states do not settle; `place` is a joint that keeps flipping
   ill_conditioned,   ///< equilibrium is not reached in this scalar type: use double
+
+  // Calls come in the wrong order: nothing was changed.
+  not_started,  ///< start() comes first
 };
 
 /// The kind of thing that a Status points at.
@@ -120,6 +123,8 @@ constexpr const char* describe(Code code) {
       return "the joint states do not settle";
     case Code::ill_conditioned:
       return "equilibrium is not reached in this precision";
+    case Code::not_started:
+      return "start() comes first";
   }
   return "unknown status";
 }

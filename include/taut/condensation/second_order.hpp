@@ -152,7 +152,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
 
   /// Where a step began: all that the model is made from.
   struct Anchor {
-    Real level = Source::low_level;
+    Real level = 0;
     Real prestrain = 0;  ///< as in Drive
     FixedArray<Real, Cap::loads> factor;
     Tensions e;  ///< [m]
@@ -170,6 +170,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     source_ = &source;
     target_force = source.target_force;
     anchor = {};
+    anchor.level = Source::low_level;
     make();
   }
   /// Begins the next step at these loads and elongations [m], of which all tensions together are `sum` [N].

@@ -26,8 +26,8 @@ struct Alarm {
     frozen,  ///< a load cell keeps one value although the load moves
     gain,    ///< the load cells at the anchored end and at the jack of a cable surely differ in gain
   } kind = Kind::outlier;
-  std::int16_t cable = -1;  ///< -1: `place` is a strut
-  std::int16_t place = -1;  ///< joint or segment of the cable; end 0 or 1
+  std::int16_t cable = 0;  ///< -1: `place` is a strut
+  std::int16_t place = 0;  ///< joint or segment of the cable; end 0 or 1
 
   /// Whether it needs no action: it is raised once where it begins.
   constexpr bool is_notice() const { return kind == Kind::no_information; }

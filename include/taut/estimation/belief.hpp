@@ -70,7 +70,7 @@ class Belief {
   /// Adds an unknown with mean zero. Returns its number, or -1 if there is no room.
   int add(Scalar sd) {
     if (size_ == Parameters) return -1;
-    const Scalar far = std::numeric_limits<Scalar>::max();
+    const Scalar far = (std::numeric_limits<Scalar>::max)();
     state_.covariance[size_][size_] = most_variance_[size_] = sd * sd;
     least_[size_] = -far;
     most_[size_] = far;

@@ -76,7 +76,7 @@ Progress<typename TrackerType::Scalar> drive_straight(TrackerType& tracker, cons
                                                       SampleType& to, int event_budget,
                                                       const Uncertainty& mu_sd) {
   auto progress = tracker.advance(to, event_budget);
-  for (int count = 0; count < tracker.model().cables.size() && progress.status.code == Code::pulled_through &&
+  for (int count = 0; progress.status.code == Code::pulled_through && count < tracker.model().cables.size() &&
                       reconcile(tracker, jacks, progress.status.index, mu_sd(progress.status.index), to);
        ++count)
     progress = join(progress, tracker.advance(to, event_budget));
@@ -132,6 +132,7 @@ template <class TrackerType, class Jacks, class SampleType, class Remember, clas
     progress = drive_through(tracker, jacks, corners, event_budget, remember, remember_load, mu_sd);
   SampleType to = target;
   if (progress.status) progress = join(progress, drive_straight(tracker, jacks, to, event_budget, mu_sd));
+  if (progress.status.code == Code::not_started) return progress;
   const int patterns = load_patterns(tracker.model());
   if (!progress.status || progress.fraction < 1)
     jacks.arrive(tracker.loads(), patterns);

@@ -168,7 +168,7 @@ class Estimator : private CondensedType::Capacity::Account {
   /// reversed.
   Progress<Scalar> advance(const ReadingsType& readings, int event_budget = TrackerType::default_budget) {
     alarms_.clear();
-    for (int i = 0; i < load_patterns(model()); ++i)
+    for (int i = 0; i < jacks_.patterns(); ++i)
       if (!(std::fabs(readings.sample.factor[i]) <= model().most_factor[i]))
         return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
     begin_row();
@@ -268,6 +268,7 @@ class Estimator : private CondensedType::Capacity::Account {
     take_gauge(predict, reading, gauge, alarm_at(Alarm::Kind::elongation, jacks_.end(k)));
   }
   void take_segment(int segment, Scalar reading, Gauge gauge) {
+    if (!gauges_.has(gauge)) return;
     const int c = cable_of(segment);
     const auto predict = [&](auto& prediction) {
       predict_tension(tracker_, segment, filter_.belief(), jacks_.ends(), prediction);
@@ -441,13 +442,13 @@ class Estimator : private CondensedType::Capacity::Account {
     return p;
   }
   bool changes_factors(const Sample<Scalar, Cap>& sample) const {
-    for (int i = 0; i < load_patterns(model()); ++i)
+    for (int i = 0; i < jacks_.patterns(); ++i)
       if (sample.factor[i] != jacks_.factor(i)) return true;
     return false;
   }
   /// While other loads change, friction comes to rest at the loads that jacks have then, known or not.
   void follow_other_loads(const Sample<Scalar, Cap>& sample, Corners<Scalar>& corners) {
-    if (load_patterns(model()) == 0) return;
+    if (jacks_.patterns() == 0) return;
     const bool changes = changes_factors(sample);
     for (int k = 0; k < jacks_.size(); ++k) {
       auto& jack = jacks_[k];
@@ -766,7 +767,7 @@ class Estimator : private CondensedType::Capacity::Account {
   }
 
   // What every row needs comes first: instructions reach it directly.
-  AlarmLimits<Scalar> limits_;
+  AlarmLimits<Scalar> limits_ = {0, 0, 0, 0, 0, 0, 0};  // all zeros until start(): no flash to copy from
   bool is_belief_fine_ = false;  // nothing is odd about what is believed of friction and gains
   FarEndsType far_ends_;
   FixedArray<std::int16_t, Cap::cables> drift_;  // unknown strains of cables, or -1

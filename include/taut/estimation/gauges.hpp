@@ -158,9 +158,15 @@ class Gauges {
   }
 
  private:
-  bool is_free(int g) const { return cells_[g].zero_sd > std::numeric_limits<Scalar>::max(); }
+  /// All zeros until there is one.
+  struct Taken : LoadCell<Scalar> {
+    constexpr Taken() : LoadCell<Scalar>{0, 0, 0, 0, 0, 0} {}
+    constexpr Taken(const LoadCell<Scalar>& cell) : LoadCell<Scalar>(cell) {}
+  };
 
-  FixedList<LoadCell<Scalar>, Capacity> cells_;
+  bool is_free(int g) const { return cells_[g].zero_sd > (std::numeric_limits<Scalar>::max)(); }
+
+  FixedList<Taken, Capacity> cells_;
   FixedArray<InstrumentUnknowns, Capacity> unknowns_;
   State state_;
 };

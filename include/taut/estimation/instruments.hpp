@@ -13,7 +13,7 @@ namespace taut {
 
 /// Numbers of the unknowns of one instrument, or -1.
 struct InstrumentUnknowns {
-  std::int16_t gain = -1, zero = -1, hysteresis = -1;
+  std::int16_t gain = 0, zero = 0, hysteresis = 0;
 
   /// Gives them numbers by add(standard deviation); what is known has none. Returns how many found no room.
   template <class Scalar, class Add>
@@ -47,7 +47,10 @@ struct InstrumentUnknowns {
 template <class Scalar, class Cap>
 class Instruments {
  public:
-  void clear() { of_ = {}; }
+  void clear() {
+    constexpr InstrumentUnknowns none = {-1, -1, -1};
+    of_.fill({none, none});
+  }
   InstrumentUnknowns& at(int cable, std::size_t end) { return of_[cable][end]; }
   const InstrumentUnknowns& at(int cable, std::size_t end) const { return of_[cable][end]; }
 

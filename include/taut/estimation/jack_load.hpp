@@ -46,9 +46,9 @@ struct JackLoad {
   Scalar since = 0;       ///< time since the last reading
   Scalar turned = 0;      ///< load where it turned last [N], for a cell with two branches
   Scalar turned_sd = 0;   ///< and its standard deviation [N]
-  bool pulls = true;      ///< the branch: since then the load has gone up
+  bool pulls = false;     ///< the branch: since then the load has gone up
   bool erred_up =
-      true;  ///< the branch whose error the tracker has: after a turn, while the load rests, the old one
+      false;  ///< the branch whose error the tracker has: after a turn, while the load rests, the old one
   Scalar raw = 0;        ///< the last reading [N]
   Scalar first = 0;      ///< the least load once there is one [N]: which way things slide shows from then on
   Scalar sd_before = 0;  ///< standard deviation of the load a sample ago [N]
@@ -62,9 +62,9 @@ struct JackLoad {
   /// next.
   std::array<std::int16_t, static_cast<std::size_t>(Reversals)> memory{};
   int oldest = 0;
-  std::int16_t seating = -1;  ///< the unknown of its wedge's draw-in, or -1
-  Scalar come_sd = 0;         ///< standard deviation of the load where come_to_best() was [N]
-  std::int16_t frozen = -1;   ///< the one of `memory` that its error is while other loads change, or -1
+  std::int16_t seating = 0;  ///< the unknown of its wedge's draw-in, or -1
+  Scalar come_sd = 0;        ///< standard deviation of the load where come_to_best() was [N]
+  std::int16_t frozen = 0;   ///< the one of `memory` that its error is while other loads change, or -1
 
   /// A reading, or none if it is more than the cable can carry, `most` [N].
   static Scalar possible(Scalar reading, Scalar most) {
@@ -101,6 +101,8 @@ struct JackLoad {
 
   void start(const LoadCell<Scalar>& cell) {
     *this = JackLoad();
+    pulls = erred_up = true;
+    seating = frozen = -1;
     filter.start(cell.sd);
     noise.start(cell.sd);
   }

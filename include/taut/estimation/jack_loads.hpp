@@ -13,6 +13,12 @@
 
 namespace taut {
 
+/// Load patterns of a condensed scene: zero at compile time where the capacity is.
+template <class CondensedType>
+int load_patterns(const CondensedType& model) {
+  return CondensedType::Capacity::loads == 0 ? 0 : model.loads;
+}
+
 /// Jacked ends in the order in which a tracker counts them, with their loads; and the load factors that the
 /// tracker was driven to.
 template <class Scalar, class Cap, int Reversals>
@@ -30,6 +36,7 @@ class JackLoads {
   template <class CondensedType>
   void start(const CondensedType& model, const Knowledge<Scalar, Cap>& prior) {
     ends_.clear();
+    patterns_ = load_patterns(model);
     for_each_jacked_end(model.cables, [&](int c, std::size_t end) { ends_.add(CableEnd<Cap>::of(c, end)); });
     state_.factor.fill(Scalar(0));
     for (int k = 0; k < size(); ++k) {
@@ -41,6 +48,8 @@ class JackLoads {
 
   /// The load factor of a pattern that the tracker was driven to [-].
   Scalar factor(int pattern) const { return state_.factor[pattern]; }
+  /// Load patterns of the scene, none before start(): zero at compile time where the capacity is.
+  int patterns() const { return Cap::loads == 0 ? 0 : patterns_; }
   int size() const { return ends_.size(); }
   bool empty() const { return ends_.empty(); }
   const FixedList<CableEnd<Cap>, capacity>& ends() const { return ends_; }
@@ -110,12 +119,7 @@ class JackLoads {
  private:
   FixedList<CableEnd<Cap>, capacity> ends_;
   State state_;
+  int patterns_ = 0;
 };
-
-/// Load patterns of a condensed scene: zero at compile time where the capacity is.
-template <class CondensedType>
-int load_patterns(const CondensedType& model) {
-  return CondensedType::Capacity::loads == 0 ? 0 : model.loads;
-}
 
 }  // namespace taut

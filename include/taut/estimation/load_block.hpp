@@ -31,7 +31,7 @@ struct LoadBlock {
   std::array<Scalar, static_cast<std::size_t>(Capacity)> step{};    ///< the time since the one before
   Scalar level = 0, slope = 0;  ///< of the line that follows them, at the last reading
   Scalar level_gain = 0, slope_gain = 0;
-  Scalar spread = 1;          ///< variance of an innovation
+  Scalar spread = 0;          ///< variance of an innovation
   Scalar drift = 0;           ///< sum of the innovations of the line
   Scalar drift_variance = 0;  ///< of the sum after many
   Scalar sum = 0;             ///< of the readings, as levels of the line

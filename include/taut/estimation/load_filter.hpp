@@ -59,6 +59,7 @@ class LoadFilter : LoadFilterTuning {
   /// a reading [N], with quantisation (step / sqrt(12)). Zero: readings are exact. Always possible.
   void start(Scalar sd) {
     *this = LoadFilter();
+    way_ = block_.spread = 1;
     sd_ = sd > 0 ? sd : Scalar(0);
     per_sd_ = sd_ > 0 ? 1 / sd_ : Scalar(0);
   }
@@ -578,7 +579,7 @@ class LoadFilter : LoadFilterTuning {
   Level waits_sd_ = 0;           // standard deviation of the estimate while readings wait
   Level step_ = 0, usual_ = 0;   // the last one; what they usually are
   Level missed_ = 0;             // time since the last reading that was one
-  Level way_ = 1;                // that the load goes: up or down
+  Level way_ = 0;                // that the load goes: up or down
   std::int8_t best_ = 0;         // the most likely hypothesis
   std::int8_t since_birth_ = 0;  // samples since a line began
   std::int8_t calm_ = 0;         // samples without surprise

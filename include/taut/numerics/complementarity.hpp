@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "taut/numerics/larger.hpp"
 #include "taut/scene/fixed_list.hpp"
 
 namespace taut {
@@ -145,7 +146,7 @@ class Lemke {
   int ratio_test(int entering) const {
     Scalar largest = 0;
     for (int i = 0; i < n_; ++i) largest = std::fmax(largest, std::fabs(at(i, entering)));
-    const Scalar least = 64 * epsilon * std::fmax(largest, Scalar(1));
+    const Scalar least = 64 * epsilon * larger(Scalar(1), largest);
     int best = -1;
     for (int i = 0; i < n_; ++i) {
       if (at(i, entering) <= least) continue;

@@ -219,7 +219,7 @@ class ActiveSet {
   }
   /// Once with the springs, or, to the last digit, without them: iterative refinement.
   void settle_all(const Laws& laws, const Moves& due, Tensions& T, Moves& moves, int passes) const {
-    Real before = std::numeric_limits<Real>::max();
+    Real before = (std::numeric_limits<Real>::max)();
     for (int pass = 0; pass < passes; ++pass) {
       Moves change;
       Real most = 0, off = 0;
@@ -416,7 +416,7 @@ class ActiveSet {
 
   const CondensedType* model_ = nullptr;
   Actives active_;
-  Real held_ = 0, stiffest_ = 1;
+  Real held_ = 0, stiffest_ = 0;
   Tensions flexibility_;  // of every segment in its own direction [m/N], 0 if statics give its force
   Links links_;
   BorderedLu<Real, has_rows ? capacity : 0> factors_;

@@ -72,7 +72,7 @@ class AffineMap {
       if (inputs_[k].kind == Input::Kind::jack_force) due[row_of_jack(inputs_[k].index)] = anchor[k];
     set_.settle(laws, due, base_, base_moves_, most_passes);
     for (int k = 0; k < inputs(); ++k) make_column(laws, k);
-    round();
+    round_columns();
     differentiate(
         [&](const Moves& given, Tensions& follow, Moves& by) { set_.settle(laws, given, follow, by); });
   }
@@ -157,7 +157,7 @@ class AffineMap {
   static constexpr bool is_wide = std::is_same<Real, Scalar>::value;
   static constexpr int most_passes = 8;
 
-  void round() {
+  void round_columns() {
     if constexpr (!is_wide) {
       for (int k = 0; k < inputs(); ++k)
         for (int i = 0; i < model_->segments; ++i) rounded_[k][i] = static_cast<Scalar>(column_[k][i]);

@@ -38,7 +38,7 @@ struct CableSystem {
   struct JackedEnd {
     int cable = 0;
     std::size_t end = 0;
-    int input = -1;       ///< its force in the map, or -1
+    int input = 0;        ///< its force in the map, or -1
     bool locked = false;  ///< as in the goal
   };
 

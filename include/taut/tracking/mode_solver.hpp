@@ -275,7 +275,7 @@ class ModeSolver {
       needed_tie = second;
       return true;
     };
-    Real needed = 0, needed_tie = -std::numeric_limits<Real>::max();
+    Real needed = 0, needed_tie = -(std::numeric_limits<Real>::max)();
     Direction direction;
     respond_to_cover(direction);
     for (int p = 0; p < pairs_.size(); ++p) {

@@ -48,9 +48,9 @@ struct Law {
 /// keeps T_small = rho T_big.
 struct Active {
   Move move;
-  std::int16_t on = 0;     ///< -1: a joint that slides
-  std::int8_t sense = 0;   ///< of sliding: the sign that its rate must have; 0 if it has none
-  std::int16_t pair = -1;  ///< of the complementarity problem in which it entered, or -1
+  std::int16_t on = 0;    ///< -1: a joint that slides
+  std::int8_t sense = 0;  ///< of sliding: the sign that its rate must have; 0 if it has none
+  std::int16_t pair = 0;  ///< of the complementarity problem in which it entered, or -1
 
   bool slides() const { return on < 0; }
   /// T_big of a joint that slides.

@@ -65,11 +65,11 @@ class SamplePath {
   }
   /// Goes to the sample if one load alone changes, and stays within the range that is known.
   [[nodiscard]] bool goes_along(Cables& cables, const Sample<Scalar, Cap>& sample) {
-    return only_ >= 0 && stays_in_range(cables, sample);
+    return only_ > 0 && stays_in_range(cables, sample);
   }
   /// Goes to this force of a jack, by its number, if it alone changes and stays within the range.
   [[nodiscard]] bool goes_along(Cables& cables, int jack, Scalar force) {
-    return only_ >= 0 && cables.jacks[jack].input == only_ && goes_to(cables, force);
+    return only_ > 0 && cables.jacks[jack].input == only_ - 1 && goes_to(cables, force);
   }
   /// Whether the force of an unlocked jack can go there, all else left as it is, without a change of modes; a
   /// cable that is wholly at zero is taken to stay there. Cost: two comparisons within the range that is
@@ -86,7 +86,7 @@ class SamplePath {
       if (!goes_on(cables, x)) return false;
     }
     const Scalar dx = force - anchor_[k];
-    if (only_ == k && dx >= range_[0] && dx <= range_[1]) return true;
+    if (only_ == k + 1 && dx >= range_[0] && dx <= range_[1]) return true;
     Rounded T = cables.state.tension;
     const Rounded& column = cables.map.rounded_column(k);
     // Limits know no scale, but margins are for forces up to the largest so far.
@@ -98,7 +98,7 @@ class SamplePath {
   /// Drops what is known of the range: the next sample is looked at with all limits.
   void forget(Cables& cables) {
     cables.state.has_range = false;
-    only_ = -1;
+    only_ = 0;
   }
   /// Starts anew from the forces that the last path with events ended in.
   void refresh(Cables& cables) {
@@ -154,7 +154,7 @@ class SamplePath {
   /// Goes to the sample where the only input that changes has a range: false if anything else changes, or it
   /// leaves it.
   bool stays_in_range(Cables& cables, const Sample<Scalar, Cap>& sample) {
-    const int k = only_;
+    const int k = only_ - 1;
     Scalar x = at_[k];
     for (int n = 0; n < cables.jacks.size(); ++n) {
       const JackedEnd& jack = cables.jacks[n];
@@ -174,7 +174,7 @@ class SamplePath {
   }
   /// Goes to this value of the only input that changes.
   bool goes_to(Cables& cables, Scalar x) {
-    const int k = only_;
+    const int k = only_ - 1;
     const Scalar step = x - at_[k];
     if (step != 0) {
       const Scalar dx = x - anchor_[k];
@@ -237,26 +237,27 @@ class SamplePath {
   /// changes, as in a hold, that is not far.
   void find_range(Cables& cables) {
     cables.state.has_range = true;
-    only_ = -1;
+    only_ = 0;
     int live = 0;
     for (int k = 0; k < cables.map.inputs(); ++k)
       if (cables.state.live[k]) {
         ++live;
-        only_ = k;
+        only_ = k + 1;
       }
     if (live == 0 && cables.map.inputs() > 0) {
-      only_ = 0;
+      only_ = 1;
       range_ = {1, -1};
       return;
     }
     // A slack run has limits of its own.
     if (live != 1 || cables.map.has_slack()) {
-      only_ = -1;
+      only_ = 0;
       return;
     }
-    range_ = {larger(least_[only_], -cables.state.reach[only_]) - anchor_[only_],
-              cables.state.reach[only_] - anchor_[only_]};
-    const Rounded& column = cables.map.rounded_column(only_);
+    const int only = only_ - 1;
+    range_ = {larger(least_[only], -cables.state.reach[only]) - anchor_[only],
+              cables.state.reach[only] - anchor_[only]};
+    const Rounded& column = cables.map.rounded_column(only);
     for (int j = 0; j < cables.joints(); ++j) {
       const auto& sides = cables.laws.sides(j);
       for (int way = 0; way < 2; ++way) {
@@ -368,7 +369,7 @@ class SamplePath {
   Given least_;  // a jack does not push, and takes a resting run along only in an event
   FixedArray<int, Cap::loads> load_input_;  // in the map, or -1
   std::array<Scalar, 2> range_{};           // of the only live input, from its anchor: within all limits
-  int only_ = 0;                            // that input, or -1
+  int only_ = 0;                            // that input, counted from 1, or 0
   bool has_resting_ = false;
 };
 

@@ -341,6 +341,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   /// Not in one frame with the samples that need no more than goes_along().
   [[gnu::noinline]] Progress<Scalar> approach(const Sample<Scalar, Cap>& sample, int event_budget) {
     if (samples_.follow(cables_, sample)) return {};
+    if (cables_.model == nullptr) return {Status::at(Code::not_started, Place::none, -1), Scalar(0), 0};
     const Status usable = check_sample(*cables_.model, sample);
     if (!usable) return {usable, Scalar(0), 0};
     samples_.forget(cables_);
