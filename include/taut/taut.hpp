@@ -1,6 +1,7 @@
 // taut: the force in every cable segment of a cable-supported structure while it is being tensioned.
 //
 // All of the library, and what it promises. include/taut/README.md has the equations, README.md a program.
+// device.hpp has what follows an exported scene, without Eigen.
 //
 // UNITS. SI throughout: m, N, N/m2, K, rad, s. Forces of segments, struts and jacks are positive in tension.
 // Friction coefficients and load factors have no unit. Time, where it is asked for (Readings::dt), may be in
@@ -14,6 +15,7 @@
 // ERRORS are values: a Status, or a Progress with one, that cannot be ignored. It is false if something is
 // wrong, and names the node, joint, cable or end; segments and joints are counted along their cable there.
 // Nothing throws or prints. What returns no Status cannot fail.
+// advance() before start() fails with `not_started`; what returns no Status must not be called then.
 //
 // MEMORY. No heap. An object holds all its storage, of a size that its types fix: keep Tracker, Estimator,
 // Condensation and above all Stepwise in static memory rather than on a stack. There is no recursion, so the

@@ -181,8 +181,7 @@ constexpr std::string_view source_pattern =
 #include <type_traits>
 
 #include "@file@"
-#include "taut/estimation/estimator.hpp"
-#include "taut/tracking/tracker.hpp"
+#include "taut/device.hpp"
 
 namespace {
 
