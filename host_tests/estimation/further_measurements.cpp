@@ -2,6 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
 
 #include "estimation/ramp.hpp"
 
@@ -133,6 +136,40 @@ TEST_CASE("a measurement that was not believed leaves no trace in the next ones 
   CHECK(misled->mu(0) == plain->mu(0));
   CHECK(misled->mu_deviation(0) == plain->mu_deviation(0));
   CHECK(plain->mu_deviation(0) < site->estimator().mu_deviation(0));
+}
+
+TEST_CASE("the force of a strut that nobody measures is estimated with the error that it has") {
+  static Ground ground;
+  // The root mean square of 600 errors is known to 3 %.
+  constexpr int draws = 600;
+  double pulled = 0, let_out = 0, largest = 0;
+  constexpr double mu_sd = 0.03;
+  constexpr std::uint64_t seed = 20261124;
+  CAPTURE(seed);
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> prior(0.2, mu_sd);
+  Instruments jack_alone;
+  jack_alone.has_cell = false;
+  for (std::uint64_t i = 0; i < draws; ++i) {
+    make_ground(ground, 0.2, mu_sd, prior(random));
+    const auto site = std::make_unique<Site<double>>(ground, jack_alone, full, i);
+    const auto error = [&] {
+      const auto [force, deviation] = site->estimator().estimate_strut(site->rows(), chord);
+      largest = std::max(largest, std::fabs(force));
+      const double scaled = (force - site->true_strut(chord)) / deviation;
+      return scaled * scaled / draws;
+    };
+    ramp(*site, 0, 1, 50);
+    pulled += error();
+    ramp(*site, 1, 0.5, 50);
+    let_out += error();
+    REQUIRE(site->good());
+  }
+  CHECK(largest > 0.1 * full);
+  for (const double square : {pulled, let_out}) {
+    CHECK(std::sqrt(square) > 0.9);
+    CHECK(std::sqrt(square) < 1.1);
+  }
 }
 
 TEST_CASE("while joints stick, gauges and strokes teach nothing, and nothing is said of it") {

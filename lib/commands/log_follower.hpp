@@ -77,6 +77,10 @@ class LogFollower {
   std::optional<std::string> state() const;
   /// What has been learned of friction, and from which columns.
   std::vector<LearnedFriction> learned() const { return model_->learned(); }
+  /// The forces of the struts after the last row that was visited.
+  std::vector<StrutEstimate> struts() const { return model_->struts(); }
+  /// Date and time of the log's first row, if it has them.
+  const std::optional<Moment>& began() const { return origin_; }
   /// After a log that is whole: writes what the next one goes on from, if the options name a file for it.
   void keep_state() const;
 

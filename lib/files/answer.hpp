@@ -10,6 +10,11 @@
 
 namespace taut::host {
 
+/// The axial force of a strut and its standard deviation [N].
+struct StrutEstimate {
+  double force = 0, deviation = 0;
+};
+
 /// The fields of Response for what the scene holds. Values of a solver in float are exact, but for a negative
 /// zero: it is a positive one, in decimal and in hexadecimal results.
 struct Answer {

@@ -79,6 +79,16 @@ class EstimatorModel : public Model {
   std::vector<LearnedFriction> learned() const override {
     return learned_mu(*estimator_, linear_part(*condensed_), *knowledge_, before_, scene_);
   }
+  std::vector<StrutEstimate> struts() const override {
+    std::vector<StrutEstimate> all;
+    for (std::size_t i = 0; i < scene_.struts.size(); ++i) {
+      const int strut = static_cast<int>(i);
+      const auto found = past_ ? past_->estimate_strut(*estimator_, *struts_, strut)
+                               : estimator_->estimate_strut(*struts_, strut);
+      all.push_back({static_cast<double>(found.force), static_cast<double>(found.deviation)});
+    }
+    return all;
+  }
   void read(Answer& answer) const override {
     Response<Scalar, Cap> response;
     estimator_->respond(response, struts_.get());

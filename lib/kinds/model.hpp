@@ -47,6 +47,8 @@ class Model {
   /// What has been learned since the start of every mu that was not known, and from what; of the method
   /// `estimate` alone.
   virtual std::vector<LearnedFriction> learned() const { return {}; }
+  /// Axial forces of the struts with their standard deviations [N]; of the method `estimate` alone.
+  virtual std::vector<StrutEstimate> struts() const { return {}; }
 };
 
 inline Followed Model::restore(const std::string&, double) {

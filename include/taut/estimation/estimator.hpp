@@ -290,6 +290,12 @@ class Estimator : private CondensedType::Capacity::Account {
     if (misfits_) estimate.deviation = widened(estimate.deviation, segment);
     return estimate;
   }
+  /// Axial force of a strut [N], tension positive, and its standard deviation [N]; `rows` are those of the
+  /// condensed scene, `strut` has the number of the scene. Cost: all that moves along the cables once an
+  /// unknown and jack.
+  ForceEstimate<Scalar> estimate_strut(const typename CondensedType::Struts& rows, int strut) const {
+    return taut::estimate_strut(tracker_, rows, jacks_, filter_, filter_.prior(), strut);
+  }
   /// Friction coefficient of a joint, and its standard deviation [-].
   Scalar mu(int joint) const { return filter_.mu(joint); }
   Scalar mu_deviation(int joint) const { return filter_.mu_deviation(joint); }

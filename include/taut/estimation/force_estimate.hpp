@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "taut/estimation/prediction.hpp"
 #include "taut/numerics/larger.hpp"
 
 namespace taut {
@@ -52,6 +53,23 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
         T += tracker.sensitivity(p, segment) * (belief.mean(p) - belief.linearized_at(p));
   }
   return {larger(T, Scalar(0)), HasDeviation ? std::sqrt(larger(variance, Scalar(0))) : Scalar(0)};
+}
+
+/// The axial force of a strut [N], tension positive, at the best estimate of the loads and of the unknowns.
+/// `rows` are the CondensedStruts of the scene, `strut` has the number of the scene. The standard deviation
+/// has that of the loads, of friction and, at most, of its scatter. Cost: that of predict_strut(), and the
+/// square of the unknowns.
+template <class TrackerType, class StrutRows, class Jacks, class FilterType, class Knowledge>
+ForceEstimate<typename TrackerType::Scalar> estimate_strut(const TrackerType& tracker, const StrutRows& rows,
+                                                           const Jacks& jacks, const FilterType& filter,
+                                                           const Knowledge& prior, int strut) {
+  using Scalar = typename TrackerType::Scalar;
+  const auto& belief = filter.belief();
+  typename FilterType::PredictionType N;
+  predict_strut(tracker, rows, strut, belief, jacks.ends(), N);
+  auto [force, variance] = belief.expect(N, jacks.readings(prior), Scalar(0));
+  for (int p = 0; p < belief.carried(); ++p) variance += N.H[p] * N.H[p] * filter.scatter().most(p);
+  return {force, std::sqrt(larger(variance, Scalar(0)))};
 }
 
 /// The payout of jack `k` [m] at the best estimate of its load and of the unknowns, from that where the

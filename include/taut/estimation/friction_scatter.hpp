@@ -56,6 +56,14 @@ class FrictionScatter {
     const Scalar S = sensitivity(parameter_[segment]);
     return S * S * variance_[segment];
   }
+  /// The largest variance of all forces that depend on unknown `p`, relative to the square of the derivative.
+  /// Cost: a pass over the segments.
+  Scalar most(int p) const {
+    Scalar most = 0;
+    for (int i = 0; i < Cap::segments; ++i)
+      if (parameter_[i] == p) most = larger(most, variance_[i]);
+    return most;
+  }
 
  private:
   FixedArray<std::int16_t, Cap::segments> parameter_;  // the shared unknown, or -1

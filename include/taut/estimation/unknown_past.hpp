@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/readings.hpp"
@@ -114,15 +115,15 @@ class UnknownPast {
   /// The middle of all that a force can be, with the deviation whose 95 % interval holds the intervals of
   /// both.
   ForceEstimate<Scalar> estimate(const EstimatorType& below, int segment) const {
-    constexpr Scalar interval = Scalar(1.96);
     const ForceEstimate<Scalar> a = below.estimate(segment);
+    return phase_ == Phase::open ? either(a, above_.estimate(segment), Scalar(0)) : a;
+  }
+  /// The same of a strut; see Estimator::estimate_strut().
+  template <class StrutRows>
+  ForceEstimate<Scalar> estimate_strut(const EstimatorType& below, const StrutRows& rows, int strut) const {
+    const ForceEstimate<Scalar> a = below.estimate_strut(rows, strut);
     if (phase_ != Phase::open) return a;
-    const ForceEstimate<Scalar> b = above_.estimate(segment);
-    const Scalar least =
-                     larger(-larger(-(a.force - interval * a.deviation), -(b.force - interval * b.deviation)),
-                            Scalar(0)),
-                 most = larger(a.force + interval * a.deviation, b.force + interval * b.deviation);
-    return {(least + most) / 2, (most - least) / (2 * interval)};
+    return either(a, above_.estimate_strut(rows, strut), std::numeric_limits<Scalar>::lowest());
   }
   /// Puts these tensions, and what follows from them, into a response of the other estimator.
   void respond(const EstimatorType& below, Response<Scalar, Cap>& response) const {
@@ -160,6 +161,14 @@ class UnknownPast {
 
  private:
   const auto& model() const { return above_.tracker().model(); }
+  /// Not below `least`.
+  static ForceEstimate<Scalar> either(const ForceEstimate<Scalar>& a, const ForceEstimate<Scalar>& b,
+                                      Scalar least) {
+    constexpr Scalar interval = Scalar(1.96);
+    least = larger(-larger(-(a.force - interval * a.deviation), -(b.force - interval * b.deviation)), least);
+    const Scalar most = larger(a.force + interval * a.deviation, b.force + interval * b.deviation);
+    return {(least + most) / 2, (most - least) / (2 * interval)};
+  }
 
   EstimatorType above_;
   Phase phase_ = Phase::unread;
