@@ -31,6 +31,18 @@ std::vector<std::string> method_names() {
   return names;
 }
 
+std::vector<std::string> language_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, language] : languages) names.emplace_back(name);
+  return names;
+}
+
+Language language_called(const std::string& name) {
+  for (const auto& [known, language] : languages)
+    if (name == known) return language;
+  return Language::english;
+}
+
 Method method_called(const std::string& name) {
   return std::find_if(methods.begin(), methods.end(), [&](const auto& each) { return each.first == name; })
       ->second;
@@ -73,7 +85,10 @@ class CommandLine {
     if (export_->parsed()) return export_scenes({scenes_, options_.output, c_name_});
     if (template_->parsed()) return write_log_template(options_.scene, options_.output);
     if (watch_->parsed()) return watch(watching_);
-    if (report_->parsed()) return report({options_.scene, options_.log, options_.output, options_.limits});
+    if (report_->parsed()) {
+      reporting_.language = language_called(language_);
+      return report(reporting_);
+    }
     if (plan_->parsed()) return plan(plan_options_);
     options_.method = estimate_->parsed() ? Method::estimate : method_called(method_);
     options_.numbers.scalar = scalar_ == "float" ? ScalarType::float32 : ScalarType::float64;
@@ -126,12 +141,18 @@ class CommandLine {
   }
 
   void add_report() {
-    report_ =
-        app_.add_subcommand("report", "Show what estimate finds: drawings, charts and tables on a page");
-    report_->add_option("SCENE", options_.scene, "Scene file (JSON)")->required();
-    report_->add_option("LOG", options_.log, "Log of readings (CSV)")->required();
-    report_->add_option("-o", options_.output, "The page (HTML)")->required();
-    add_limits(*report_, options_.limits);
+    report_ = app_.add_subcommand(
+        "report", "Show what estimate finds: a record to sign, drawings, charts and tables on a page");
+    report_->add_option("SCENE", reporting_.scene, "Scene file (JSON)")->required();
+    report_->add_option("LOG", reporting_.log, "Log of readings (CSV)")->required();
+    report_->add_option("-o", reporting_.output, "The page (HTML)")->required();
+    report_->add_option("--job", reporting_.job,
+                        "Project, instruments, required stages (JSON) for the record");
+    report_->add_option("--goal", reporting_.goal, "Goal file (JSON): targets and limits of the forces");
+    report_->add_option("--language", language_, "Language of the page")
+        ->check(CLI::IsMember(language_names()))
+        ->capture_default_str();
+    add_limits(*report_, reporting_.limits);
   }
 
   void add_plan() {
@@ -201,9 +222,11 @@ class CommandLine {
   RunOptions options_;
   PlanOptions plan_options_;
   WatchOptions watching_;
+  ReportOptions reporting_;
   std::vector<std::string> scenes_;
   std::string c_name_;
-  std::string method_ = methods.front().first, scalar_ = "double";
+  std::string method_ = methods.front().first, scalar_ = "double",
+              language_ = languages.front().first;
 };
 
 int run(int argc, char** argv) {

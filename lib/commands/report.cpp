@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "lib/commands/log_follower.hpp"
+#include "lib/files/file_text.hpp"
 #include "lib/files/output_file.hpp"
+#include "lib/files/sha256.hpp"
+#include "lib/plan/goal_file.hpp"
 #include "lib/report/report_page.hpp"
 #include "lib/report/run_record.hpp"
 
@@ -20,21 +24,24 @@ class Prediction {
     go_on("before the first row", model_->start(1));
   }
 
-  void advance(LogRow row) {
-    if (!run_.reason.empty()) return;
+  /// The answer to the row; null where there is none.
+  const Answer* advance(LogRow row) {
+    if (!run_.reason.empty()) return nullptr;
     // Noise: a jack cannot push.
     for (auto& cable : row.cables)
       for (EndRow& end : cable) end.force = std::max(end.force, 0.0);
     go_on("in row " + std::to_string(row.row), model_->advance(row, 1));
+    if (!run_.reason.empty()) return nullptr;
+    model_->read(answer_);
+    return &answer_;
   }
 
   NominalRun finished() {
     if (!run_.reason.empty()) return run_;
-    Answer answer;
-    model_->read(answer);
-    const std::string number = impossible_number(scene_, answer);
+    model_->read(answer_);
+    const std::string number = impossible_number(scene_, answer_);
     if (number.empty())
-      run_.tension = answer.tension;
+      run_.tension = answer_.tension;
     else
       run_.reason = "it has no answer at the end: " + number;
     return run_;
@@ -47,8 +54,29 @@ class Prediction {
 
   const SceneDescription& scene_;
   std::unique_ptr<Model> model_;
+  Answer answer_;
   NominalRun run_;
 };
+
+constexpr std::size_t largest_file = std::size_t{1} << 30;
+
+// What is signed beside the run.
+StressingSheet sheet_of(const ReportOptions& options, const LogFollower& follower) {
+  StressingSheet sheet;
+  if (!options.job.empty()) sheet.job = read_job_file(options.job, follower.scene());
+  if (!options.goal.empty()) {
+    const PlanGoal goal = read_goal_file(options.goal, follower.scene());
+    sheet.target = goal.target;
+    sheet.most_segment = goal.most_segment;
+  }
+  sheet.version = TAUT_VERSION;
+  sheet.scene_hash = sha256(read_text(options.scene, largest_file));
+  sheet.log_hash = sha256(read_text(options.log, largest_file));
+  sheet.least_force = std::max(options.limits.least_force, 0.0);
+  if (options.limits.most_force >= 0) sheet.most_force = options.limits.most_force;
+  if (!sheet.job.elongation_tolerance) sheet.job.elongation_tolerance = options.limits.elongation;
+  return sheet;
+}
 
 }  // namespace
 
@@ -60,15 +88,17 @@ int report(const ReportOptions& options) {
   run.method = Method::estimate;
   run.limits = options.limits;
   LogFollower follower(run);
+  keep_inputs(options.output, {options.job, options.goal});
+  StressingSheet sheet = sheet_of(options, follower);
   OutputFile output(options.output);
   RunRecord record(follower.scene());
   Prediction prediction(follower.scene());
-  const std::string end = follower.follow([&](const LogRow& row, const Answer& answer) {
-    record.add(row, answer);
-    prediction.advance(row);
-  });
+  const std::string end = follower.follow(
+      [&](const LogRow& row, const Answer& answer) { record.add(row, answer, prediction.advance(row)); });
+  if (follower.began()) sheet.began = moment_text(*follower.began());
   output.write(report_page({follower.scene(), options.scene, options.log, record, prediction.finished(), end,
-                            follower.remarks(), follower.learned()}));
+                            follower.remarks(), follower.learned(), std::move(sheet), follower.struts(),
+                            Words(options.language)}));
   output.finish();
   if (end.empty()) return 0;
   std::cerr << end << "; the report ends before it\n";

@@ -1,14 +1,17 @@
-// `taut report`: what `taut estimate` finds, as a page to look at.
+// `taut report`: what `taut estimate` finds, as a record to sign and a page to look at.
 #pragma once
 
 #include <string>
 
+#include "lib/report/words.hpp"
 #include "taut/estimation/alarms.hpp"
 
 namespace taut::host {
 
 struct ReportOptions {
   std::string scene, log, output;
+  std::string job, goal;  ///< files; empty: none
+  Language language = Language::english;
   AlarmLimits<double> limits;
 };
 

@@ -8,6 +8,7 @@
 #include "lib/commands/reading_scatter.hpp"
 #include "lib/files/text.hpp"
 #include "lib/kinds/capacities.hpp"
+#include "lib/report/number_text.hpp"
 #include "taut/estimation/noise_level.hpp"
 
 namespace taut::host {
@@ -52,9 +53,9 @@ void take_gauges(const std::vector<GaugeColumn>& gauges, std::vector<ReadingScat
     if (!instrument.gain_sd) instrument.gain_sd = usual_gain_sd;
     if (!instrument.zero_sd) instrument.zero_sd = usual_zero_sd * columns[g].largest();
     remarks.push_back("the scene does not say all of the gauge " + quote(gauges[g].name) +
-                      " in \"sensors\": \"sd\" " + plain(*instrument.sd) + " N, \"gain_sd\" " +
-                      plain(*instrument.gain_sd) + " and \"zero_sd\" " + plain(*instrument.zero_sd) +
-                      " N are taken");
+                      " in \"sensors\": \"sd\" " + trimmed(significant(*instrument.sd, 3)) +
+                      " N, \"gain_sd\" " + plain(*instrument.gain_sd) + " and \"zero_sd\" " +
+                      trimmed(significant(*instrument.zero_sd, 3)) + " N are taken");
   }
 }
 
@@ -175,11 +176,12 @@ std::string fill_in(const CellReadings& readings, bool has_constants, Instrument
   };
   const double noise = std::max(readings.noise.sd(), least_noise * readings.largest);
   const bool is_read = readings.count > 0;
-  take(instrument.sd, noise, "sd " + plain(noise) + (is_read ? " N as its readings scatter" : " N"));
+  take(instrument.sd, noise,
+       "sd " + trimmed(significant(noise, 3)) + (is_read ? " N as its readings scatter" : " N"));
   if (!has_constants) return taken;
   take(instrument.gain_sd, usual_gain_sd, "gain_sd " + plain(usual_gain_sd));
   const double zero = usual_zero_sd * readings.largest;
-  take(instrument.zero_sd, zero, "zero_sd " + plain(zero) + " N");
+  take(instrument.zero_sd, zero, "zero_sd " + trimmed(significant(zero, 3)) + " N");
   return taken;
 }
 

@@ -136,4 +136,20 @@ double seconds_between(const Moment& from, const Moment& to) {
   return static_cast<double>(seconds) + static_cast<double>(rest) / static_cast<double>(a_second);
 }
 
+std::string moment_text(const Moment& moment) {
+  constexpr std::int64_t a_day = 86400;
+  std::int64_t days = moment.seconds / a_day, seconds = moment.seconds % a_day;
+  if (seconds < 0) seconds += a_day, --days;
+  int year = static_cast<int>(1970 + days / 366);
+  while (days_since_1970(year + 1, 1, 1) <= days) ++year;
+  while (days_since_1970(year, 1, 1) > days) --year;
+  int month = 12;
+  while (days_since_1970(year, month, 1) > days) --month;
+  const auto two = [](std::int64_t number) {
+    return std::string(number < 10 ? "0" : "") + std::to_string(number);
+  };
+  return std::to_string(year) + "-" + two(month) + "-" + two(days - days_since_1970(year, month, 1) + 1) +
+         " " + two(seconds / 3600) + ":" + two(seconds / 60 % 60) + (moment.has_zone ? " UTC" : "");
+}
+
 }  // namespace taut::host

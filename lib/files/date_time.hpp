@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace taut::host {
@@ -21,6 +22,9 @@ bool is_like_date(std::string_view text);
 /// comma, and Z or an offset such as +02:00, +0200 or +02 may follow, and the time may be left out, for
 /// midnight. Nothing if the text is no such moment. What is finer than a nanosecond is cut off.
 std::optional<Moment> read_moment(std::string_view text);
+
+/// `2026-03-01 10:00`, as the text had it that the moment was read from; with a zone in UTC, which it says.
+std::string moment_text(const Moment& moment);
 
 /// Time from one moment to another [s], rounded once if they are less than 100 days apart. Both must have a
 /// zone, or neither.

@@ -114,8 +114,8 @@ std::string Chart::grid() const {
   return element("g", {{"class", "grid"}}, drawn) + axis_below(x_, height_);
 }
 
-std::string Chart::figure(const std::string& says, const std::string& x_title,
-                          const std::string& y_title) const {
+std::string Chart::figure(const std::string& says, const std::string& x_title, const std::string& y_title,
+                          const std::string& kind, std::size_t first_segment) const {
   const std::string height = coordinate(height_);
   const std::string stretched = element("svg",
                                         {{"class", "stretched"},
@@ -127,7 +127,11 @@ std::string Chart::figure(const std::string& says, const std::string& x_title,
   const std::string svg =
       element("svg", {{"role", "img"}, {"aria-label", says}, {"width", "100%"}, {"height", height}},
               grid() + stretched + marks_);
-  return element("figure", {{"class", "chart"}},
+  return element("figure",
+                 {{"class", kind.empty() ? "chart" : "chart " + kind},
+                  {"data-low", significant(y_.low, 6)},
+                  {"data-high", significant(y_.high, 6)},
+                  {"data-first", std::to_string(first_segment)}},
                  element("ul", {{"class", "legend"}}, legend_) +
                      element("div", {{"class", "y-title"}}, escaped(y_title)) +
                      element("div", {{"class", "plot"}}, svg) +

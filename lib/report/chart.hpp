@@ -1,6 +1,7 @@
 // A chart as an SVG that stretches with the page while its text keeps its size.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,8 +30,10 @@ class Chart {
   /// An entry of the legend for what has this look.
   void explain(const std::string& look, const std::string& words);
 
-  /// `says` is what the chart shows, for who cannot see it; titles go with the axes.
-  std::string figure(const std::string& says, const std::string& x_title, const std::string& y_title) const;
+  /// `says` is what the chart shows, for who cannot see it; titles go with the axes. `kind` is a further
+  /// class, by which a script finds the chart: `over-time`, or `along` for one that begins with this segment.
+  std::string figure(const std::string& says, const std::string& x_title, const std::string& y_title,
+                     const std::string& kind = "", std::size_t first_segment = 0) const;
 
  private:
   double x(double value) const { return chart_width * x_.part(value); }

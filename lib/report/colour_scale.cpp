@@ -67,7 +67,7 @@ std::string ForceScale::look(double force) const {
   return class_of(std::min(static_cast<int>(part * force_colours), force_colours - 1));
 }
 
-std::string ForceScale::bar(const ForceUnit& unit) const {
+std::string ForceScale::bar(const ForceUnit& unit, const Words& say) const {
   constexpr int steps = 4;
   std::string bar;
   for (int i = 0; i < force_colours; ++i)
@@ -84,12 +84,12 @@ std::string ForceScale::bar(const ForceUnit& unit) const {
   const std::string svg =
       element("svg",
               {{"role", "img"},
-               {"aria-label", std::string("Colours from ") + unit.text(low) + " to " + unit.text(high)},
+               {"aria-label", say("Colours from {1} to {2}", {unit.text(low), unit.text(high)})},
                {"width", "100%"},
                {"height", "12"}},
               axis_below(axis, 12) + bar);
   return element("div", {{"class", "scale"}},
-                 element("span", {}, std::string("Force [") + unit.name + "]") + svg);
+                 element("span", {}, escaped(say("Force") + " [" + unit.name + "]")) + svg);
 }
 
 }  // namespace taut::host

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lib/report/number_text.hpp"
+#include "lib/report/words.hpp"
 
 namespace taut::host {
 
@@ -23,7 +24,7 @@ struct ForceScale {
   /// Class of the colour of a force.
   std::string look(double force) const;
   /// A bar of all colours with numbers below it.
-  std::string bar(const ForceUnit& unit) const;
+  std::string bar(const ForceUnit& unit, const Words& say = Words()) const;
 
   double low = 0, high = 0;
 };

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "lib/files/scene_description.hpp"
+#include "lib/report/words.hpp"
 
 namespace taut::host {
 
@@ -21,10 +22,11 @@ inline const std::string& node_name(const SceneDescription& scene, int node) {
 }
 
 /// `segment 2 (b-c)`
-inline std::string segment_name(const SceneDescription& scene, const CableDescription& cable, std::size_t i) {
+inline std::string segment_name(const SceneDescription& scene, const CableDescription& cable, std::size_t i,
+                                const Words& say = Words()) {
   const auto nodes = segment_nodes(cable, i);
-  return "segment " + std::to_string(i + 1) + " (" + node_name(scene, nodes[0]) + "\u2013" +
-         node_name(scene, nodes[1]) + ")";
+  return say("segment {1} ({2}\u2013{3})",
+             {std::to_string(i + 1), node_name(scene, nodes[0]), node_name(scene, nodes[1])});
 }
 
 }  // namespace taut::host

@@ -40,12 +40,15 @@ std::string significant(double value, int digits) {
   return fixed(value, std::max(decimals, 0));
 }
 
+std::string trimmed(std::string number) {
+  if (number.find('.') == std::string::npos || number.find('e') != std::string::npos) return number;
+  while (number.back() == '0') number.pop_back();
+  if (number.back() == '.') number.pop_back();
+  return number;
+}
+
 std::string coordinate(double value, int decimals) {
-  std::string text = fixed(std::isfinite(value) ? value : 0, decimals);
-  if (text.find('.') == std::string::npos) return text;
-  while (text.back() == '0') text.pop_back();
-  if (text.back() == '.') text.pop_back();
-  return text;
+  return trimmed(fixed(std::isfinite(value) ? value : 0, decimals));
 }
 
 ForceUnit ForceUnit::for_largest(double newtons) {

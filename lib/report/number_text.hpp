@@ -9,6 +9,8 @@ namespace taut::host {
 std::string fixed(double value, int decimals);
 /// With so many significant digits, without an exponent where that is legible.
 std::string significant(double value, int digits);
+/// Without zeros at the end of its decimals.
+std::string trimmed(std::string number);
 /// With at most so many decimals: for coordinates of drawings.
 std::string coordinate(double value, int decimals = 1);
 

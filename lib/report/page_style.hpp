@@ -39,6 +39,10 @@ polyline,.sample line{fill:none;stroke-width:2;stroke-linejoin:round;stroke-line
 .line-2{stroke:var(--two);stroke-dasharray:9 4}
 .line-3{stroke:var(--three);stroke-dasharray:2 4}
 .nominal{stroke:var(--two);stroke-dasharray:7 4}
+.target{stroke:var(--three)}
+.limit{stroke:var(--alarm);stroke-dasharray:12 4}
+.cursor{stroke:var(--ink);stroke-width:1;pointer-events:none}
+.moved .at-end,.moved .nominal,.moved .at{visibility:hidden}
 .prior{stroke:var(--ink);stroke-dasharray:2 5}
 .other{stroke:var(--other)}
 .reading{stroke:var(--reading)}
@@ -93,12 +97,32 @@ td.text{min-width:11rem}
 .alarms thead{display:none}.alarms tr{display:block;padding:.4rem 0;border-bottom:1px solid var(--rule)}
 .alarms td{display:inline-block;border:0;padding:.1rem .8rem .1rem 0;white-space:normal;text-align:left}
 .alarms td.text{display:block}.alarms td:first-child::before{content:"row "}.alarms td:nth-child(2)::after{content:" s"}}
+.record{margin-bottom:2.5rem}
+.record h2{margin:1.1rem 0 .3rem;font-size:1.05rem}
+.record td,.record th{padding:.2rem .5rem}
+.record code{font-size:.75rem;overflow-wrap:anywhere}
+.entries{display:grid;grid-template-columns:repeat(auto-fit,minmax(17rem,1fr));gap:.1rem 1.5rem;margin:.5rem 0}
+.entry{border-bottom:1px solid var(--rule);min-height:1.7rem}
+.fails td{color:var(--alarm);font-weight:600}
+.signatures{display:grid;grid-template-columns:repeat(3,1fr);gap:1.5rem;margin-top:1.2rem;break-inside:avoid}
+.signature{border-bottom:1px solid var(--ink);min-height:4.2rem;display:flex;flex-direction:column;justify-content:space-between}
+@page{size:A4;margin:13mm 14mm 15mm;@bottom-right{content:counter(page) " / " counter(pages);font:8pt sans-serif}
+@bottom-left{content:"taut";font:8pt sans-serif}}
+@media print{.record{break-after:page;margin:0;font-size:9pt;line-height:1.3}
+.record h1{font-size:16pt;margin:0 0 1mm}.record h2{font-size:10.5pt;margin:2.5mm 0 .5mm}
+.record .entries{grid-template-columns:1fr 1fr;margin:1mm 0}.record .entry{min-height:5.5mm}
+.record table{font-size:8pt}.record td,.record th{padding:.5mm 1.2mm}.record .short,.record .number{white-space:nowrap}
+.record th.number,.record th.short{white-space:normal}
+.record .note,.record .files{font-size:7.5pt;line-height:1.25}.record code{font-size:7pt}.record p{margin:.5mm 0}
+.record .signature{min-height:17mm}.record ul{margin:.5mm 0 0}}
 @media print{body{max-width:none;padding:0;font-size:11pt}.player{display:none}h2,h3{break-after:avoid}tr{break-inside:avoid}
 *{print-color-adjust:exact;-webkit-print-color-adjust:exact}.wide{overflow:visible}
-table{font-size:8.5pt}th,td{padding:.15rem .3rem}td.text{min-width:0}.number,.short{white-space:normal}}
+table{font-size:8.5pt}th,td{padding:.15rem .3rem}td.text{min-width:0}.number,.short{white-space:normal}
+h2{margin:4mm 0 1mm}figure{margin:1mm 0 2mm}section{break-inside:auto}}
 )";
 
-/// Moves the drawing of the structure through time. Without `<` and `&`, so that the page is XML as well.
+/// Moves the drawing of the structure, all charts and the tables of values through time. Without `<` and `&`,
+/// so that the page is XML as well.
 inline constexpr const char* page_script = R"(
 (function () {
   var data = JSON.parse(document.getElementById('frames').textContent);
@@ -107,7 +131,82 @@ inline constexpr const char* page_script = R"(
   var structure = document.querySelector('.structure');
   var segments = structure.querySelectorAll('.segment'), joints = structure.querySelectorAll('.joint');
   var numbers = document.querySelectorAll('.scale text');
+  var figures = document.querySelectorAll('figure.along'), tables = document.querySelectorAll('.values tbody');
+  var whens = document.querySelectorAll('.when'), last = data.frames.length - 1;
+  var cursors = Array.prototype.map.call(document.querySelectorAll('figure.over-time .plot'), function (plot) {
+    var svg = plot.querySelector('svg'), line = document.createElementNS(svg.namespaceURI, 'line');
+    line.setAttribute('class', 'cursor');
+    line.setAttribute('y1', 0);
+    line.setAttribute('y2', '100%');
+    line.style.display = 'none';
+    return svg.appendChild(line);
+  });
+  function digits(number) { return number ? Number(number).toPrecision(2).replace(/e.*/, '') : '0'; }
+  function draw(figure, frame) {
+    var first = Number(figure.dataset.first), low = Number(figure.dataset.low), high = Number(figure.dataset.high);
+    var svg = figure.querySelector('.stretched'), line = svg.querySelector('polyline.estimate');
+    var count = line.dataset.count = line.dataset.count || line.getAttribute('points').split(' ').length / 2;
+    var box = svg.viewBox.baseVal, end = data.frames[last], upper = [], lower = [], middle = [];
+    var scale = Math.max.apply(null, frame[1].slice(first, first + Number(count))) /
+      (Math.max.apply(null, end[1].slice(first, first + Number(count))) || 1);
+    if (!(scale - 0.02 >= 0)) scale = 0.02;
+    if (frame === end) scale = 1;
+    function y(force) {
+      var part = (force / scale - low) / (high - low || 1);
+      return (box.height * (1 - Math.min(1, Math.max(0, part)))).toFixed(1);
+    }
+    for (var i = 0; count - i > 0; ++i) {
+      var force = frame[1][first + i], half = data.band * frame[4][first + i];
+      [i, i + 1].forEach(function (k) {
+        var x = (box.width * k / count).toFixed(1) + ',';
+        middle.push(x + y(force));
+        upper.push(x + y(force + half));
+        lower.unshift(x + y(Math.max(force - half, 0)));
+      });
+    }
+    line.setAttribute('points', middle.join(' '));
+    svg.querySelector('polygon.band').setAttribute('points', upper.concat(lower).join(' '));
+    figure.querySelectorAll('.plot g.grid')[0].querySelectorAll('text').forEach(function (text) {
+      text.dataset.end = text.dataset.end || text.textContent;
+      text.textContent = scale === 1 ? text.dataset.end : (Number(text.dataset.end) * scale).toPrecision(3);
+    });
+    svg.querySelectorAll('.target, .limit').forEach(function (other) {
+      other.style.visibility = scale === 1 ? '' : 'hidden';
+    });
+  }
+  function fill(rows, frame, first, joint) {
+    rows.forEach(function (row, i) {
+      function put(name, text) {
+        var cell = row.querySelector('.' + name);
+        if (cell) cell.textContent = text;
+      }
+      put('force', frame[1][first + i].toFixed(data.decimals));
+      put('sd', digits(frame[4][first + i]));
+      if (!row.querySelector('.mu')) return;
+      var j = joint + i;
+      put('state', data.states[frame[2].charAt(j)][2]);
+      put('mu', frame[5][j].toFixed(4));
+      put('mu-sd', digits(frame[6][j]));
+      put('contact', frame[7][j].toFixed(data.decimals));
+      put('used', (100 * frame[8][j]).toFixed(0) + ' %');
+    });
+  }
   function show(frame) {
+    var is_end = frame === data.frames[last], first = 0, joint = 0;
+    document.body.classList.toggle('moved', !is_end);
+    whens.forEach(function (when) { when.textContent = is_end ? data.end : data.at.replace('{1}', frame[0]); });
+    cursors.forEach(function (line) {
+      line.style.display = is_end ? 'none' : '';
+      line.setAttribute('x1', 100 * frame[3] + '%');
+      line.setAttribute('x2', 100 * frame[3] + '%');
+    });
+    figures.forEach(function (figure) { draw(figure, frame); });
+    tables.forEach(function (table) {
+      var rows = table.querySelectorAll('tr');
+      fill(rows, frame, first, joint);
+      first += rows.length;
+      joint += table.querySelectorAll('.mu').length;
+    });
     shown.textContent = frame[0] + ' s';
     slider.setAttribute('aria-valuetext', frame[0] + ' s');
     var high = Math.max.apply(null, frame[1]);
@@ -126,7 +225,7 @@ inline constexpr const char* page_script = R"(
       var state = data.states[frame[2].charAt(j)];
       joint.querySelector('path').setAttribute('class', state[0]);
       joint.querySelector('path').setAttribute('d', state[1]);
-      joint.querySelector('title').textContent = joint.dataset.name + ': ' + state[0];
+      joint.querySelector('title').textContent = joint.dataset.name + ': ' + state[2];
     });
   }
   slider.max = slider.value = data.frames.length - 1;

@@ -1,6 +1,8 @@
 #include "lib/report/report_charts.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "lib/report/chart.hpp"
 #include "lib/report/names.hpp"
@@ -15,6 +17,38 @@ CurvePoints steps(const std::vector<double>& values) {
     points.push_back({static_cast<double>(i) + 1.5, values[i]});
   }
   return points;
+}
+
+CurvePoints step(std::size_t i, double value) {
+  return {{static_cast<double>(i) + 0.5, value}, {static_cast<double>(i) + 1.5, value}};
+}
+
+// What the segments of a cable are to have, not a number where it does not matter; none: nobody said.
+std::vector<double> targets(const ReportView& view, std::size_t c) {
+  const std::vector<double>& all = view.content.sheet.target;
+  std::vector<double> of_cable;
+  bool has_any = false;
+  for (std::size_t i = 0, s = start_of(view.scene, c).segment; i < view.scene.cables[c].segments(); ++i) {
+    const bool matters = s + i < all.size() && all[s + i] > 0;
+    has_any = has_any || matters;
+    of_cable.push_back(matters ? view.unit.of(all[s + i]) : std::nan(""));
+  }
+  return has_any ? of_cable : std::vector<double>();
+}
+
+struct Limits {
+  std::optional<double> least, most;
+};
+// The goal has one limit for all segments of a cable.
+Limits limits_of(const ReportView& view, std::size_t c) {
+  const StressingSheet& sheet = view.content.sheet;
+  Limits limits;
+  if (sheet.least_force > 0) limits.least = view.unit.of(sheet.least_force);
+  double most = sheet.most_force.value_or(HUGE_VAL);
+  if (const std::size_t s = start_of(view.scene, c).segment; s < sheet.most_segment.size())
+    most = std::min(most, sheet.most_segment[s]);
+  if (most < HUGE_VAL) limits.most = view.unit.of(most);
+  return limits;
 }
 
 void include(Range& range, const CurvePoints& points) {
@@ -86,28 +120,42 @@ std::string force_chart(const ReportView& view, std::size_t c) {
     if (reading.given) range.include(view.unit.of(reading.force));
   // Friction shows in the differences: zero is part of the chart only where it is near.
   if (range.low() < 0.4 * range.high()) range.include(0);
+  const std::vector<double> target = targets(view, c);
+  for (const double value : target) range.include(value);
+  const Limits limits = limits_of(view, c);
+  for (const auto& limit : {limits.least, limits.most})
+    if (limit) range.include(*limit);
   Chart chart(Axis::counted(force.size(), 16), Axis::round(range, 6));
   chart.band("band", steps(lower), steps(upper));
-  chart.explain("band", "95 % band");
-  chart.curve("estimate", steps(force), "estimate");
-  chart.explain("estimate", "estimate");
+  chart.explain("band", view.say("95 % band"));
+  chart.curve("estimate", steps(force), view.say("estimate"));
+  chart.explain("estimate", view.say("estimate"));
   if (!predicted.empty()) {
-    chart.curve("nominal", steps(predicted), "predicted with the friction of the scene");
-    chart.explain("nominal", "predicted with the friction of the scene");
+    chart.curve("nominal", steps(predicted), view.say("predicted with the friction of the scene"));
+    chart.explain("nominal", view.say("predicted with the friction of the scene"));
   }
+  const double right = static_cast<double>(force.size()) + 0.5;
+  for (const auto& limit : {limits.least, limits.most})
+    if (limit) chart.curve("limit", {{0.5, *limit}, {right, *limit}}, view.say("limit"));
+  if (limits.least || limits.most) chart.explain("limit", view.say("limit"));
+  for (std::size_t i = 0; i < target.size(); ++i)
+    if (!std::isnan(target[i])) chart.curve("target", step(i, target[i]), view.say("target"));
+  if (!target.empty()) chart.explain("target", view.say("target"));
   bool measured = false;
   for (std::size_t e = 0; e < 2; ++e) {
     const LastReading& reading = view.record.read[c][e];
     if (!reading.given) continue;
     const double at = e == 0 ? 1 : static_cast<double>(force.size());
     chart.mark("measured", {at, view.unit.of(reading.force)},
-               "load cell " + cable.name + "." + end_name(e) + ": " + view.unit.text(reading.force) + " at " +
-                   view.time_text(reading.time) + " s");
+               view.say("load cell {1}: {2} at {3} s",
+                        {cable.name + "." + end_name(e), view.unit.text(reading.force),
+                         view.time_text(reading.time)}));
     measured = true;
   }
-  if (measured) chart.explain("measured", "last reading of a load cell");
-  return chart.figure("Force in the segments of cable " + cable.name + " " + view.at_end(), "segment",
-                      std::string("force [") + view.unit.name + "]");
+  if (measured) chart.explain("measured", view.say("last reading of a load cell"));
+  return chart.figure(view.say("Force in the segments of cable {1} {2}", {cable.name, view.at_end()}),
+                      view.say("segment"), view.say("force [{1}]", {view.unit.name}), "along",
+                      start_of(view.scene, c).segment);
 }
 
 std::string time_chart(const ReportView& view, std::size_t c) {
@@ -122,24 +170,25 @@ std::string time_chart(const ReportView& view, std::size_t c) {
   const auto few = few_of(cable.segments());
   for (std::size_t i = 0; i < cable.segments(); ++i)
     if (!contains(few, i))
-      chart.curve("other", in_unit(view, view.record.tension[first + i]), segment_name(view.scene, cable, i));
+      chart.curve("other", in_unit(view, view.record.tension[first + i]),
+                  segment_name(view.scene, cable, i, view.say));
   for (std::size_t e = 0; e < 2; ++e) {
     if (view.record.cell[c][e].empty()) continue;
     const char* look = e == 0 ? "reading first" : "reading";
     const std::string name =
-        cable.name + "." + end_name(e) + (cable.is_jacked(e) ? ", jack load" : ", load cell");
+        view.say(cable.is_jacked(e) ? "{1}, jack load" : "{1}, load cell", {cable.name + "." + end_name(e)});
     chart.curve(look, in_unit(view, view.record.cell[c][e]), name);
     chart.explain(look, name);
   }
   for (std::size_t k = 0; k < few.size(); ++k) {
-    const std::string name = segment_name(view.scene, cable, few[k]);
+    const std::string name = segment_name(view.scene, cable, few[k], view.say);
     chart.curve(line_look(k), in_unit(view, view.record.tension[first + few[k]]), name);
     chart.explain(line_look(k), name);
   }
-  if (few.size() < cable.segments()) chart.explain("other", "other segments");
-  if (mark_alarms(view, chart)) chart.explain("alarm", "alarms, see the table");
-  return chart.figure("Force in the segments of cable " + cable.name + " over time", view.time_title,
-                      std::string("force [") + view.unit.name + "]");
+  if (few.size() < cable.segments()) chart.explain("other", view.say("other segments"));
+  if (mark_alarms(view, chart)) chart.explain("alarm", view.say("alarms, see the table"));
+  return chart.figure(view.say("Force in the segments of cable {1} over time", {cable.name}), view.time_title,
+                      view.say("force [{1}]", {view.unit.name}), "over-time");
 }
 
 std::string mu_chart(const ReportView& view, std::size_t c) {
@@ -158,20 +207,23 @@ std::string mu_chart(const ReportView& view, std::size_t c) {
                view.record.most_mu[first + few[k]].points());
   for (std::size_t j = 0; j < joints && !is_one; ++j)
     if (!contains(few, j))
-      chart.curve("other", view.record.mu[first + j].points(), "joint " + std::to_string(j + 1));
+      chart.curve("other", view.record.mu[first + j].points(),
+                  view.say("joint {1}", {std::to_string(j + 1)}));
   if (!cable.mu_is_list) {
-    chart.curve("prior", {{view.time.low, cable.mu[0]}, {view.time.high, cable.mu[0]}}, "mu of the scene");
-    chart.explain("prior", "mu of the scene");
+    chart.curve("prior", {{view.time.low, cable.mu[0]}, {view.time.high, cable.mu[0]}},
+                view.say("mu of the scene"));
+    chart.explain("prior", view.say("mu of the scene"));
   }
   for (std::size_t k = 0; k < few.size(); ++k) {
-    const std::string name = is_one ? (joints == 1 ? "the joint" : "all joints")
-                                    : "joint " + std::to_string(few[k] + 1) + " (" +
-                                          node_name(view.scene, joint_node(cable, few[k])) + ")";
+    const std::string name =
+        is_one ? view.say(joints == 1 ? "the joint" : "all joints")
+               : view.say("joint {1} ({2})",
+                          {std::to_string(few[k] + 1), node_name(view.scene, joint_node(cable, few[k]))});
     chart.curve(line_look(k), view.record.mu[first + few[k]].points(), name);
-    chart.explain(line_look(k), name + ", with its 95 % band");
+    chart.explain(line_look(k), view.say("{1}, with its 95 % band", {name}));
   }
-  if (!is_one && few.size() < joints) chart.explain("other", "other joints");
-  return chart.figure("Friction coefficient of cable " + cable.name + " over time", view.time_title,
-                      "mu [-]");
+  if (!is_one && few.size() < joints) chart.explain("other", view.say("other joints"));
+  return chart.figure(view.say("Friction coefficient of cable {1} over time", {cable.name}), view.time_title,
+                      "mu [-]", "over-time");
 }
 }  // namespace taut::host

@@ -15,7 +15,7 @@ std::string alarm_table(const ReportView& view);
 std::string notice_table(const ReportView& view);
 
 /// One mu in a sentence: what was known of it, what is, and from which columns of the log that comes.
-std::string learned_sentence(const LearnedFriction& learned);
+std::string learned_sentence(const LearnedFriction& learned, const Words& say = Words());
 
 /// Every mu that was not known, in a sentence each and as a table of the columns that taught it; empty if
 /// there is none.

@@ -8,6 +8,7 @@ ReportView::ReportView(const ReportContent& shown)
     : content(shown),
       scene(shown.scene),
       record(shown.record),
+      say(shown.say),
       unit(ForceUnit::for_largest(shown.record.largest.force)) {
   Range range;
   range.include(record.first_time);
@@ -19,7 +20,7 @@ ReportView::ReportView(const ReportContent& shown)
   constexpr std::size_t long_label = 6;
   if (!time.ticks.empty() && time.ticks.back().label.size() >= long_label)
     time = Axis::exact(range, 3, origin);
-  time_title = is_far ? "time since " + time_text(origin) + " [s]" : "time [s]";
+  time_title = is_far ? say("time since {1} [s]", {time_text(origin)}) : say("time [s]");
 }
 
 std::string ReportView::time_text(double seconds) const {
@@ -28,7 +29,8 @@ std::string ReportView::time_text(double seconds) const {
 }
 
 std::string ReportView::at_end() const {
-  return content.end.empty() ? "at the end of the log" : "after row " + std::to_string(record.rows);
+  return content.end.empty() ? say("at the end of the log")
+                             : say("after row {1}", {std::to_string(record.rows)});
 }
 
 std::vector<double> ReportView::of_cable(const std::vector<double>& all, std::size_t c) const {

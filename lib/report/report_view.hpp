@@ -9,6 +9,8 @@
 #include "lib/report/axis.hpp"
 #include "lib/report/number_text.hpp"
 #include "lib/report/run_record.hpp"
+#include "lib/report/stressing_record.hpp"
+#include "lib/report/words.hpp"
 
 namespace taut::host {
 
@@ -27,6 +29,9 @@ struct ReportContent {
   std::string end;  ///< where and why the answer ends before the log does; empty if it does not
   std::vector<std::string> remarks;
   std::vector<LearnedFriction> learned;  ///< every mu that was not known beforehand
+  StressingSheet sheet;                  ///< what is signed
+  std::vector<StrutEstimate> struts;     ///< of every strut after the last row; no list: not known
+  Words say;
 };
 
 /// The content with one unit of force and one axis of time for all drawings and tables.
@@ -36,6 +41,7 @@ struct ReportView {
   const ReportContent& content;
   const SceneDescription& scene;
   const RunRecord& record;
+  const Words& say;
   ForceUnit unit;
   double origin = 0;  ///< times count from here where they would be too long
   Axis time;
@@ -43,7 +49,7 @@ struct ReportView {
 
   /// With as many decimals as the duration asks for.
   std::string time_text(double seconds) const;
-  /// `at the end of the log`, unless the answer ends before it.
+  /// `at the end of the log`, unless the answer ends before it, and the same after a title.
   std::string at_end() const;
   /// The values of one cable out of those of all segments.
   std::vector<double> of_cable(const std::vector<double>& all, std::size_t cable) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 #include "lib/files/verdict.hpp"
 
@@ -9,12 +10,17 @@ namespace taut::host {
 namespace {
 
 constexpr std::size_t most_points = 100000;  // of all curves of one kind, which keeps the page within some MB
-constexpr std::size_t most_strip_cells = 60000, most_frames = 120, frame_values = 20000;
-constexpr std::size_t alarm_cells = 500;
+constexpr std::size_t most_strip_cells = 60000, most_frames = 120, frame_values = 100000;
+constexpr std::size_t alarm_cells = 500, values_a_frame = 6;
 
 // Each of so many things gets its share, within limits.
 std::size_t share(std::size_t total, std::size_t things, std::size_t least, std::size_t most) {
   return std::clamp(total / std::max<std::size_t>(things, 1), least, most);
+}
+
+// Of a list that blanks separate.
+bool has_word(const std::string& list, const std::string& word) {
+  return (" " + list + " ").find(" " + word + " ") != std::string::npos;
 }
 
 Curve curve_among(std::size_t curves) { return Curve(share(most_points, curves, 200, Curve::usual_points)); }
@@ -44,29 +50,34 @@ void AlarmSpan::join(const AlarmSpan& later) {
 RunRecord::RunRecord(const SceneDescription& scene)
     : states(share(most_strip_cells, start_of(scene, scene.cables.size()).joint, 250, 1000)),
       alarm_spans(alarm_cells),
-      frames(share(frame_values, start_of(scene, scene.cables.size()).segment, 60, most_frames)),
+      frames(share(frame_values, values_a_frame * start_of(scene, scene.cables.size()).segment, 30,
+                   most_frames)),
       scene_(scene) {
   const CableStart all = start_of(scene, scene.cables.size());
   tension.assign(all.segment, curve_among(all.segment));
   cell.resize(scene.cables.size());
+  stages.resize(scene.cables.size());
+  peaks.resize(scene.cables.size());
   read.resize(scene.cables.size());
   for (auto* curves : {&mu, &least_mu, &most_mu}) curves->assign(all.joint, curve_among(3 * all.joint));
 }
 
-void RunRecord::add(const LogRow& row, const Answer& answer) {
+void RunRecord::add(const LogRow& row, const Answer& answer, const Answer* expected) {
   if (rows == 0) first_time = row.time;
   if (rows == 0 || is_trust(answer.verdict) != is_trust(end.verdict)) verdict_since = row.time;
   last_time = row.time;
   ++rows;
   end = answer;
   add_cells(row);
+  add_jacks(row, answer, expected);
   add_tensions(row, answer);
   add_mu(row, answer);
   add_states(row, answer);
   alarms.add(row, answer.alarms, answer.peaks);
   notices.add(row, answer.notices);
   alarm_spans.add({row.time, row.time, !answer.alarms.empty()});
-  frames.add({row.time, answer.tension, answer.state});
+  frames.add({row.time, answer.tension, answer.deviation, answer.mu, answer.mu_deviation, answer.contact,
+              answer.friction_used, answer.state});
 }
 
 void RunRecord::add_cells(const LogRow& row) {
@@ -84,6 +95,30 @@ void RunRecord::add_cells(const LogRow& row) {
         cell[c][e].add(row.time, given.force);  // an empty field keeps the load
       }
     }
+}
+
+void RunRecord::add_jacks(const LogRow& row, const Answer& answer, const Answer* expected) {
+  std::size_t first = 0;
+  for (std::size_t c = 0; c < scene_.cables.size(); ++c) {
+    const CableDescription& cable = scene_.cables[c];
+    for (std::size_t e = 0; e < 2; ++e) {
+      if (!cable.is_jacked(e)) continue;
+      const EndRow& given = row.cables[c][e];
+      const double anchored = answer.tension[first + (e == 0 ? 0 : cable.segments() - 1)];
+      if (!given.locked && anchored > peaks[c][e].force) peaks[c][e] = {anchored, answer.tension};
+      if (has_word(answer.alarms, "outlier:" + cable.name + "." + end_name(e))) continue;
+      JackRow jack;
+      jack.row = row.row;
+      jack.time = row.time;
+      jack.force = given.force;
+      jack.locked = given.locked;
+      jack.stroke = given.stroke;
+      if (expected != nullptr) jack.expected = expected->payout[c][e];
+      jack.anchored = anchored;
+      stages[c][e].add(jack);
+    }
+    first += cable.segments();
+  }
 }
 
 void RunRecord::add_tensions(const LogRow& row, const Answer& answer) {

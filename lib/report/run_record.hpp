@@ -9,6 +9,7 @@
 #include "lib/files/log_file.hpp"
 #include "lib/report/alarm_record.hpp"
 #include "lib/report/curve.hpp"
+#include "lib/report/load_stages.hpp"
 #include "lib/report/thinned.hpp"
 
 namespace taut::host {
@@ -33,7 +34,8 @@ struct AlarmSpan {
 /// The structure at one moment.
 struct Frame {
   double time = 0;
-  std::vector<double> tension;
+  std::vector<double> tension, deviation;               ///< of every segment
+  std::vector<double> mu, mu_deviation, contact, used;  ///< of every joint
   std::vector<JointState> state;
   void join(const Frame& later) { *this = later; }  // so that the last one is the end of the log
 };
@@ -55,7 +57,8 @@ class RunRecord {
  public:
   explicit RunRecord(const SceneDescription& scene);
 
-  void add(const LogRow& row, const Answer& answer);
+  /// `expected` is what would be the answer with what the scene says of friction; null: there is none.
+  void add(const LogRow& row, const Answer& answer, const Answer* expected = nullptr);
 
   std::size_t rows = 0;
   double first_time = 0, last_time = 0;
@@ -70,8 +73,17 @@ class RunRecord {
   Thinned<AlarmSpan> alarm_spans;
   Thinned<Frame> frames;
   AlarmRecord alarms, notices;
+  std::vector<std::array<LoadStages, 2>> stages;  ///< of every jack
+
+  /// All forces when a jack pulled most, as estimated.
+  struct Peak {
+    double force = 0;
+    std::vector<double> tension;  ///< of every segment; empty: it never pulled
+  };
+  std::vector<std::array<Peak, 2>> peaks;
 
  private:
+  void add_jacks(const LogRow& row, const Answer& answer, const Answer* expected);
   void add_cells(const LogRow& row);
   void add_tensions(const LogRow& row, const Answer& answer);
   void add_mu(const LogRow& row, const Answer& answer);

@@ -90,7 +90,7 @@ std::string bars_of(std::size_t joint, double top, double height, const RunRecor
 }  // namespace
 
 std::string state_strip(const SceneDescription& scene, std::size_t c, const RunRecord& record,
-                        const Axis& time, const std::string& x_title) {
+                        const Axis& time, const std::string& x_title, const Words& say) {
   const CableDescription& cable = scene.cables[c];
   const std::size_t first = start_of(scene, c).joint, joints = cable.joints();
   const double pitch = std::clamp(longest_strip / static_cast<double>(joints), 6.0, 20.0);
@@ -102,10 +102,10 @@ std::string state_strip(const SceneDescription& scene, std::size_t c, const RunR
     const double top = pitch * static_cast<double>(j);
     bars += bars_of(first + j, top + 1, pitch - 2, record, time);
     if (j % labelled != 0) continue;
-    labels +=
-        element("text", {{"x", "-7"}, {"y", coordinate(top + pitch / 2 + 4)}, {"text-anchor", "end"}},
-                escaped(std::to_string(j + 1) + " " + shortened(node, 4)) +
-                    element("title", {}, escaped("joint " + std::to_string(j + 1) + " at node " + node)));
+    labels += element(
+        "text", {{"x", "-7"}, {"y", coordinate(top + pitch / 2 + 4)}, {"text-anchor", "end"}},
+        escaped(std::to_string(j + 1) + " " + shortened(node, 4)) +
+            element("title", {}, escaped(say("joint {1} at node {2}", {std::to_string(j + 1), node}))));
   }
   const std::string stretched =
       element("svg",
@@ -115,17 +115,17 @@ std::string state_strip(const SceneDescription& scene, std::size_t c, const RunR
                {"width", "100%"},
                {"height", coordinate(height)}},
               bars);
-  const std::string says = "States of the joints of cable " + cable.name + " over time";
+  const std::string says = say("States of the joints of cable {1} over time", {cable.name});
   const std::string svg = element(
       "svg", {{"role", "img"}, {"aria-label", says}, {"width", "100%"}, {"height", coordinate(height)}},
       axis_below(time, height) + element("g", {{"class", "grid"}}, labels) + stretched);
-  return element("figure", {{"class", "chart"}},
-                 element("div", {{"class", "y-title"}}, "joint, node") +
+  return element("figure", {{"class", "chart over-time"}},
+                 element("div", {{"class", "y-title"}}, escaped(say("joint, node"))) +
                      element("div", {{"class", "plot"}}, svg) +
                      element("div", {{"class", "x-title"}}, escaped(x_title)));
 }
 
-std::string state_legend() {
+std::string state_legend(const Words& say) {
   const std::array<const char*, states> meaning = {
       "stick: nothing moves over the joint", "forward: the cable moves towards its end",
       "backward: the cable moves towards its start", "open: slack on both sides"};
@@ -134,7 +134,7 @@ std::string state_legend() {
     entries +=
         element("li", {},
                 element("span", {{"class", std::string("patch ") + state_word(static_cast<JointState>(s))}}) +
-                    meaning[s]);
+                    escaped(say(meaning[s])));
   return element("ul", {{"class", "legend"}}, entries);
 }
 

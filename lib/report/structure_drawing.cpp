@@ -40,11 +40,11 @@ CurvePoint difference(const CurvePoint& a, const CurvePoint& b) { return {a.x - 
 class StructureDrawing {
  public:
   StructureDrawing(const SceneDescription& scene, const RunRecord& record, const ForceUnit& unit,
-                   const ForceScale& scale)
-      : scene_(scene), record_(record), unit_(unit), scale_(scale), points_(scene) {}
+                   const ForceScale& scale, const Words& words)
+      : scene_(scene), record_(record), unit_(unit), scale_(scale), say(words), points_(scene) {}
 
   std::string operator()() const {
-    const std::string says = "The structure " + scene_.name + " with cables coloured by force";
+    const std::string says = say("The structure {1} with cables coloured by force", {scene_.name});
     std::string parts = substructures() + beams() + struts() + supports();
     for (std::size_t c = 0; c < scene_.cables.size(); ++c) parts += segments(c);
     for (std::size_t c = 0; c < scene_.cables.size(); ++c) parts += jacks(c) + joints(c);
@@ -65,13 +65,16 @@ class StructureDrawing {
     for (std::size_t i = 0; i < scene_.struts.size(); ++i) {
       const auto& nodes = scene_.struts[i].nodes;
       const double force = has_answer() ? record_.end.strut[i] : 0;
-      std::string name = "strut " + std::to_string(i + 1) + " (" + node_name(scene_, nodes[0]) + "\u2013" +
-                         node_name(scene_, nodes[1]) + ")";
+      std::string name = say("strut {1} ({2}\u2013{3})", {std::to_string(i + 1), node_name(scene_, nodes[0]),
+                                                          node_name(scene_, nodes[1])});
       if (has_answer())
-        name += ": " + unit_.text(force) + (force > 0 ? ", tension" : force < 0 ? ", compression" : "");
+        name += ": " + unit_.text(force) +
+                (force > 0   ? say(", tension")
+                 : force < 0 ? say(", compression")
+                             : std::string());
       const CurvePoint from = points_.at(nodes[0]), to = points_.at(nodes[1]);
       const std::string lean = has_answer() && scene_.second_order ? lean_of(i) : "";
-      if (!lean.empty()) name += "; leans: " + lean + " of friction used";
+      if (!lean.empty()) name += say("; leans: {1} of friction used", {lean});
       drawn += element(
           "g", {},
           line("hit", from, to) + line(force > 0 ? "strut tension" : "strut", from, to) + title(name));
@@ -99,7 +102,7 @@ class StructureDrawing {
     std::string drawn, hinges;
     for (std::size_t b = 0; b < scene_.beams.size(); ++b) {
       const BeamDescription& beam = scene_.beams[b];
-      const std::string name = "beam " + std::to_string(b + 1);
+      const std::string name = say("beam {1}", {std::to_string(b + 1)});
       for (std::size_t i = 0; i < beam.members(); ++i) {
         const int from = beam.nodes[i], to = beam.nodes[i + 1];
         const std::string span = node_name(scene_, from) + "\u2013" + node_name(scene_, to);
@@ -109,7 +112,7 @@ class StructureDrawing {
       for (const int node : beam.hinges)
         hinges += element("g", {{"transform", moved_to(points_.at(node))}},
                           element("path", {{"class", "hinge"}, {"d", hinge_outline}},
-                                  title("hinge of " + name + " at node " + node_name(scene_, node))));
+                                  title(say("hinge of {1} at node {2}", {name, node_name(scene_, node)}))));
     }
     return drawn + hinges;
   }
@@ -125,7 +128,7 @@ class StructureDrawing {
       axes += held_rotations(node.held, axes.empty());
       drawn += element("g", {{"transform", moved_to(points_.at(static_cast<int>(i)))}},
                        element("path", {{"class", "support"}, {"d", support_outline(node.held)}},
-                               title("support " + node.name + ": held in " + axes)));
+                               title(say("support {1}: held in {2}", {node.name, axes}))));
     }
     return drawn;
   }
@@ -133,8 +136,9 @@ class StructureDrawing {
     std::string rotations;
     for (unsigned axis = 0; axis < 3; ++axis) {
       if ((held & static_cast<unsigned>(held_rx) << axis) == 0) continue;
-      rotations += (is_first && rotations.empty() ? "rotation" : ", rotation") +
-                   (scene_.dimension == 2 ? "" : std::string(" about ") + "xyz"[axis]);
+      rotations += (is_first && rotations.empty() ? "" : ", ") +
+                   (scene_.dimension == 2 ? say("rotation")
+                                          : say("rotation about {1}", {std::string(1, "xyz"[axis])}));
     }
     return rotations;
   }
@@ -150,9 +154,10 @@ class StructureDrawing {
     std::string drawn;
     for (const SubstructureDescription& part : scene_.substructures)
       for (const int node : part.nodes)
-        drawn += element("g", {{"transform", moved_to(points_.at(node))}},
-                         element("path", {{"class", "substructure"}, {"d", "M-11,-11 H11 V11 H-11 z"}},
-                                 title("substructure " + part.name + " at node " + node_name(scene_, node))));
+        drawn += element(
+            "g", {{"transform", moved_to(points_.at(node))}},
+            element("path", {{"class", "substructure"}, {"d", "M-11,-11 H11 V11 H-11 z"}},
+                    title(say("substructure {1} at node {2}", {part.name, node_name(scene_, node)}))));
     return drawn;
   }
 
@@ -163,12 +168,13 @@ class StructureDrawing {
     for (std::size_t i = 0; i < cable.segments(); ++i) {
       const auto nodes = segment_nodes(cable, i);
       const CurvePoint from = points_.at(nodes[0]), to = points_.at(nodes[1]);
-      const std::string name = cable.name + ", " + segment_name(scene_, cable, i);
+      const std::string name = cable.name + ", " + segment_name(scene_, cable, i, say);
       std::string look = "cable", says = name;
       if (has_answer()) {
         const double force = record_.end.tension[first + i];
         look += " " + scale_.look(force);
-        says += ": " + unit_.text(force) + ", sd " + unit_.deviation(record_.end.deviation[first + i]);
+        says += ": " + unit_.text(force) + ", " + say("sd") + " " +
+                unit_.deviation(record_.end.deviation[first + i]);
       }
       drawn += element(
           "g", {{"class", "segment"}, {"data-name", name}},
@@ -187,13 +193,14 @@ class StructureDrawing {
       const CurvePoint after = points_.at(cable.path[(at + 1) % nodes]);
       const JointState state = has_answer() ? record_.end.state[first + j] : JointState::stick;
       const std::string name =
-          cable.name + ", joint " + std::to_string(j + 1) + " at " + node_name(scene_, cable.path[at]);
+          cable.name + ", " +
+          say("joint {1} at {2}", {std::to_string(j + 1), node_name(scene_, cable.path[at])});
       drawn += element("g",
                        {{"class", "joint"},
                         {"data-name", name},
                         {"transform", turned(points_.at(cable.path[at]), difference(after, before))}},
                        element("path", {{"class", state_word(state)}, {"d", joint_outline(state)}}) +
-                           title(has_answer() ? name + ": " + state_word(state) : name));
+                           title(has_answer() ? name + ": " + say(state_word(state)) : name));
       if (!has_answer() || !scene_.second_order) continue;
       const CurvePoint here = points_.at(cable.path[at]);
       drawn += element("text",
@@ -217,7 +224,7 @@ class StructureDrawing {
       drawn += element(
           "g", {{"transform", turned(points_.at(node), difference(points_.at(node), points_.at(inner)))}},
           element("path", {{"class", "jack"}, {"d", "M3,-2 H15 V-6 L26,0 L15,6 V2 H3 z"}},
-                  title("jack at the " + std::string(end_name(e)) + " of " + cable.name)));
+                  title(say(e == 0 ? "jack at the start of {1}" : "jack at the end of {1}", {cable.name}))));
     }
     return drawn;
   }
@@ -243,6 +250,7 @@ class StructureDrawing {
   const RunRecord& record_;
   const ForceUnit& unit_;
   const ForceScale& scale_;
+  const Words& say;
   Projection points_;
 };
 
@@ -281,20 +289,20 @@ const char* joint_outline(JointState state) {
 }
 
 std::string structure_drawing(const SceneDescription& scene, const RunRecord& record, const ForceUnit& unit,
-                              const ForceScale& scale) {
-  return StructureDrawing(scene, record, unit, scale)();
+                              const ForceScale& scale, const Words& say) {
+  return StructureDrawing(scene, record, unit, scale, say)();
 }
 
-std::string structure_legend(const SceneDescription& scene) {
+std::string structure_legend(const SceneDescription& scene, const Words& say) {
   std::string entries;
   if (!scene.struts.empty()) {
-    entries += symbol(line("strut", {-13, 0}, {13, 0}), "strut in compression") +
-               symbol(line("strut tension", {-13, 0}, {13, 0}), "strut in tension");
+    entries += symbol(line("strut", {-13, 0}, {13, 0}), say("strut in compression")) +
+               symbol(line("strut tension", {-13, 0}, {13, 0}), say("strut in tension"));
   }
-  if (!scene.beams.empty()) entries += symbol(line("beam", {-13, 0}, {13, 0}), "beam");
+  if (!scene.beams.empty()) entries += symbol(line("beam", {-13, 0}, {13, 0}), say("beam"));
   const auto has_hinge = [](const BeamDescription& beam) { return !beam.hinges.empty(); };
   if (std::any_of(scene.beams.begin(), scene.beams.end(), has_hinge))
-    entries += symbol(element("path", {{"class", "hinge"}, {"d", hinge_outline}}), "hinge of a beam");
+    entries += symbol(element("path", {{"class", "hinge"}, {"d", hinge_outline}}), say("hinge of a beam"));
   const auto has_jack = [](const CableDescription& cable) {
     return cable.is_jacked(0) || cable.is_jacked(1);
   };
@@ -303,23 +311,24 @@ std::string structure_legend(const SceneDescription& scene) {
     jacks = jacks || has_jack(cable);
     joints = joints || cable.joints() > 0;
   }
-  entries += symbol(element("path", {{"class", "support"}, {"d", "M0,-6 L-8,7 L8,7 z"}}), "support");
+  entries += symbol(element("path", {{"class", "support"}, {"d", "M0,-6 L-8,7 L8,7 z"}}), say("support"));
   if (!scene.substructures.empty())
-    entries +=
-        symbol(element("path", {{"class", "substructure"}, {"d", "M-8,-8 H8 V8 H-8 z"}}), "substructure");
+    entries += symbol(element("path", {{"class", "substructure"}, {"d", "M-8,-8 H8 V8 H-8 z"}}),
+                      say("substructure"));
   if (jacks)
-    entries +=
-        symbol(element("path", {{"class", "jack"}, {"d", "M-12,-2 H0 V-6 L11,0 L0,6 V2 H-12 z"}}), "jack");
+    entries += symbol(element("path", {{"class", "jack"}, {"d", "M-12,-2 H0 V-6 L11,0 L0,6 V2 H-12 z"}}),
+                      say("jack"));
   if (joints) {
-    entries += joint_symbol(JointState::stick, "joint sticks") +
-               joint_symbol(JointState::forward, "slides to the end of the cable") +
-               joint_symbol(JointState::backward, "slides to its start") +
-               joint_symbol(JointState::open, "open");
+    entries += joint_symbol(JointState::stick, say("joint sticks")) +
+               joint_symbol(JointState::forward, say("slides to the end of the cable")) +
+               joint_symbol(JointState::backward, say("slides to its start")) +
+               joint_symbol(JointState::open, say("open"));
   }
   if (joints && scene.second_order && !scene.struts.empty())
-    entries += element("li", {},
-                       "per cent at a joint: how much of friction is used there, by a strut that leans or by "
-                       "sliding, at the end");
+    entries +=
+        element("li", {},
+                say("per cent at a joint: how much of friction is used there, by a strut that leans or by "
+                    "sliding, at the end"));
   return element("ul", {{"class", "legend"}}, entries);
 }
 
