@@ -81,37 +81,39 @@ class RecordPage {
   // Of every column that is read: what the scene says of it, and the job.
   std::string instruments() const {
     std::string rows;
-    const auto add = [&](const std::string& column, const InstrumentDescription& cell_, const char* unit,
-                         double scale) {
+    const auto force = [](double newtons) {
+      const ForceUnit unit = ForceUnit::for_largest(newtons);
+      return significant(unit.of(newtons), 2) + " " + unit.name;
+    };
+    const auto stroke = [](double metres) { return significant(mm * metres, 2) + " mm"; };
+    const auto add = [&](const std::string& column, const InstrumentDescription& known, const auto& amount) {
       const auto found = job_.instruments.find(column);
-      if (!cell_.is_given && !cell_.is_assumed && found == job_.instruments.end()) return;
+      if (!known.is_given && !known.is_assumed && found == job_.instruments.end()) return;
       const JobInstrument named = found == job_.instruments.end() ? JobInstrument() : found->second;
-      const auto part = [&](const std::optional<double>& value) {
-        return value ? significant(100 * *value, 2) + " %" : std::string(dash);
+      const auto text = [&](const std::optional<double>& value) {
+        return value ? amount(*value) : std::string(dash);
       };
-      const auto amount = [&](const std::optional<double>& value) {
-        return value ? significant(scale * *value, 2) + " " + unit : std::string(dash);
-      };
+      const std::string gain =
+          known.gain_sd ? significant(100 * *known.gain_sd, 2) + " %" : std::string(dash);
       rows += element("tr", {},
                       cell("short", column) + cell("text", named.id) + cell("text", named.calibrated) +
                           cell("text", named.certificate) +
-                          cell("number", cell_.exact ? say("exact") : amount(cell_.sd)) +
-                          cell("number", cell_.exact ? "" : part(cell_.gain_sd)) +
-                          cell("number", cell_.exact ? "" : amount(cell_.zero_sd)) +
-                          cell("short", cell_.calibration.empty() ? "" : say("by table")));
+                          cell("number", known.exact ? say("exact") : text(known.sd)) +
+                          cell("number", known.exact ? "" : gain) +
+                          cell("number", known.exact ? "" : text(known.zero_sd)) +
+                          cell("short", known.calibration.empty() ? "" : say("by table")));
     };
     for (const CableDescription& cable : scene_.cables) {
       for (std::size_t end = 0; end < 2; ++end) {
         const std::string name = cable.name + "." + end_name(end);
-        add(name, cable.cell[end], view_.unit.name, 1 / view_.unit.newtons);
-        add(name + ".stroke", cable.stroke[end], "mm", mm);
+        add(name, cable.cell[end], force);
+        add(name + ".stroke", cable.stroke[end], stroke);
       }
       for (std::size_t i = 0; i < cable.force.size(); ++i)
-        add(cable.name + ".T" + std::to_string(i + 1), cable.force[i], view_.unit.name,
-            1 / view_.unit.newtons);
+        add(cable.name + ".T" + std::to_string(i + 1), cable.force[i], force);
     }
     for (std::size_t i = 0; i < scene_.struts.size(); ++i)
-      add("strut" + std::to_string(i + 1), scene_.struts[i].gauge, view_.unit.name, 1 / view_.unit.newtons);
+      add("strut" + std::to_string(i + 1), scene_.struts[i].gauge, force);
     if (rows.empty()) return "";
     return heading(say("Instruments")) +
            table(say("Instruments"),

@@ -69,7 +69,7 @@ class Page {
       html += paragraph("warning",
                         strong(say("The answer ends before the log does.")) + " " +
                             escaped(say("{1}. What follows shows the rows before it.", {content_.end})));
-    return element("header", {}, html);
+    return element("header", {{"id", "run"}}, html);
   }
 
   std::string verdict() const {
