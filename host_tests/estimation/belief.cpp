@@ -155,29 +155,33 @@ TEST_CASE("a mean stays within its bounds") {
 }
 
 TEST_CASE("readings that scatter more than they were taken to have taught as much less") {
-  // Of one unknown: as if they had been taken with the larger deviation, where the prior says little.
-  for (const double times : {1.7, 4.0, 30.0}) {
-    CAPTURE(times);
-    support::Random random(5);
-    const Vector prior = Vector::Constant(unknowns, 1e4);
-    Belief belief;
-    begin(belief, prior);
-    LeastSquares expected(prior);
-    for (int i = 0; i < 40; ++i) {
-      const Vector H = random_vector(random, unknowns);
-      const double measured = support::gaussian(random);
-      belief.begin_row();
-      REQUIRE(belief.innovate(prediction_of(0, H, Vector::Zero(jacks)), {}, {measured, 1, 0}));
-      belief.update();
-      expected.add(H, measured, std::sqrt(times));
+  // As if they had been taken with the larger deviation, whatever the prior says of some of them.
+  Vector unequal = Vector::Constant(unknowns, 0.05);
+  unequal[0] = 1e3;
+  for (const Vector& prior :
+       {Vector(Vector::Constant(unknowns, 1e4)), Vector(Vector::Constant(unknowns, 0.3)), unequal})
+    for (const double times : {1.7, 4.0, 30.0}) {
+      CAPTURE(times);
+      CAPTURE(prior[1]);
+      support::Random random(5);
+      Belief belief;
+      begin(belief, prior);
+      LeastSquares expected(prior);
+      for (int i = 0; i < 40; ++i) {
+        const Vector H = random_vector(random, unknowns);
+        const double measured = support::gaussian(random);
+        belief.begin_row();
+        REQUIRE(belief.innovate(prediction_of(0, H, Vector::Zero(jacks)), {}, {measured, 1, 0}));
+        belief.update();
+        expected.add(H, measured, std::sqrt(times));
+      }
+      belief.loosen(times);
+      const Eigen::MatrixXd covariance = expected.covariance();
+      for (int p = 0; p < unknowns; ++p)
+        for (int q = 0; q < unknowns; ++q)
+          CHECK(std::fabs(belief.save().covariance[p][q] - covariance(p, q)) <
+                1e-6 * std::sqrt(covariance(p, p) * covariance(q, q)));
     }
-    belief.loosen(times);
-    const Eigen::MatrixXd covariance = expected.covariance();
-    for (int p = 0; p < unknowns; ++p)
-      for (int q = 0; q < unknowns; ++q)
-        CHECK(std::fabs(belief.save().covariance[p][q] - covariance(p, q)) <
-              1e-6 * std::sqrt(covariance(p, p) * covariance(q, q)));
-  }
 }
 
 TEST_CASE("what was never measured stays as well known as it was beforehand") {
@@ -189,8 +193,30 @@ TEST_CASE("what was never measured stays as well known as it was beforehand") {
   REQUIRE(belief.innovate(prediction_of(0, H, Vector::Zero(jacks)), {}, {0.3, 0.5, 0}));
   belief.update();
   belief.loosen(100);
-  for (int p = 0; p < unknowns; ++p)
+  for (int p = 2; p < unknowns; ++p)
     CHECK(belief.variance(p) == doctest::Approx(prior[p] * prior[p]).epsilon(1e-12));
   // Together they are still known better.
   CHECK(belief.save().covariance[0][1] < 0);
+}
+
+TEST_CASE("a sum that was measured well is no news of its parts, however often noise is found to be larger") {
+  Vector prior = Vector::Constant(unknowns, 1e-3);
+  prior[0] = 0.05;
+  prior[1] = 0.01;
+  Belief belief;
+  begin(belief, prior);
+  Vector H = Vector::Zero(unknowns);
+  H[0] = H[1] = 1;
+  for (int round = 0; round < 20; ++round) {
+    for (int i = 0; i < 20; ++i) {
+      belief.begin_row();
+      REQUIRE(belief.innovate(prediction_of(0, H, Vector::Zero(jacks)), {}, {0, 1e-3, 0}));
+      belief.update();
+    }
+    belief.loosen(2);
+  }
+  // With the sum known each has the variance 1 / (1 / 0.05^2 + 1 / 0.01^2), and no less.
+  const double both = 1 / (1 / (0.05 * 0.05) + 1 / (0.01 * 0.01));
+  CHECK(belief.variance(0) == doctest::Approx(both).epsilon(1e-3));
+  CHECK(belief.variance(1) == doctest::Approx(both).epsilon(1e-3));
 }
