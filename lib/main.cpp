@@ -16,7 +16,7 @@
 #include "lib/commands/watch.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/number_range.hpp"
-#include "lib/own_stack.hpp"
+#include "lib/kinds/own_stack.hpp"
 
 namespace {
 
@@ -137,6 +137,8 @@ class CommandLine {
     watch_->add_option("--state", watching_.state,
                        "Go on where this file says, if there is one; it is kept at every row");
     watch_->add_option("--speed", watching_.speed, "Play LOG to its end, so many times as fast as its times");
+    watch_->add_option("--goal", watching_.goal,
+                       "Goal file (JSON) as of plan: say what is to be jacked, and plan anew on the way");
     add_limits(*watch_, watching_.limits);
   }
 

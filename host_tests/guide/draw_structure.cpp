@@ -10,7 +10,7 @@
 #include <string>
 
 #include "lib/commands/log_follower.hpp"
-#include "lib/own_stack.hpp"
+#include "lib/kinds/own_stack.hpp"
 #include "lib/report/page_style.hpp"
 #include "lib/report/run_record.hpp"
 #include "lib/report/structure_drawing.hpp"

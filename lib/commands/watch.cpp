@@ -2,11 +2,13 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <iostream>
 #include <istream>
 #include <memory>
+#include <mutex>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -17,7 +19,9 @@
 #include "lib/files/output_file.hpp"
 #include "lib/files/result_file.hpp"
 #include "lib/files/scene_file.hpp"
+#include "lib/files/status_text.hpp"
 #include "lib/files/text.hpp"
+#include "lib/kinds/valid_scene.hpp"
 #include "lib/live/answer_board.hpp"
 #include "lib/live/file_source.hpp"
 #include "lib/live/http_server.hpp"
@@ -25,11 +29,17 @@
 #include "lib/live/load_history.hpp"
 #include "lib/live/pace.hpp"
 #include "lib/live/pipe_source.hpp"
+#include "lib/live/plan_guide.hpp"
+#include "lib/live/planner.hpp"
 #include "lib/live/record_file.hpp"
 #include "lib/live/serial_source.hpp"
 #include "lib/live/stop_signal.hpp"
 #include "lib/live/terminal.hpp"
 #include "lib/live/watch_state.hpp"
+#include "lib/plan/find_plan.hpp"
+#include "lib/plan/goal_file.hpp"
+#include "lib/plan/plan_words.hpp"
+#include "lib/plan/prior.hpp"
 
 namespace taut::host {
 namespace {
@@ -48,7 +58,7 @@ void require_possible(const WatchOptions& options) {
                      "leave it out: rows are answered as they come");
   if (options.speed && !(*options.speed > 0))
     throw InputError("--speed", "", "is not greater than zero", "write 1 for the speed of the log");
-  const std::vector<std::string> inputs = {options.scene, options.log};
+  const std::vector<std::string> inputs = {options.scene, options.log, options.goal};
   keep_inputs(options.record, inputs);
   keep_inputs(options.state, inputs);
   keep_inputs(options.record, {options.state});
@@ -66,6 +76,10 @@ class Watch {
     run_.method = Method::estimate;
     run_.limits = options.limits;
     if (options.speed) pace_ = std::make_unique<Pace>(*options.speed, stop_);
+    if (!options.goal.empty()) {
+      require_valid(scene_);
+      goal_ = std::make_unique<PlanGoal>(read_goal_file(options.goal, scene_));
+    }
     if (!options.state.empty())
       state_ = std::make_unique<WatchState>(options.state, read_text(options.scene, most_bytes));
     if (!options.record.empty())
@@ -75,6 +89,7 @@ class Watch {
   int run() {
     std::unique_ptr<LineSource> source = open_source();
     agree_on_record();
+    if (goal_ && !make_plan()) return stop_.is_requested() ? 0 : 1;
     std::unique_ptr<HttpServer> server;
     if (!options_.http.empty()) {
       server = std::make_unique<HttpServer>(
@@ -87,8 +102,16 @@ class Watch {
       AnswerBoard& board;
       ~Closer() { board.close(); }
     } const closer{board_};
+    if (guide_)
+      planner_ = std::make_unique<Planner>(*goal_, [this](const PlanFound& found) { take_plan(found); });
+    struct Quitter {
+      std::unique_ptr<Planner>& planner;
+      ~Quitter() { planner.reset(); }
+    } const quitter{planner_};
 
+    is_replaying_ = true;
     std::string end = replay();
+    is_replaying_ = false;
     while (end.empty() && !stop_.is_requested()) {
       LineBuffer lines(*source);
       end = follow_live(lines);
@@ -120,7 +143,7 @@ class Watch {
   void agree_on_record() {
     if (!state_ || !record_) return;
     if (state_->is_new())
-      state_->renew("", record_->size());
+      state_->renew("", record_->size(), "");
     else if (state_->record_size())
       record_->go_back_to(*state_->record_size());
     repeats_record_ = state_->record_size().has_value();
@@ -169,7 +192,7 @@ class Watch {
         if (state_) state_->append(lines.last_line());
         if (record_) record(row, answer);
         show(row, answer);
-        if (state_ && state_->is_due()) renew_state();
+        if (state_ && (state_->is_due() || has_plan_changed())) renew_state();
       });
     } catch (const InputError&) {
       // A log without a header, or without rows, is none where it was to end, or where a line was lost.
@@ -201,8 +224,69 @@ class Watch {
   }
 
   void renew_state() {
-    if (const std::optional<std::string> text = follower_->state())
-      state_->renew(*text, record_ ? std::optional<std::int64_t>(record_->size()) : std::nullopt);
+    const std::optional<std::string> text = follower_->state();
+    if (!text) return;
+    std::string plan;
+    if (guide_) {
+      const std::lock_guard<std::mutex> lock(showing_);
+      plan = guide_->state();
+    }
+    state_->renew(*text, record_ ? std::optional<std::int64_t>(record_->size()) : std::nullopt, plan);
+  }
+
+  // As `taut plan` finds it. False if there is none.
+  bool make_plan() {
+    const GiveUp give_up = [this] { return stop_.is_requested(); };
+    PlanResult result;
+    try {
+      result.plan = find_plan(scene_, *goal_, give_up);
+      if (!result.plan.status || !result.plan.outcome.whole) {
+        std::cerr << options_.scene << ": "
+                  << (result.plan.status ? "the plan comes to no end"
+                                         : failure_text(result.plan.status, scene_))
+                  << '\n';
+        return false;
+      }
+      if (has_prior(scene_))
+        result.prior = outcome_over_prior(scene_, *goal_, result.plan.jacks, result.plan.stages, {}, give_up);
+    } catch (const GivenUp&) {
+      return false;
+    }
+    for (const std::string& said : plan_sentences(scene_, *goal_, result))
+      std::cerr << "plan: " << said << '\n';
+    guide_ = std::make_unique<PlanGuide>(scene_, *goal_, read_text(options_.goal, most_bytes), result.plan,
+                                         result.prior);
+    if (state_ && !state_->plan().empty() && !guide_->go_on(state_->plan()))
+      std::cerr << "remark: " << options_.state
+                << " has a plan to another goal: its stages are found anew from the rows\n";
+    else
+      goes_on_in_plan_ = state_ && !state_->plan().empty();
+    return true;
+  }
+
+  bool has_plan_changed() {
+    if (!guide_) return false;
+    const std::lock_guard<std::mutex> lock(showing_);
+    return guide_->take_change();
+  }
+
+  // Of a row: where the jacks stand in the plan, and whether it is to be found anew.
+  void guide(const LogRow& row, const Answer& answer) {
+    if (!goes_on_in_plan_ && rows_ == 1) guide_->begin(known_mu(follower_->scene()));
+    std::vector<double> factor = row.factor;
+    for (std::size_t i = 0; i < factor.size(); ++i)
+      if (!follower_->has_column(scene_.loads[i].name)) factor[i] = goal_->factor[i];
+    std::optional<PlanRequest> request = guide_->take(row, answer, factor, !is_replaying_);
+    if (request) planner_->ask(std::move(*request));
+  }
+
+  // From the thread that plans: the same numbers once more, with another plan.
+  void take_plan(const PlanFound& found) {
+    const std::lock_guard<std::mutex> lock(showing_);
+    guide_->take(found);
+    LiveAnswer live;
+    if (const LiveAnswerPtr newest = board_.newest()) live = *newest;
+    publish(std::move(live));
   }
 
   void show(const LogRow& row, const Answer& answer) {
@@ -210,6 +294,7 @@ class Watch {
     for (const CableDescription& cable : scene_.cables)
       has_stroke.push_back({follower_->has_column(cable.name + ".start.stroke"),
                             follower_->has_column(cable.name + ".end.stroke")});
+    const std::lock_guard<std::mutex> lock(showing_);
     LiveAnswer live;
     live.row = ++rows_;
     live.time = row.time;
@@ -221,6 +306,7 @@ class Watch {
       --unreadable_rows_;
       live.notices.emplace_back(unreadable);
     }
+    if (guide_) guide(row, answer);
     publish(std::move(live));
   }
 
@@ -231,6 +317,7 @@ class Watch {
     std::cerr << "remark: " << name() << ": " << (is_silent ? "the line is silent" : "rows come again")
               << std::endl;
     if (!is_silent) return;  // the next row says so
+    const std::lock_guard<std::mutex> lock(showing_);
     LiveAnswer live;
     if (const LiveAnswerPtr newest = board_.newest()) live = *newest;
     live.alarms.emplace_back(silent);
@@ -238,6 +325,13 @@ class Watch {
   }
 
   void publish(LiveAnswer live) {
+    if (guide_) {
+      PlanNow now = guide_->now();
+      const auto is_limit = [](const std::string& word) { return word.compare(0, 11, "plan-limit:") == 0; };
+      live.alarms.erase(std::remove_if(live.alarms.begin(), live.alarms.end(), is_limit), live.alarms.end());
+      live.alarms.insert(live.alarms.end(), now.alarms.begin(), now.alarms.end());
+      live.plan = std::make_shared<const PlanNow>(std::move(now));
+    }
     live.json = answer_json(scene_, live);
     history_.add(live);
     board_.put(std::make_shared<const LiveAnswer>(std::move(live)));
@@ -247,6 +341,7 @@ class Watch {
   SceneDescription scene_;  // as the file has it
   bool is_serial_;
   RunOptions run_;
+  std::unique_ptr<PlanGoal> goal_;
   StopSignal stop_;
   AnswerBoard board_;
   LoadHistory history_;
@@ -255,6 +350,10 @@ class Watch {
   std::unique_ptr<RecordFile> record_;
   bool repeats_record_ = false;
   std::unique_ptr<LogFollower> follower_;
+  std::mutex showing_;  // rows and new plans come from two threads
+  std::unique_ptr<PlanGuide> guide_;
+  std::unique_ptr<Planner> planner_;
+  bool is_replaying_ = false, goes_on_in_plan_ = false;
   std::size_t rows_ = 0;
   int left_out_ = 0, unreadable_rows_ = 0;
   bool is_silent_ = false;

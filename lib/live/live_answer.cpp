@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "lib/files/result_file.hpp"
+#include "lib/live/plan_json.hpp"
 #include "lib/report/run_record.hpp"
 
 namespace taut::host {
@@ -82,6 +83,7 @@ std::string answer_json(const SceneDescription& scene, const LiveAnswer& live) {
         {"force", jack.force}, {"reading", number(jack.reading)}, {"stroke", number(jack.stroke)}};
   json["alarms"] = live.alarms;
   json["notices"] = live.notices;
+  if (live.plan) json["plan"] = plan_json(*live.plan);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "lib/files/answer.hpp"
 #include "lib/files/log_file.hpp"
 #include "lib/files/scene_description.hpp"
+#include "lib/live/plan_now.hpp"
 
 namespace taut::host {
 
@@ -27,6 +29,7 @@ struct LiveAnswer {
   Answer answer;
   std::vector<JackNow> jacks;
   std::vector<std::string> alarms, notices;  ///< words, see alarm_word(), and those of the line
+  std::shared_ptr<const PlanNow> plan;       ///< null without a goal
   std::string json;                          ///< see answer_json()
 };
 
@@ -40,7 +43,8 @@ std::vector<std::string> words_of(const std::string& list);
 /// Lower and upper end of the 95 % band of a force [N].
 std::array<double, 2> force_band(double force, double sd);
 
-/// The answer on one line of JSON: `time`, `segments`, `joints`, `jack`, `alarms`, `notices`.
+/// The answer on one line of JSON: `time`, `segments`, `joints`, `jack`, `alarms`, `notices`, and with a
+/// goal `plan`.
 std::string answer_json(const SceneDescription& scene, const LiveAnswer& live);
 
 }  // namespace taut::host

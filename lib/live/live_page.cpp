@@ -34,6 +34,14 @@ std::string in_script(const Json& json) {
   return text;
 }
 
+// Those of this page beside those of the report.
+AlarmMeaning meaning_of(const std::string& word) {
+  if (word.compare(0, word.find(':'), "plan-limit") == 0)
+    return {"A force or a stroke has passed a limit of the goal.",
+            "Stop. Let the jack out below the limit, and find out why before it is pulled on."};
+  return alarm_meaning(word);
+}
+
 class LivePage {
  public:
   LivePage(const SceneDescription& scene, const std::string& log, const LiveAnswerPtr& now)
@@ -47,7 +55,7 @@ class LivePage {
   }
 
   std::string operator()() const {
-    std::string body = header() + digits() + alarms() + structure();
+    std::string body = header() + digits() + alarms() + plan() + structure();
     for (std::size_t c = 0; c < scene_.cables.size(); ++c) body += cable(c);
     body += over_time() + scripts();
     return "<!DOCTYPE html>\n" +
@@ -120,7 +128,7 @@ class LivePage {
   std::string alarms() const {
     std::string list;
     const auto add = [&](const std::string& word, const char* look) {
-      const AlarmMeaning meaning = alarm_meaning(word);
+      const AlarmMeaning meaning = meaning_of(word);
       list += element("li", {{"class", look}},
                       element("b", {}, escaped(word)) +
                           element("div", {}, escaped(std::string(meaning.means) + " " + meaning.to_do)));
@@ -133,6 +141,34 @@ class LivePage {
       list = element("li", {{"class", "notice"}}, now_ ? "No alarm." : "No row has come yet.");
     return element("section", {{"aria-live", "polite"}},
                    element("ul", {{"class", "alarms-now"}, {"id", "alarms"}}, list));
+  }
+
+  // The order, which is read from afar, and the stages.
+  std::string plan() const {
+    if (!now_ || !now_->plan) return "";
+    const PlanNow& plan = *now_->plan;
+    std::string stages, anew;
+    for (std::size_t s = 0; s < plan.stages.size(); ++s) {
+      const PlanStageNow& stage = plan.stages[s];
+      const bool is_present = s == plan.present;
+      stages += element("tr", {{"class", is_present ? "present" : ""}},
+                        cell(escaped(stage_text(plan, s)), "text") + cell(stage.skipped  ? "skipped"
+                                                                          : stage.passed ? "passed"
+                                                                          : is_present   ? "present"
+                                                                                         : "to come",
+                                                                          "short"));
+    }
+    for (const PlanAnew& each : plan.anew) anew += element("li", {}, escaped(anew_text(each)));
+    return element("section", {{"id", "plan"}},
+                   heading("Plan") +
+                       element("p", {{"class", "order"}, {"id", "order"}, {"data-order", plan.order()}},
+                               escaped(plan.say)) +
+                       paragraph("note", element("span", {{"id", "plan-error"}}, escaped(error_text(plan)))) +
+                       element("div", {{"class", "wide"}},
+                               element("table", {},
+                                       "<thead><tr><th>stage</th><th>is</th></tr></thead>" +
+                                           element("tbody", {{"id", "stages"}}, stages))) +
+                       element("ul", {{"class", "note"}, {"id", "anew"}}, anew));
   }
 
   std::string structure() const {
@@ -235,10 +271,10 @@ class LivePage {
       const auto state = static_cast<JointState>(s);
       data["outlines"][state_word(state)] = joint_outline(state);
     }
-    for (const char* kind :
-         {"outlier", "sensor", "mu", "stuck", "elongation", "force-high", "force-low", "no-information",
-          "gauge", "model-misfit", "frozen", "gain", "unknown-past", "lift-off", "silent", "unreadable"}) {
-      const AlarmMeaning meaning = alarm_meaning(kind);
+    for (const char* kind : {"outlier", "sensor", "mu", "stuck", "elongation", "force-high", "force-low",
+                             "no-information", "gauge", "model-misfit", "frozen", "gain", "unknown-past",
+                             "lift-off", "silent", "unreadable", "plan-limit"}) {
+      const AlarmMeaning meaning = meaning_of(kind);
       data["meanings"][kind] = {meaning.means, meaning.to_do};
     }
     const Json answer = now_ ? Json::parse(now_->json) : Json(nullptr);

@@ -22,6 +22,11 @@ font-variant-numeric:tabular-nums}
 .alarms-now li.notice{border-color:var(--rule)}
 .alarms-now li.notice b{font-size:1rem}
 .live-chart{width:100%;height:220px;display:block}
+.order{font-size:clamp(1.8rem,6vw,3rem);line-height:1.15;font-weight:650;border-left:.5rem solid var(--one);background:var(--card);padding:.4rem .8rem}
+.order[data-order=stop]{border-color:var(--alarm);background:var(--alarm);color:var(--paper)}
+.order[data-order=done]{border-color:var(--three)}
+.present td{font-weight:650}
+.live-chart .stage{stroke:var(--alarm);stroke-dasharray:7 4}
 .live-chart .rule{stroke:var(--rule);stroke-width:1}
 .live-chart .second{stroke:var(--two)}
 .live-chart polyline{stroke-width:2.5}
@@ -130,6 +135,34 @@ inline constexpr const char* live_script = R"(
     answer.notices.forEach(function (word) { add(word, 'notice'); });
     if (list.children.length === 0) list.appendChild(element('li', 'notice', 'No alarm.'));
   }
+  function percent(part) { return (100 * part).toFixed(2) + ' %'; }
+  function showPlan() {
+    var plan = answer.plan, order = by('order');
+    if (!plan) return;
+    // The page was loaded before there was an answer: it has no place for a plan yet.
+    if (!order) return location.reload();
+    put(order, plan.say);
+    if (order.dataset.order !== plan.order) order.dataset.order = plan.order;
+    put(by('plan-error'), 'at the end ' + percent(plan.error) + ' off target' + (plan.expected === null ? '' :
+      ', expected ' + percent(plan.expected) + ', at 95 % ' + percent(plan.at_95)) +
+      (plan.planning ? '; a new plan is being looked for' : ''));
+    var body = by('stages'), key = JSON.stringify([plan.stages, plan.anew]);
+    if (body.dataset.key === key) return;
+    body.dataset.key = key;
+    body.textContent = '';
+    plan.stages.forEach(function (stage) {
+      var row = element('tr', stage.state === 'present' ? 'present' : '');
+      row.appendChild(element('td', 'text', stage.say));
+      row.appendChild(element('td', 'short', stage.state));
+      body.appendChild(row);
+    });
+    by('anew').textContent = '';
+    plan.anew.forEach(function (each) { by('anew').appendChild(element('li', '', each.say)); });
+  }
+  function stageOf(jack) {
+    var order = answer.plan ? answer.plan.jacks[jack] : null;
+    return order ? order.to : null;
+  }
   // Charts: pixels of the page, so that text keeps its size.
   var svg = 'http://www.w3.org/2000/svg';
   function draw(node, lines, range, xs, labels, band) {
@@ -186,8 +219,13 @@ inline constexpr const char* live_script = R"(
         var points = [];
         history.forEach(function (p) { if (p[1][j][k] !== null) points.push([p[0], p[1][j][k]]); });
         if (points.length === 0) return;
-        draw(by(what + j), [{ look: k ? 'second' : 'estimate', points: points }],
-          around(points.map(function (p) { return p[1]; }), k ? 0.001 : 0.02), xs,
+        var lines = [{ look: k ? 'second' : 'estimate', points: points }], stage = k ? null : stageOf(jack);
+        var values = points.map(function (p) { return p[1]; });
+        if (stage !== null) {
+          lines.push({ look: 'stage', points: [[xs[0], stage], [xs[1], stage]] });
+          values.push(stage);
+        }
+        draw(by(what + j), lines, around(values, k ? 0.001 : 0.02), xs,
           { y: k ? function (v) { return (1000 * v).toFixed(1); } : number, x: clock, at: [0, 1, 2, 3].map(function (i) {
             return i === 3 ? xs[1] : xs[0] + i / 3 * (xs[1] - xs[0]);
           }) });
@@ -206,6 +244,7 @@ inline constexpr const char* live_script = R"(
   function show() {
     drawn = true;
     showAlarms();
+    showPlan();
     if (answer.time === null) return;
     put(by('time'), Math.round(1000 * answer.time) / 1000 + ' s');
     var list = all();

@@ -13,6 +13,7 @@ namespace {
 constexpr const char* full = "\u2588";
 constexpr const char* edge = "\u2502";
 constexpr const char* shade = "\u2591";
+constexpr const char* mark = "\u25c6";
 
 bool begins_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }
 
@@ -73,6 +74,40 @@ std::string bar(double force, const std::array<double, 2>& band, double most, st
   return text;
 }
 
+// From zero to the force of a jack, and where its stage is.
+std::string marked_bar(double force, double stage, double most, std::size_t width) {
+  const auto cell = [&](double value) {
+    return static_cast<std::size_t>(std::clamp(value / most, 0.0, 1.0) * static_cast<double>(width - 1) +
+                                    0.5);
+  };
+  std::string text;
+  for (std::size_t i = 0; i < width; ++i)
+    text += i == cell(stage) ? mark : i <= cell(force) && force > 0 ? full : " ";
+  return text;
+}
+
+void add_plan(const LiveAnswer& live, std::size_t columns, std::vector<std::string>& lines) {
+  constexpr std::size_t label = 12;
+  const PlanNow& plan = *live.plan;
+  lines.push_back("PLAN " + plan.say);
+  double most = 0;
+  for (const PlanStageNow& stage : plan.stages)
+    for (const double force : stage.force) most = std::max(most, force);
+  for (std::size_t k = 0; k < plan.jacks.size() && k < live.jacks.size() && most > 0; ++k)
+    if (const std::optional<double> stage = plan.mark(k))
+      lines.push_back(padded("  " + plan.jacks[k], label) + "[" +
+                      marked_bar(live.jacks[k].force, *stage, std::max(most, live.jacks[k].force),
+                                 columns > label + 12 ? columns - label - 2 : 10) +
+                      "]");
+  for (std::size_t s = 0; s < plan.stages.size(); ++s)
+    lines.push_back(std::string(s == plan.present ? "> " : "  ") + stage_text(plan, s) +
+                    (plan.stages[s].skipped  ? "  skipped"
+                     : plan.stages[s].passed ? "  passed"
+                                             : ""));
+  lines.push_back("  " + error_text(plan) + (plan.is_planning ? "; a new plan is being looked for" : ""));
+  if (!plan.anew.empty()) lines.push_back("  " + anew_text(plan.anew.back()));
+}
+
 }  // namespace
 
 std::vector<std::string> screen_text(const SceneDescription& scene, const LiveAnswer& live, std::size_t rows,
@@ -93,6 +128,7 @@ std::vector<std::string> screen_text(const SceneDescription& scene, const LiveAn
     lines.push_back("jack " + scene.cables[jack.cable].name + "." + end_name(jack.end) + "  " +
                     unit.text(jack.force) +
                     (jack.stroke ? "  stroke " + fixed(1000 * *jack.stroke, 1) + " mm" : ""));
+  if (live.plan) add_plan(live, columns, lines);
   for (std::size_t c = 0; c < scene.cables.size(); ++c) {
     const CableDescription& cable = scene.cables[c];
     const CableStart first = start_of(scene, c);
@@ -135,7 +171,9 @@ std::string row_text(const SceneDescription& scene, const LiveAnswer& live) {
     text += " " + scene.cables[c].name + " " + unit.number(*low) + " to " + unit.text(*high) + ";";
   }
   constexpr std::size_t longest = 1000;  // of what a pipe takes at once
-  return cut(text + (live.alarms.empty() ? " no alarm" : " " + joined(live.alarms)), longest);
+  text += live.alarms.empty() ? " no alarm" : " " + joined(live.alarms);
+  if (live.plan) text += "; plan: " + live.plan->say;
+  return cut(text, longest);
 }
 
 }  // namespace taut::host

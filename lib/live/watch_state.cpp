@@ -51,7 +51,8 @@ void WatchState::fail() const {
 std::string WatchState::head(const std::string& state) const {
   return std::string(magic) + ' ' + scene_ + ' ' + std::to_string(record_size_.value_or(-1)) + ' ' +
          std::to_string(header_.size()) + ' ' + std::to_string(first_row_.size()) + ' ' +
-         std::to_string(state.size()) + '\n' + header_ + first_row_ + state;
+         std::to_string(state.size()) + (plan_.empty() ? "" : ' ' + std::to_string(plan_.size())) + '\n' +
+         header_ + first_row_ + state + plan_;
 }
 
 void WatchState::read() {
@@ -61,7 +62,7 @@ void WatchState::read() {
   std::istringstream line(text.substr(0, end));
   std::string word, scene;
   std::int64_t record = -1;
-  std::size_t header = 0, first_row = 0, state = 0;
+  std::size_t header = 0, first_row = 0, state = 0, plan = 0;
   line >> word;
   if (word != magic) {
     state_ = text;  // of `taut estimate`, or refused by who reads it
@@ -69,12 +70,13 @@ void WatchState::read() {
     return;
   }
   if (!(line >> scene >> record >> header >> first_row >> state)) refuse();
+  line >> plan;  // where there was one
   if (scene != scene_)
     throw InputError(path_, "", "belongs to another scene, or the scene file has changed",
                      "name a new file: it begins anew");
   std::size_t at = end + 1;
-  for (const auto& [size, part] :
-       {std::pair{header, &header_}, std::pair{first_row, &first_row_}, std::pair{state, &state_}}) {
+  for (const auto& [size, part] : {std::pair{header, &header_}, std::pair{first_row, &first_row_},
+                                   std::pair{state, &state_}, std::pair{plan, &plan_}}) {
     if (size > text.size() - at) refuse();
     *part = text.substr(at, size);
     at += size;
@@ -131,8 +133,10 @@ void WatchState::append(const std::string& row) {
   ++appended_;
 }
 
-void WatchState::renew(const std::string& state, std::optional<std::int64_t> record_size) {
+void WatchState::renew(const std::string& state, std::optional<std::int64_t> record_size,
+                       const std::string& plan) {
   record_size_ = record_size;
+  plan_ = plan;
   write_anew(state);
   appended_ = 0;
 }

@@ -36,6 +36,8 @@ class WatchState {
   const std::string& state() const { return state_; }
   const std::optional<std::int64_t>& record_size() const { return record_size_; }
   const std::vector<KeptRows>& rows() const { return rows_; }
+  /// What renew() was given of a plan, empty if there is none.
+  const std::string& plan() const { return plan_; }
   bool is_new() const { return state_.empty() && rows_.empty(); }
   /// The header of the log that was followed last; empty if there is none.
   const std::string& last_header() const { return header_; }
@@ -51,8 +53,9 @@ class WatchState {
   void append(const std::string& row);
   /// Whether a newer state is due.
   bool is_due() const { return appended_ >= most_rows; }
-  /// A newer state after the last row, and the size of the record with that row in it.
-  void renew(const std::string& state, std::optional<std::int64_t> record_size);
+  /// A newer state after the last row, the size of the record with that row in it, and how the jacks stood in
+  /// their plan.
+  void renew(const std::string& state, std::optional<std::int64_t> record_size, const std::string& plan);
 
  private:
   void read();
@@ -63,7 +66,7 @@ class WatchState {
   [[noreturn]] void fail() const;
 
   std::string path_, scene_;
-  std::string state_;
+  std::string state_, plan_;
   std::optional<std::int64_t> record_size_;
   std::vector<KeptRows> rows_;
   std::string header_, first_row_;  // of the log that was followed last

@@ -21,9 +21,9 @@ std::size_t open_forces(const CourseShape& shape) {
 }
 
 std::vector<PlanStage> stages_of(const CourseShape& shape, const std::vector<double>& force,
-                                 std::size_t jacks) {
+                                 PlanStage first) {
   std::vector<PlanStage> stages;
-  PlanStage stage{std::vector<double>(jacks, 0), std::vector<char>(jacks, 0)};
+  PlanStage stage = std::move(first);
   std::size_t next = 0;
   for (const CourseStep& step : shape) {
     for (const std::size_t jack : step.jacks) {
@@ -89,7 +89,7 @@ double Course::excess_of(const Leg& leg) const {
 }
 
 CourseOutcome Course::at(const std::vector<double>& force) {
-  const std::vector<PlanStage> stages = stages_of(shape_, force, jacking_.jacks().size());
+  const std::vector<PlanStage> stages = stages_of(shape_, force, jacking_.beginning());
   std::size_t same = 0;
   while (same < known_.size() && stages[same].force == known_[same].force) ++same;
   known_.resize(same);

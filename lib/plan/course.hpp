@@ -20,9 +20,8 @@ using CourseShape = std::vector<CourseStep>;
 
 /// The number of forces that a shape leaves open.
 std::size_t open_forces(const CourseShape& shape);
-/// All stages of a shape with these forces, one a step.
-std::vector<PlanStage> stages_of(const CourseShape& shape, const std::vector<double>& force,
-                                 std::size_t jacks);
+/// All stages of a shape with these forces, one a step, for jacks that stand at `first`.
+std::vector<PlanStage> stages_of(const CourseShape& shape, const std::vector<double>& force, PlanStage first);
 
 /// What comes of a plan.
 struct CourseOutcome {

@@ -118,12 +118,13 @@ CourseShape shape_at_once(const std::vector<Group>& groups, std::size_t stages, 
 
 class PlanSearch {
  public:
-  PlanSearch(const SceneDescription& scene, const PlanGoal& goal)
-      : scene_(scene), goal_(goal), full_target_(goal.target) {
+  PlanSearch(const SceneDescription& scene, const PlanGoal& goal, const GiveUp& give_up,
+             const PlanPast* past = nullptr)
+      : scene_(scene), goal_(goal), full_target_(goal.target), past_(past) {
     condensed_ = condense(scene, ScalarType::float64);
     if (!condensed_.condensing.status) return;
     jacks_ = plan_jacks(scene, goal, condensed_.most_force);
-    jacking_ = std::make_unique<Jacking>(scene_, goal_, jacks_);
+    jacking_ = std::make_unique<Jacking>(scene_, goal_, jacks_, give_up);
     groups_ = groups_of(scene, goal, jacks_);
     least_ratio_ = least_ratios(scene, condensed_.rho);
   }
@@ -144,10 +145,21 @@ class PlanSearch {
     find_bound(plan);
     leave_out_what_stays(plan);
     stages_ = goal_.has_stages ? static_cast<std::size_t>(goal_.stages) : 2 * groups_.size();
+    if (past_ != nullptr) {
+      stages_ = past_->moves_left;
+      if (!jacking_->begin_after(past_->moves)) {
+        plan.status = jacking_->why();
+        return plan;
+      }
+      start_ = jacking_->state();
+    }
 
     Found best;
-    if (is_one_jack()) best = one_jack();
-    if (stages_ <= 2 && best.merit() < 1) {
+    Found before;
+    if (past_ != nullptr) best = before = as_before();
+    if (is_one_jack()) take_better(best, one_jack());
+    const bool is_whole = is_one_jack() && stages_ <= 2 && (stages_ == 2 || !goal_.lock);
+    if (is_whole && best.merit() < 1) {
       if (!is_settled_) polish(best);
     } else {
       // One move more at a time: what fewer moves reach is where more begin.
@@ -165,16 +177,21 @@ class PlanSearch {
         best = std::move(pull);
       }
     }
-    be_gentle(best);
-    drop_idle_moves(best);
+    if (past_ != nullptr && before.merit() <= best.merit() + worth_a_change) {
+      best = std::move(before);
+      plan.is_as_before = true;
+    } else {
+      be_gentle(best);
+      drop_idle_moves(best);
+    }
     plan.loads_come_first = jacking_->loads_come_first();
     plan.shape = best.shape;
-    plan.stages = stages_of(best.shape, best.plan.force, jacks_.size());
+    plan.stages = stages_of(best.shape, best.plan.force, jacking_->beginning());
     plan.outcome = best.plan.outcome;
     if (plan.outcome.whole) plan.outcome.error = off_target(plan.outcome.tension.back(), full_target_);
     plan.moves_tried = jacking_->legs();
     // In second-order theory friction follows the displaced geometry, and pieces do not quite meet.
-    const bool is_linear = !scene_.second_order || condensed_.rigid;
+    const bool is_linear = past_ == nullptr && (!scene_.second_order || condensed_.rigid);
     if (is_linear && plan.outcome.error <= plan.bound.error + as_good)
       plan.certainty = Certainty::best_of_all;
     else if (is_linear && best.is_closed)
@@ -281,7 +298,7 @@ class PlanSearch {
       return std::min(jacks_[jack].most_force, width * (0.5 + 0.65 * k / grid));
     };
     const auto stage = [&](double pull) {
-      PlanStage at = jacking_->at_rest();
+      PlanStage at = jacking_->beginning();
       at.force[jack] = pull;
       return at;
     };
@@ -333,6 +350,10 @@ class PlanSearch {
       const UpAndBack pull = best_pull(*jacking_, goal_, jack, start_);
       take(pull, {pull.up});
     }
+    if (past_ != nullptr) {
+      const UpAndBack release = best_release(*jacking_, goal_, jack, seating, start_);
+      take(release, {release.back});
+    }
     if (stages_ >= 2) {
       const UpAndBack both = best_up_and_back(*jacking_, goal_, jack, seating, condensed_.rigid ? 1 : 2,
                                               start_, moves_up_and_back);
@@ -355,9 +376,20 @@ class PlanSearch {
     if (plan.outcome.merit() < best.plan.outcome.merit()) best.plan = std::move(plan);
   }
 
+  // The plan until now, on the structure as it is known now.
+  Found as_before() {
+    Found found;
+    found.shape = past_->rest;
+    Course course(*jacking_, goal_, found.shape, start_, least_ratio_);
+    found.plan = {past_->force, course.at(past_->force)};
+    return found;
+  }
+
   std::vector<CourseShape> shapes() const {
     std::vector<CourseShape> all;
-    if (groups_.size() == 1 || stages_ < groups_.size()) {
+    if (past_ != nullptr && groups_.size() > 1) {
+      all.push_back(past_->rest);
+    } else if (groups_.size() == 1 || stages_ < groups_.size()) {
       all.push_back(shape_at_once(groups_, stages_, goal_.lock));
     } else {
       all.push_back(shape_in_turn(groups_, stages_, goal_.lock, false));
@@ -506,7 +538,7 @@ class PlanSearch {
     const double enough = best.merit() + as_good / 10;
     for (std::size_t n = 0; n < best.plan.force.size(); ++n) {
       // The force that the jack comes from, and the one that it goes to next.
-      double before = 0, after = -1;
+      double before = jacking_->beginning().force[course.jack_of(n)], after = -1;
       for (std::size_t k = 0; k < best.plan.force.size(); ++k) {
         if (course.jack_of(k) != course.jack_of(n)) continue;
         if (k < n) before = best.plan.force[k];
@@ -552,6 +584,7 @@ class PlanSearch {
   const SceneDescription& scene_;
   PlanGoal goal_;  // but for find_bound() without the targets that no jack has anything to do with
   std::vector<double> full_target_;
+  const PlanPast* past_;  // null: jacks are at rest
   CondensedArrays condensed_;
   std::vector<PlanJack> jacks_;
   std::unique_ptr<Jacking> jacking_;
@@ -564,16 +597,21 @@ class PlanSearch {
 
 }  // namespace
 
-Plan find_plan(const SceneDescription& scene, const PlanGoal& goal) {
-  Plan plan = PlanSearch(scene, goal).find();
+Plan find_plan(const SceneDescription& scene, const PlanGoal& goal, const GiveUp& give_up) {
+  Plan plan = PlanSearch(scene, goal, give_up).find();
   if (!plan.status || plan.outcome.merit() <= far_off || !has_limits(goal)) return plan;
   PlanGoal free = goal;
   free.most_segment.assign(goal.most_segment.size(), no_limit);
   free.most_force.assign(goal.most_force.size(), {no_limit, no_limit});
   free.most_stroke = free.most_force;
-  plan.without_limits = PlanSearch(scene, free).find().outcome.merit();
+  plan.without_limits = PlanSearch(scene, free, give_up).find().outcome.merit();
   plan.limits_stop_it = plan.without_limits < plan.outcome.merit() - 1e-6;
   return plan;
+}
+
+Plan find_rest_of_plan(const SceneDescription& scene, const PlanGoal& goal, const PlanPast& past,
+                       const GiveUp& give_up) {
+  return PlanSearch(scene, goal, give_up, &past).find();
 }
 
 UsualJacking usual_jacking(const SceneDescription& scene, const PlanGoal& goal, double excess) {
@@ -596,7 +634,7 @@ UsualJacking usual_jacking(const SceneDescription& scene, const PlanGoal& goal, 
         force.push_back(m + 1 < moves ? (1 + excess) * target : target);
       }
   Course course(jacking, goal, shape, jacking.state(), least_ratios(scene, condensed.rho));
-  usual.stages = stages_of(shape, force, jacks.size());
+  usual.stages = stages_of(shape, force, jacking.beginning());
   usual.outcome = course.at(force);
   return usual;
 }

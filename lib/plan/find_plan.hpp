@@ -37,6 +37,7 @@ struct Plan {
   double without_limits = 0;  ///< error of the best plan that heeds none, where one is heeded and it is large
   bool limits_stop_it = false;
   std::size_t moves_tried = 0;
+  bool is_as_before = false;  ///< of a rest: it is that of the plan until now
 };
 
 /// How far from its target a plan is useless.
@@ -46,7 +47,27 @@ inline constexpr double far_off = 0.2;
 /// the jacks of one cable, both at once where it has two; cables with fewer moves than there are of them move
 /// together. Throws InputError for a scene or a goal that cannot be used. Deterministic and bounded; methods
 /// and what of them is proved: see README.md of lib.
-Plan find_plan(const SceneDescription& scene, const PlanGoal& goal);
+///
+/// `give_up`, if given, is asked all the time; GivenUp is thrown where nobody needs the plan any more.
+Plan find_plan(const SceneDescription& scene, const PlanGoal& goal, const GiveUp& give_up = {});
+
+/// By how much nearer to the targets another plan has to come before anybody is told to jack otherwise.
+inline constexpr double worth_a_change = 5e-4;
+
+/// What has been jacked, and what is left to do.
+struct PlanPast {
+  std::vector<PastMove> moves;  ///< the jacks' turning points, the last one where they stand now
+  CourseShape rest;             ///< the stages to come of the plan until now, with the present one
+  std::size_t moves_left = 1;   ///< at most so many where one cable alone is jacked
+  std::vector<double> force;    ///< those of the plan until now in `rest`, to begin from
+};
+
+/// The best plan from there on: friction remembers what was jacked, so it is followed first. With one cable
+/// to jack it has at most `moves_left` moves, with several those of `rest`. The plan until now stays if no
+/// other comes nearer by more than worth_a_change. `before` is under the loads alone. Nothing is proved.
+/// Throws and costs what find_plan() does.
+Plan find_rest_of_plan(const SceneDescription& scene, const PlanGoal& goal, const PlanPast& past,
+                       const GiveUp& give_up = {});
 
 /// What is usual in place of a plan: a pull to the target of the segment at each jack; with an `excess`,
 /// beyond it by this part and back. With lock-off where the goal asks for it.

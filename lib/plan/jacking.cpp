@@ -32,8 +32,14 @@ std::vector<PlanJack> plan_jacks(const SceneDescription& scene, const PlanGoal& 
   return jacks;
 }
 
-Jacking::Jacking(const SceneDescription& scene, const PlanGoal& goal, std::vector<PlanJack> jacks)
-    : scene_(scene), goal_(goal), jacks_(std::move(jacks)), model_(make_leg_model(scene)) {}
+Jacking::Jacking(const SceneDescription& scene, const PlanGoal& goal, std::vector<PlanJack> jacks,
+                 GiveUp give_up)
+    : scene_(scene),
+      goal_(goal),
+      jacks_(std::move(jacks)),
+      give_up_(std::move(give_up)),
+      model_(make_leg_model(scene)),
+      beginning_(at_rest()) {}
 
 bool Jacking::begin() {
   if (const Followed start = model_->start(1); !start.whole()) {
@@ -41,15 +47,34 @@ bool Jacking::begin() {
     return false;
   }
   const std::string before = state();
-  const Followed loaded = model_->advance(row_of(at_rest()), 1);
+  const Followed loaded = model_->advance(row_of(at_rest(), goal_.factor), 1);
   loads_come_first_ = loaded.whole();
   if (!loads_come_first_) go_to(before);
   return true;
 }
 
-LogRow Jacking::row_of(const PlanStage& stage) const {
+bool Jacking::begin_after(const std::vector<PastMove>& past) {
+  const auto is_whole = [this](const Followed& path) {
+    if (!path.whole()) why_ = path.status;
+    return path.whole();
+  };
+  if (!is_whole(model_->start(1))) return false;
+  for (const PastMove& move : past) {
+    count();
+    if (!is_whole(model_->advance(row_of(move.stage, move.factor), 1))) return false;
+    beginning_ = move.stage;
+  }
+  return true;
+}
+
+void Jacking::count() {
+  if (give_up_ && give_up_()) throw GivenUp();
+  ++legs_;
+}
+
+LogRow Jacking::row_of(const PlanStage& stage, const std::vector<double>& factor) const {
   LogRow row;
-  row.factor = goal_.factor;
+  row.factor = factor;
   row.cables.resize(scene_.cables.size());
   for (std::size_t k = 0; k < jacks_.size(); ++k) {
     EndRow& end = row.cables[jacks_[k].cable][jacks_[k].end];
@@ -70,8 +95,8 @@ LegPoint Jacking::here() const {
 }
 
 Leg Jacking::follow(const PlanStage& stage, std::vector<std::string>* seen) {
-  ++legs_;
-  const LogRow row = row_of(stage);
+  count();
+  const LogRow row = row_of(stage, goal_.factor);
   Leg leg;
   leg.points.push_back(here());
   if (seen != nullptr) seen->push_back(state());
@@ -92,9 +117,9 @@ Leg Jacking::follow(const PlanStage& stage, std::vector<std::string>* seen) {
 }
 
 Leg Jacking::jump(const PlanStage& stage) {
-  ++legs_;
+  count();
   Leg leg;
-  leg.whole = model_->advance(row_of(stage), 1).whole();
+  leg.whole = model_->advance(row_of(stage, goal_.factor), 1).whole();
   leg.points.push_back(here());
   leg.points.back().part = 1;
   return leg;

@@ -1,6 +1,8 @@
 // Moves of jacks on a model: from stage to stage, event by event, and back to any state that was kept.
 #pragma once
 
+#include <exception>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,6 +33,19 @@ struct PlanStage {
   std::vector<char> locked;
 };
 
+/// A move that has been made, with the load factors that came with it.
+struct PastMove {
+  PlanStage stage;
+  std::vector<double> factor;  ///< of every load pattern
+};
+
+/// Asked before every move whether nobody needs the plan any more.
+using GiveUp = std::function<bool()>;
+/// Thrown where the answer is yes.
+struct GivenUp : std::exception {
+  const char* what() const noexcept override { return "the plan is not needed any more"; }
+};
+
 /// Forces and extensions somewhere on the path of a move.
 struct LegPoint {
   double part = 0;                ///< of the whole move
@@ -50,12 +65,16 @@ struct Leg {
 class Jacking {
  public:
   /// Throws InputError if the scene cannot be used. The description and the goal must outlive it.
-  Jacking(const SceneDescription& scene, const PlanGoal& goal, std::vector<PlanJack> jacks);
+  Jacking(const SceneDescription& scene, const PlanGoal& goal, std::vector<PlanJack> jacks,
+          GiveUp give_up = {});
 
   /// Brings prestrain and loads on, with all jacks at zero. If the structure does not stand under its loads
   /// without its cables, the loads come with the first move. False if there is no answer even without loads;
   /// why() says the reason.
   [[nodiscard]] bool begin();
+  /// In place of begin(): brings prestrain on and goes through all that has been jacked; plans go on from
+  /// there, with the loads of the goal. False if there is no answer on the way; why() says the reason.
+  [[nodiscard]] bool begin_after(const std::vector<PastMove>& past);
   const Status& why() const { return why_; }
   bool loads_come_first() const { return loads_come_first_; }
 
@@ -63,6 +82,8 @@ class Jacking {
   PlanStage at_rest() const {
     return {std::vector<double>(jacks_.size(), 0), std::vector<char>(jacks_.size(), 0)};
   }
+  /// Where the jacks stand before the first stage of a plan: at rest, or where the past has left them.
+  const PlanStage& beginning() const { return beginning_; }
   /// The state reached, to come back to.
   std::string state() const { return model_->save(); }
   void go_to(const std::string& state) { static_cast<void>(model_->go_to(state)); }
@@ -75,12 +96,15 @@ class Jacking {
   LegPoint here() const;
 
  private:
-  LogRow row_of(const PlanStage& stage) const;
+  LogRow row_of(const PlanStage& stage, const std::vector<double>& factor) const;
+  void count();
 
   const SceneDescription& scene_;
   const PlanGoal& goal_;
   std::vector<PlanJack> jacks_;
+  GiveUp give_up_;
   std::unique_ptr<LegModel> model_;
+  PlanStage beginning_;
   bool loads_come_first_ = true;
   Status why_ = Status::success();
   std::size_t legs_ = 0;

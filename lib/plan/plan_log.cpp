@@ -23,6 +23,12 @@ double reading_of(const InstrumentDescription& gauge, double force) {
   return from[0] + (force - from[1]) * (to[0] - from[0]) / (to[1] - from[1]);
 }
 
+double gauge_shows(const InstrumentDescription& gauge, double force, bool pulls) {
+  double branch = pulls ? 1 + gauge.part : 1 - gauge.part;
+  if (gauge.right_while_it_pulls) branch = pulls ? 1 : 1 - 2 * gauge.part;
+  return reading_of(gauge, branch * force);
+}
+
 std::string plan_log(const SceneDescription& scene, const PlanGoal& goal, const Plan& plan) {
   std::string text = "time";
   for (const LoadDescription& load : scene.loads) text += "," + load.name;

@@ -14,6 +14,9 @@ namespace taut::host {
 /// The reading of a gauge for a force: by its calibration, else the force itself.
 double reading_of(const InstrumentDescription& gauge, double force);
 
+/// What a gauge shows while its jack pulls with a force, or is let out: with the friction of its ram.
+double gauge_shows(const InstrumentDescription& gauge, double force, bool pulls);
+
 /// The log of a plan: a row for the loads, one for every stage, a minute apart; `simulate` follows it.
 /// Columns of calibrated jacks are in the unit of their gauge.
 std::string plan_log(const SceneDescription& scene, const PlanGoal& goal, const Plan& plan);

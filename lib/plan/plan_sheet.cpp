@@ -86,9 +86,7 @@ class Sheet {
   // What a gauge shows while its jack pulls, or is let out.
   std::string gauge_text(std::size_t k, double force, bool pulls) const {
     const InstrumentDescription& gauge = scene_.cables[plan_.jacks[k].cable].cell[plan_.jacks[k].end];
-    double branch = pulls ? 1 + gauge.part : 1 - gauge.part;
-    if (gauge.right_while_it_pulls) branch = pulls ? 1 : 1 - 2 * gauge.part;
-    const double reading = reading_of(gauge, branch * force);
+    const double reading = gauge_shows(gauge, force, pulls);
     return gauge.calibration.empty() ? unit_.text(reading) : significant(reading, 4);
   }
 

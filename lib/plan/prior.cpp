@@ -87,8 +87,25 @@ SceneDescription drawn(const SceneDescription& scene, std::size_t number) {
   return other;
 }
 
+SceneDescription with_mu(const SceneDescription& scene, const std::vector<double>& mu,
+                         const std::vector<double>& deviation) {
+  SceneDescription other = scene;
+  std::size_t joint = 0;
+  for (CableDescription& cable : other.cables) {
+    std::vector<double> sd;
+    for (double& each : cable.mu) {
+      each = std::max(mu[joint], 0.0);
+      sd.push_back(deviation[joint++]);
+    }
+    cable.mu_sd = mean(sd);
+    cable.has_mu_sd = true;
+  }
+  return other;
+}
+
 PriorOutcome outcome_over_prior(const SceneDescription& scene, const PlanGoal& goal,
-                                const std::vector<PlanJack>& jacks, const std::vector<PlanStage>& stages) {
+                                const std::vector<PlanJack>& jacks, const std::vector<PlanStage>& stages,
+                                const std::vector<PastMove>& past, const GiveUp& give_up) {
   PriorOutcome outcome;
   std::vector<double> error;
   std::vector<std::vector<std::vector<double>>> stroke(stages.size(),
@@ -96,9 +113,9 @@ PriorOutcome outcome_over_prior(const SceneDescription& scene, const PlanGoal& g
   const std::size_t draws = scene.second_order ? draws_second_order : draws_linear;
   for (std::size_t number = 0; number < draws; ++number) {
     const SceneDescription other = drawn(scene, number);
-    Jacking jacking(other, goal, jacks);
+    Jacking jacking(other, goal, jacks, give_up);
     ++outcome.draws;
-    bool whole = jacking.begin();
+    bool whole = past.empty() ? jacking.begin() : jacking.begin_after(past);
     std::vector<LegPoint> points;
     for (std::size_t s = 0; s < stages.size() && whole; ++s) {
       const Leg leg = jacking.jump(stages[s]);

@@ -18,6 +18,11 @@ bool has_prior(const SceneDescription& scene);
 /// `shared`, with `scatter` from joint to joint about it; below zero it is zero.
 SceneDescription drawn(const SceneDescription& scene, std::size_t number);
 
+/// The scene with what has been learned of mu in place of what it says: of every joint its mean and standard
+/// deviation, one after the other as in an Answer.
+SceneDescription with_mu(const SceneDescription& scene, const std::vector<double>& mu,
+                         const std::vector<double>& deviation);
+
 /// What a plan does over the prior.
 struct PriorOutcome {
   std::size_t draws = 0, failed = 0;  ///< of these the model has no answer
@@ -25,7 +30,9 @@ struct PriorOutcome {
   /// Of every stage and jack [m]: between these 95 % of the draws are.
   std::vector<std::vector<std::array<double, 2>>> stroke;
 };
+/// Of a plan that goes on where the moves of `past` have led to, with a `past`.
 PriorOutcome outcome_over_prior(const SceneDescription& scene, const PlanGoal& goal,
-                                const std::vector<PlanJack>& jacks, const std::vector<PlanStage>& stages);
+                                const std::vector<PlanJack>& jacks, const std::vector<PlanStage>& stages,
+                                const std::vector<PastMove>& past = {}, const GiveUp& give_up = {});
 
 }  // namespace taut::host

@@ -24,16 +24,17 @@ class Pull {
   Pull(Jacking& jacking, const PlanGoal& goal, std::size_t jack, const std::string& start)
       : jacking_(jacking), goal_(goal), jack_(jack) {
     jacking_.go_to(start);
-    PlanStage stage = jacking_.at_rest();
-    const double most = jacking_.jacks()[jack].most_force;
+    PlanStage stage = jacking_.beginning();
+    const double first = stage.force[jack], most = std::max(first, jacking_.jacks()[jack].most_force);
     stage.force[jack] = most;
     leg_ = jacking_.follow(stage, &state_);
-    for (const LegPoint& point : leg_.points) force_.push_back(most * point.part);
+    for (const LegPoint& point : leg_.points) force_.push_back(mix(first, most, point.part));
     find_end();
   }
 
   /// Forces at events, and the last one that is worth a pull.
   const std::vector<double>& forces() const { return force_; }
+  double begin() const { return force_.front(); }
   const LegPoint& point(std::size_t i) const { return leg_.points[i]; }
   double end() const { return end_; }
   /// The event at or below a force.
@@ -47,7 +48,7 @@ class Pull {
     const std::size_t i = below(force);
     jacking_.go_to(state_[i]);
     if (force <= force_[i]) return;
-    PlanStage stage = jacking_.at_rest();
+    PlanStage stage = jacking_.beginning();
     stage.force[jack_] = force;
     jacking_.jump(stage);
   }
@@ -144,11 +145,16 @@ class Search {
         pull_(jacking, goal, jack, start),
         steepest_(steepness * pull_.steepest()) {}
 
+  UpAndBack back_alone() {
+    best_.bound = release(pull_.begin()).error;
+    return best_;
+  }
+
   UpAndBack run() {
-    const double end = pull_.end();
-    release(0);
+    const double begin = pull_.begin(), end = pull_.end();
+    release(begin);
     release(end);
-    divide(0, end);
+    divide(begin, end);
     while (has_legs()) {
       const auto lowest = std::min_element(open_.begin(), open_.end(),
                                            [](const Part& a, const Part& b) { return a.bound < b.bound; });
@@ -176,7 +182,9 @@ class Search {
     Release release;
     release.up = up;
     pull_.go_to(up);
-    const Leg leg = jacking_.follow(jacking_.at_rest());
+    PlanStage let_out = jacking_.beginning();
+    let_out.force[jack_] = 0;
+    const Leg leg = jacking_.follow(let_out);
     release.stroke = leg.points.front().stroke[jack_];
     for (const LegPoint& point : leg.points) {
       if (excess_at(point, goal_, jacking_.jacks()) > 0) {
@@ -373,6 +381,11 @@ UpAndBack best_pull(Jacking& jacking, const PlanGoal& goal, std::size_t jack, co
     best.error = best.bound = nearest.error;
   }
   return best;
+}
+
+UpAndBack best_release(Jacking& jacking, const PlanGoal& goal, std::size_t jack, double seating,
+                       const std::string& start) {
+  return Search(jacking, goal, jack, seating, 1, start, 1).back_alone();
 }
 
 UpAndBack best_up_and_back(Jacking& jacking, const PlanGoal& goal, std::size_t jack, double seating,

@@ -18,11 +18,15 @@ struct UpAndBack {
   bool is_closed() const { return found && bound >= error - 1e-9; }
 };
 
-/// The best pull of the only jack of a cable, without a lock-off to come. The forces on the way up are lines
-/// between events, so this is exact.
+/// The best pull of the only jack of a cable from where it stands, without a lock-off to come. The forces on
+/// the way up are lines between events, so this is exact.
 UpAndBack best_pull(Jacking& jacking, const PlanGoal& goal, std::size_t jack, const std::string& start);
 
-/// The best pull and release.
+/// The best release from where the jack stands, as exact; `up` is where it stands.
+UpAndBack best_release(Jacking& jacking, const PlanGoal& goal, std::size_t jack, double seating,
+                       const std::string& start);
+
+/// The best pull, from where the jack stands, and release.
 ///
 /// Friction remembers turning points alone, so the state is a function of two forces, and one release shows
 /// all that can follow a pull. Between two pulls whose releases meet the same events in the same order,

@@ -1,4 +1,4 @@
-#include "lib/own_stack.hpp"
+#include "lib/kinds/own_stack.hpp"
 
 #ifndef _WIN32
 #include <pthread.h>
