@@ -79,6 +79,8 @@ PlanGuide::PlanGuide(const SceneDescription& scene, const PlanGoal& goal, const 
       now_(at_rest(plan.jacks.size())),
       moves_left_(goal.has_stages ? static_cast<std::size_t>(goal.stages) : usual_moves),
       planned_(known_mu(scene)),
+      read_before_(plan.jacks.size(), 0),
+      ahead_(plan.jacks.size(), 0),
       asked_at_(plan.jacks.size(), 0) {
   take_outcome(plan, prior);
 }
@@ -115,7 +117,9 @@ PlanStage PlanGuide::stand(const LogRow& row, const Answer& answer) const {
 
 std::optional<PlanRequest> PlanGuide::take(const LogRow& row, const Answer& answer,
                                            const std::vector<double>& factor, bool may_ask) {
-  now_ = stand(row, answer);
+  const PlanStage now = stand(row, answer);
+  look_ahead(row, now);
+  now_ = now;
   time_ = row.time;
   has_row_ = true;
   path_.take({now_, factor});
@@ -131,6 +135,25 @@ std::optional<PlanRequest> PlanGuide::take(const LogRow& row, const Answer& answ
   const std::string why = news(mu);
   if (why.empty()) return std::nullopt;
   return request(row.time, why, mu);
+}
+
+// A step that the estimator waits with until the next reading confirms it: whoever pumps must not wait.
+void PlanGuide::look_ahead(const LogRow& row, const PlanStage& now) {
+  constexpr double stands = 0.25, steps = 3;
+  for (std::size_t k = 0; k < jacks_.size(); ++k) {
+    const std::optional<double>& reading = row.cables[jacks_[k].cable][jacks_[k].end].reading;
+    if (!reading) continue;
+    const double step = *reading - read_before_[k];
+    // Where a jack turns the friction of its ram lets the reading go ahead alone.
+    const double play = 2 * scene_.cables[jacks_[k].cable].cell[jacks_[k].end].part * now.force[k];
+    const bool goes_on = finder_.direction(k) * (now.force[k] - finder_.memory().begin.force[k]) >
+                         straight * tolerance_[k] + play;
+    const bool waits = goes_on && now.locked[k] == 0 &&
+                       std::fabs(now.force[k] - now_.force[k]) < stands * tolerance_[k] &&
+                       std::fabs(step) > steps * tolerance_[k];
+    ahead_[k] = waits ? step : 0;
+    read_before_[k] = *reading;
+  }
 }
 
 // Of the stages that were left behind in this row.
@@ -288,13 +311,15 @@ PlanOrder PlanGuide::order_of(std::size_t k) const {
   const int way = finder_.direction(k);
   const bool pulls = way >= 0;
   order.to = finder_.stages()[present].force[k];
-  order.to_go = (pulls ? 1 : -1) * (order.to - now_.force[k]);
+  const double force = now_.force[k] + ahead_[k];
+  order.to_go = (pulls ? 1 : -1) * (order.to - force);
   const InstrumentDescription& gauge = scene_.cables[jacks_[k].cable].cell[jacks_[k].end];
   if (!gauge.calibration.empty()) {
     order.gauge_to = gauge_shows(gauge, order.to, pulls);
-    order.gauge_to_go = (pulls ? 1 : -1) * (*order.gauge_to - gauge_shows(gauge, now_.force[k], pulls));
+    order.gauge_to_go = (pulls ? 1 : -1) * (*order.gauge_to - gauge_shows(gauge, force, pulls));
   }
-  if (!finder_.is_reached(k) && way != 0) order.order = pulls ? JackOrder::pull : JackOrder::let_out;
+  const bool is_there = finder_.is_reached(k) || way == 0 || order.to_go <= tolerance_[k];
+  if (!is_there) order.order = pulls ? JackOrder::pull : JackOrder::let_out;
   if (!raised_.empty() && order.order == JackOrder::pull) order.order = JackOrder::stop;
   return order;
 }

@@ -48,6 +48,7 @@ class PlanGuide {
  private:
   PlanStage stand(const LogRow& row, const Answer& answer) const;
   std::vector<double> open_forces_left() const;
+  void look_ahead(const LogRow& row, const PlanStage& now);
   void pass_stages(std::size_t before);
   void watch_limits(const Answer& answer);
   bool has_moved() const;
@@ -76,8 +77,9 @@ class PlanGuide {
   std::optional<double> expected_, at_95_;
   KnownMu planned_;  // what the plan was made with
   std::vector<PlanAnew> anew_;
-  std::string off_plan_;          // a jack was stopped elsewhere: how
-  std::vector<double> asked_at_;  // where the jacks stood when a plan was asked for
+  std::string off_plan_;                     // a jack was stopped elsewhere: how
+  std::vector<double> read_before_, ahead_;  // of every jack: its last reading; how far it surely is ahead
+  std::vector<double> asked_at_;             // where the jacks stood when a plan was asked for
   bool is_planning_ = false, has_changed_ = false;
   std::set<std::string> raised_;  // limits
 };

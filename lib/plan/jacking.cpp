@@ -54,17 +54,21 @@ bool Jacking::begin() {
 }
 
 bool Jacking::begin_after(const std::vector<PastMove>& past) {
-  const auto is_whole = [this](const Followed& path) {
-    if (!path.whole()) why_ = path.status;
-    return path.whole();
-  };
-  if (!is_whole(model_->start(1))) return false;
-  for (const PastMove& move : past) {
+  const Followed start = model_->start(1);
+  why_ = start.status;
+  bool whole = start.whole();
+  for (std::size_t i = 0; i < past.size() && start.whole(); ++i) {
     count();
-    if (!is_whole(model_->advance(row_of(move.stage, move.factor), 1))) return false;
-    beginning_ = move.stage;
+    const std::string before = state();
+    const Followed path = model_->advance(row_of(past[i].stage, past[i].factor), 1);
+    whole = path.whole();
+    why_ = path.status;
+    if (whole)
+      beginning_ = past[i].stage;
+    else
+      go_to(before);
   }
-  return true;
+  return whole;
 }
 
 void Jacking::count() {
