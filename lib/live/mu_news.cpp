@@ -8,7 +8,7 @@
 namespace taut::host {
 namespace {
 
-constexpr double surely = 2, least_change = 0.02;
+constexpr double surely = 2, likely = 1, least_change = 0.02;
 constexpr double half = 0.5, least_narrowing = 0.01;
 
 // Of the joints of a cable.
@@ -44,34 +44,30 @@ KnownMu known_mu(const SceneDescription& scene) {
   return known;
 }
 
-std::optional<std::string> mu_news(const SceneDescription& scene, const KnownMu& planned,
-                                   const KnownMu& now) {
+std::optional<MuNews> mu_news(const SceneDescription& scene, const KnownMu& planned, const KnownMu& now) {
+  std::optional<MuNews> better;
   std::size_t first = 0;
   for (const CableDescription& cable : scene.cables) {
     const std::size_t count = cable.joints();
-    std::optional<std::size_t> off;
-    for (std::size_t j = first; j < first + count && !off; ++j) {
+    if (count == 0) continue;
+    const Mean is = mean_of(now, first, count), was = mean_of(planned, first, count);
+    const bool is_narrow = is.sd <= half * was.sd && was.sd - is.sd >= least_narrowing * was.mu;
+    for (std::size_t j = first; j < first + count; ++j) {
       const double change = std::fabs(now.mu[j] - planned.mu[j]);
-      if (change > surely * now.sd[j] && change > least_change * planned.mu[j]) off = j;
+      if (!(change > (is_narrow ? likely : surely) * now.sd[j] && change > least_change * planned.mu[j]))
+        continue;
+      if (cable.shared_mu || count == 1) return MuNews{is_and_not(cable.name, is.mu, was.mu), true};
+      return MuNews{is_and_not("joint " + std::to_string(j - first + 1) + " of " + cable.name, now.mu[j],
+                               planned.mu[j]),
+                    true};
     }
-    if (off) {
-      if (cable.shared_mu || count == 1) {
-        const Mean is = mean_of(now, first, count), was = mean_of(planned, first, count);
-        return is_and_not(cable.name, is.mu, was.mu);
-      }
-      return is_and_not("joint " + std::to_string(*off - first + 1) + " of " + cable.name, now.mu[*off],
-                        planned.mu[*off]);
-    }
-    if (count > 0) {
-      const Mean is = mean_of(now, first, count), was = mean_of(planned, first, count);
-      if (is.sd <= half * was.sd && was.sd - is.sd >= least_narrowing * was.mu)
-        return "mu of " + cable.name + " is known to " + significant(is.sd, 2) + " and not to " +
-               significant(was.sd, 2) + " any more: it is " + fixed(is.mu, 3) + ", planned with " +
-               fixed(was.mu, 3);
-    }
+    if (is_narrow && !better)
+      better = MuNews{"mu of " + cable.name + " is known to " + significant(is.sd, 2) + " and not to " +
+                          significant(was.sd, 2) + " any more",
+                      false};
     first += count;
   }
-  return std::nullopt;
+  return better;
 }
 
 }  // namespace taut::host

@@ -17,12 +17,18 @@ struct KnownMu {
 /// What a scene says of mu.
 KnownMu known_mu(const SceneDescription& scene);
 
-/// Why a plan that was made for `planned` should be made anew, as `mu of C is 0.26 and not 0.20`; nothing if
-/// it need not be. It should where mu of a joint is off what was planned with by more than twice the present
-/// standard deviation and by more than a fiftieth; or where the standard deviations of a cable, in the mean,
-/// have become half of what they were, by at least a hundredth of mu. Both begin anew with every plan, so mu
-/// that wanders about within its spread asks for nothing, and what is learned once asks for a few plans: the
-/// spread cannot become half of what it was more often than that.
-std::optional<std::string> mu_news(const SceneDescription& scene, const KnownMu& planned, const KnownMu& now);
+/// What is new of mu since a plan was made.
+struct MuNews {
+  std::string why;        ///< `mu of C is 0.260 and not 0.200`
+  bool is_other = false;  ///< mu is another one than that of the plan; else it is only known better
+};
+
+/// What is new since a plan was made for `planned.mu`, and what comes of it was found for `planned.sd`;
+/// nothing if that is not worth mentioning. Mu is another one where that of a joint is off by more than a
+/// fiftieth and by more than twice its present standard deviation, or by more than once where, in the mean of
+/// its cable, these have become half of `planned.sd`; that alone, by at least a hundredth of mu, is to be
+/// known better. So mu that wanders about within its spread asks for nothing, and what is learned once asks a
+/// few times: the spread cannot halve more often than that.
+std::optional<MuNews> mu_news(const SceneDescription& scene, const KnownMu& planned, const KnownMu& now);
 
 }  // namespace taut::host

@@ -132,9 +132,9 @@ std::optional<PlanRequest> PlanGuide::take(const LogRow& row, const Answer& answ
   // What is left has a force in it that can still be chosen.
   if (open_forces_left().empty()) return std::nullopt;
   const KnownMu mu{answer.mu, answer.mu_deviation};
-  const std::string why = news(mu);
-  if (why.empty()) return std::nullopt;
-  return request(row.time, why, mu);
+  const std::optional<MuNews> found = news(mu);
+  if (!found) return std::nullopt;
+  return request(row.time, *found, mu);
 }
 
 // A step that the estimator waits with until the next reading confirms it: whoever pumps must not wait.
@@ -198,10 +198,10 @@ bool PlanGuide::has_moved() const {
   return false;
 }
 
-std::string PlanGuide::news(const KnownMu& mu) const {
-  if (!off_plan_.empty()) return off_plan_;
-  if (!has_moved()) return "";
-  return mu_news(scene_, planned_, mu).value_or("");
+std::optional<MuNews> PlanGuide::news(const KnownMu& mu) const {
+  if (!off_plan_.empty()) return MuNews{off_plan_, true};
+  if (!has_moved()) return std::nullopt;
+  return mu_news(scene_, planned_, mu);
 }
 
 std::vector<double> PlanGuide::open_forces_left() const {
@@ -212,10 +212,10 @@ std::vector<double> PlanGuide::open_forces_left() const {
   return forces;
 }
 
-PlanRequest PlanGuide::request(double time, const std::string& why, const KnownMu& mu) {
+PlanRequest PlanGuide::request(double time, const MuNews& news, const KnownMu& mu) {
   PlanRequest asked;
   asked.time = time;
-  asked.why = why;
+  asked.why = news.why;
   asked.mu = mu;
   asked.scene = with_mu(scene_, mu.mu, mu.sd);
   asked.past.moves = path_.moves();
@@ -223,6 +223,7 @@ PlanRequest PlanGuide::request(double time, const std::string& why, const KnownM
                          finder_.shape().end());
   asked.past.force = open_forces_left();
   asked.past.moves_left = std::max<std::size_t>(1, moves_left_);
+  asked.past.stays = !news.is_other;
   off_plan_.clear();
   asked_at_ = now_.force;
   is_planning_ = true;
@@ -235,10 +236,11 @@ void PlanGuide::take(const PlanFound& found) {
   // The jacks have gone on to another stage: what was found is not for it.
   const std::size_t left = finder_.stages().size() - finder_.present();
   if (left != past.rest.size()) {
-    if (off_plan_.empty()) off_plan_ = found.request.why;
+    if (off_plan_.empty() && !past.stays) off_plan_ = found.request.why;
     return;
   }
-  planned_ = found.request.mu;
+  if (!past.stays) planned_.mu = found.request.mu.mu;
+  planned_.sd = found.request.mu.sd;
   has_changed_ = true;
   if (!found.failure.empty()) {
     anew_.push_back({found.request.time, found.request.why + "; but there is no new plan: " + found.failure +

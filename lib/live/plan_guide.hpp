@@ -52,8 +52,8 @@ class PlanGuide {
   void pass_stages(std::size_t before);
   void watch_limits(const Answer& answer);
   bool has_moved() const;
-  std::string news(const KnownMu& mu) const;
-  PlanRequest request(double time, const std::string& why, const KnownMu& mu);
+  std::optional<MuNews> news(const KnownMu& mu) const;
+  PlanRequest request(double time, const MuNews& news, const KnownMu& mu);
   void adopt(const PlanFound& found);
   void take_outcome(const Plan& plan, const std::optional<PriorOutcome>& prior);
   PlanOrder order_of(std::size_t jack) const;

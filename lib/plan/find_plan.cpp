@@ -157,6 +157,7 @@ class PlanSearch {
     Found best;
     Found before;
     if (past_ != nullptr) best = before = as_before();
+    if (past_ != nullptr && past_->stays) return finished(plan, best, true);
     if (is_one_jack()) take_better(best, one_jack());
     const bool is_whole = is_one_jack() && stages_ <= 2 && (stages_ == 2 || !goal_.lock);
     if (is_whole && best.merit() < 1) {
@@ -177,13 +178,23 @@ class PlanSearch {
         best = std::move(pull);
       }
     }
-    if (past_ != nullptr && before.merit() <= best.merit() + worth_a_change) {
-      best = std::move(before);
-      plan.is_as_before = true;
-    } else {
-      be_gentle(best);
-      drop_idle_moves(best);
-    }
+    if (past_ != nullptr && before.merit() <= best.merit() + worth_a_change)
+      return finished(plan, before, true);
+    be_gentle(best);
+    drop_idle_moves(best);
+    return finished(plan, best, false);
+  }
+
+ private:
+  struct Found {
+    CourseShape shape;
+    CoursePlan plan;
+    bool is_closed = false;  // nothing of as many moves is better
+    double merit() const { return shape.empty() ? 1e300 : plan.outcome.merit(); }
+  };
+
+  Plan finished(Plan plan, const Found& best, bool is_as_before) const {
+    plan.is_as_before = is_as_before;
     plan.loads_come_first = jacking_->loads_come_first();
     plan.shape = best.shape;
     plan.stages = stages_of(best.shape, best.plan.force, jacking_->beginning());
@@ -198,14 +209,6 @@ class PlanSearch {
       plan.certainty = Certainty::best_of_moves;
     return plan;
   }
-
- private:
-  struct Found {
-    CourseShape shape;
-    CoursePlan plan;
-    bool is_closed = false;  // nothing of as many moves is better
-    double merit() const { return shape.empty() ? 1e300 : plan.outcome.merit(); }
-  };
 
   static void take_better(Found& best, Found other) {
     if (other.merit() < best.merit()) best = std::move(other);

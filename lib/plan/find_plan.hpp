@@ -59,6 +59,7 @@ struct PlanPast {
   std::vector<PastMove> moves;  ///< the jacks' turning points, the last one where they stand now
   CourseShape rest;             ///< the stages to come of the plan until now, with the present one
   std::size_t moves_left = 1;   ///< at most so many where one cable alone is jacked
+  bool stays = false;           ///< no other is looked for: what comes of this one is the question
   std::vector<double> force;    ///< those of the plan until now in `rest`, to begin from
 };
 
