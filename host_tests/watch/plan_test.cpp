@@ -52,7 +52,7 @@ class Site {
     log_ += std::to_string(rows_) + "," + std::to_string(force) + "\n";
     write(scratch_, "site.csv", log_);
     const Outcome simulated =
-        run_taut(scratch_, "simulate " + scratch_.quoted("site.json") + " " + scratch_.quoted("site.csv"));
+        run_taut(own_, "simulate " + scratch_.quoted("site.json") + " " + scratch_.quoted("site.csv"));
     REQUIRE(simulated.status == 0);
     const Table table(simulated.out);
     forces_.clear();
@@ -71,6 +71,7 @@ class Site {
 
  private:
   const Scratch& scratch_;
+  Scratch own_;  // the program under test writes to files of the other one
   std::mt19937 random_;
   std::string log_ = "time,C.end\n";
   std::vector<double> forces_;
@@ -101,11 +102,12 @@ double next_force(const Json& plan, double force) {
 
 /// How far off the forces are at the end of a plan that is made with one scene and jacked on another.
 double error_of_plan(const Scratch& scratch, const std::string& planned, const std::string& jacked) {
-  REQUIRE(run_taut(scratch, "plan " + scratch.quoted(planned) + " " + scratch.quoted("goal.json") + " -o " +
-                                scratch.quoted("plan.csv"))
+  const Scratch own;
+  REQUIRE(run_taut(own, "plan " + scratch.quoted(planned) + " " + scratch.quoted("goal.json") + " -o " +
+                            scratch.quoted("plan.csv"))
               .status == 0);
   const Outcome simulated =
-      run_taut(scratch, "simulate " + scratch.quoted(jacked) + " " + scratch.quoted("plan.csv"));
+      run_taut(own, "simulate " + scratch.quoted(jacked) + " " + scratch.quoted("plan.csv"));
   REQUIRE(simulated.status == 0);
   const Table table(simulated.out);
   std::vector<double> forces;
@@ -172,8 +174,9 @@ TEST_CASE("with the mu that it was made with a plan is followed as it is") {
   Json answer = answer_to(port, 0);
   // As `taut plan` has it: 210.18 kN and 198.02 kN.
   const Json first = answer.at("plan");
-  REQUIRE(run_taut(scratch, "plan " + scratch.quoted("scene.json") + " " + scratch.quoted("goal.json") +
-                                " -o " + scratch.quoted("plan.csv"))
+  const Scratch own;
+  REQUIRE(run_taut(own, "plan " + scratch.quoted("scene.json") + " " + scratch.quoted("goal.json") + " -o " +
+                            scratch.quoted("plan.csv"))
               .status == 0);
   const Table planned(text_of(scratch.path / "plan.csv"));
   REQUIRE(first.at("stages").size() == 2);
