@@ -305,3 +305,99 @@ TEST_CASE("cables on one node are tensioned in turn, each with what the next one
   const double s = 0.002, u2 = (k * (eB + s) - k * eA) / (c + 2 * k);
   CHECK(plan.stages[2].force[1] == doctest::Approx(k * (eB + s - u2)).epsilon(1e-6));
 }
+
+namespace {
+
+// Brute force: of where the moves of the past have led to, the best pull or release of a grid, and for two
+// moves the best pull and release.
+double best_of_rest(const SceneDescription& scene, const PlanGoal& goal, const std::vector<PlanJack>& jacks,
+                    const std::vector<PastMove>& past, int moves) {
+  Jacking jacking(scene, goal, jacks);
+  REQUIRE(jacking.begin_after(past));
+  const std::string here = jacking.state();
+  constexpr int grid = 120;
+  const double most = 2 * goal.target[0];
+  const auto error = [&] { return off_target(jacking.here().tension, goal.target); };
+  double best = error();
+  for (int i = 0; i <= grid; ++i) {
+    jacking.go_to(here);
+    PlanStage stage = jacking.beginning();
+    stage.force[0] = most * i / grid;
+    if (!jacking.jump(stage).whole) continue;
+    best = std::min(best, error());
+    const std::string turned = jacking.state();
+    for (int k = 0; k <= grid && moves > 1; ++k) {
+      jacking.go_to(turned);
+      stage.force[0] = most * k / grid;
+      if (jacking.jump(stage).whole) best = std::min(best, error());
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+TEST_CASE("the rest of a plan knows what was jacked: it goes on as planned, and brute force is no nearer") {
+  const std::uint64_t seed = 31;
+  CAPTURE(seed);
+  Random random(seed);
+  for (int round = 0; round < 12; ++round) {
+    CAPTURE(round);
+    const plan_test::Site site = plan_test::random_site(
+        random, round % 2 == 0 ? plan_test::SceneKind::saddles : plan_test::SceneKind::truss, false);
+    const Plan plan = find_plan(site.scene, site.goal);
+    REQUIRE(plan.status.ok());
+    if (plan.stages.size() < 2) continue;
+    PlanStage rest = plan.stages[0];
+    rest.force[0] = 0;
+    PlanPast past;
+    past.moves = {{rest, site.goal.factor}, {plan.stages[0], site.goal.factor}};
+    past.rest = {plan.shape[1]};
+    past.force = {plan.stages[1].force[0]};
+    // After the first move the second one is left as it is.
+    const Plan same = find_rest_of_plan(site.scene, site.goal, past);
+    CHECK(same.is_as_before);
+    CHECK(same.outcome.error == doctest::Approx(plan.outcome.error).epsilon(1e-9));
+    // The pull has gone too far, and mu is another one: a release is left, or two moves.
+    past.moves[1].stage.force[0] *= 1.1;
+    SceneDescription other = site.scene;
+    for (double& mu : other.cables[0].mu) mu *= 0.7;
+    for (const int moves : {1, 2}) {
+      CAPTURE(moves);
+      past.moves_left = static_cast<std::size_t>(moves);
+      const Plan found = find_rest_of_plan(other, site.goal, past);
+      const double brute = best_of_rest(other, site.goal, plan.jacks, past.moves, moves);
+      // What is nearer by no more than worth_a_change is not asked of anybody.
+      CHECK(found.outcome.error <= brute + worth_a_change + 1e-9);
+      CHECK(found.outcome.excess == 0);
+      // The plan as it was, on the structure as it is.
+      past.stays = true;
+      const Plan stays = find_rest_of_plan(other, site.goal, past);
+      past.stays = false;
+      CHECK(stays.stages.back().force == plan.stages[1].force);
+      CHECK(found.outcome.error <= stays.outcome.error + 1e-12);
+    }
+  }
+}
+
+TEST_CASE("whoever needs a plan no more gets none, soon") {
+  const SceneDescription scene = arc(8, 0.3);
+  int asked = 0;
+  CHECK_THROWS_AS(find_plan(scene, goal_for(scene, 3e5, 3), [&] { return ++asked > 20; }), GivenUp);
+  CHECK(asked == 21);
+}
+
+TEST_CASE("a row of noise that no model has an answer for is left out of the past") {
+  SceneDescription scene = arc(4, 0.1);
+  scene.cables[0].ends = {taut::End::jacked, taut::End::jacked};
+  const PlanGoal goal = goal_for(scene, 3e5, 2);
+  const Plan plan = find_plan(scene, goal);
+  const auto move = [&](double start, double end) { return PastMove{{{start, end}, {0, 0}}, goal.factor}; };
+  Jacking with(scene, goal, plan.jacks), without(scene, goal, plan.jacks), ends(scene, goal, plan.jacks);
+  REQUIRE(with.begin_after({move(0, 400), move(2e5, 2e5)}));  // pulled through
+  REQUIRE(without.begin_after({move(2e5, 2e5)}));
+  for (std::size_t i = 0; i < 5; ++i)
+    CHECK(with.here().tension[i] == doctest::Approx(without.here().tension[i]));
+  CHECK_FALSE(ends.begin_after({move(2e5, 2e5), move(0, 400)}));
+  CHECK_FALSE(ends.why().ok());
+}

@@ -173,6 +173,59 @@ TEST_CASE("the page in a browser has the forces of estimate, and goes on with ev
   }));
 }
 
+TEST_CASE(
+    "the page shows what the jack is to do, the stages, and the stage's force in the chart of its load") {
+  if (std::string(TAUT_CHROMIUM).find("NOTFOUND") != std::string::npos) {
+    MESSAGE("skipped: no Chromium is installed");
+    return;
+  }
+  const Scratch scratch;
+  write_scene(scratch);
+  std::ofstream(scratch.path / "goal.json") << R"({ "taut": 1, "target": { "C": 2e5 }, "stages": 2,
+    "limits": { "C.end": 2.3e5 } })";
+  WatchedProgram watch(scratch, {"scene.json", "-", "--http", "0", "--goal", "goal.json"});
+  const std::string url = "http://127.0.0.1:" + std::to_string(watch.port()) + "/";
+  // The jack alone: nothing is learned of mu, and the plan stays.
+  watch.write("time,C.end\n0,0\n1,2000\n");
+  REQUIRE(comes_true([&] { return watch.out().find("time 1 s") != std::string::npos; }));
+  Browser browser;
+  REQUIRE(browser.is_there());
+  browser.visit(url);
+  const auto text = [&](const std::string& id) {
+    const Json found = browser.value("document.getElementById('" + id + "').textContent");
+    return found.is_string() ? found.get<std::string>() : "";
+  };
+  const std::string order = "document.getElementById('order').dataset.order";
+  CHECK(comes_true([&] { return text("order").find("pull C.end to 210.2 kN") == 0; }));
+  CHECK(browser.value(order) == "pull");
+  CHECK(browser.value("document.querySelectorAll('#stages tr').length") == 2);
+  CHECK(browser.value("document.querySelector('#stages tr').className") == "present");
+  CHECK(text("plan-error").find("off target, expected ") != std::string::npos);
+  // The line of the stage goes from side to side, at one height.
+  CHECK(comes_true([&] { return browser.value("document.querySelectorAll('#load0 .stage').length") == 1; }));
+  CHECK(browser.value("(function () { var p = document.querySelector('#load0 .stage').getAttribute('points')"
+                      ".split(' ').map(function (q) { return q.split(','); }); return p.length === 2 "
+                      "? p[0][1] === p[1][1] : false; })()") == true);
+  const Json calm = browser.value("getComputedStyle(document.getElementById('order')).backgroundColor");
+  int row = 2;
+  for (double force = 4000; force <= 210000; force += 2000, ++row)
+    watch.write(std::to_string(row) + "," + std::to_string(force) + "\n");
+  CHECK(comes_true([&] { return browser.value(order) == "stop"; }));
+  CHECK(text("order").find("STOP C.end: 210.2 kN is reached") == 0);
+  CHECK(browser.value("getComputedStyle(document.getElementById('order')).backgroundColor") != calm);
+  for (int i = 0; i < 5; ++i, ++row) watch.write(std::to_string(row) + ",210000\n");
+  CHECK(comes_true([&] { return browser.value(order) == "let out"; }));
+  CHECK(browser.value("document.querySelector('#stages tr').cells[1].textContent") == "passed");
+  for (double force = 212000; force <= 236000; force += 2000, ++row)
+    watch.write(std::to_string(row) + "," + std::to_string(force) + "\n");
+  for (int i = 0; i < 5; ++i, ++row) watch.write(std::to_string(row) + ",236000\n");
+  CHECK(comes_true([&] { return text("alarms").find("plan-limit:C.end") != std::string::npos; }));
+  CHECK(text("alarms").find("limit of the goal") != std::string::npos);
+  CHECK(browser.value("document.documentElement.scrollWidth - document.documentElement.clientWidth") == 0);
+  watch.close_input();
+  CHECK(watch.ended() == 0);
+}
+
 TEST_CASE("a browser that prints the page as soon as nothing is loading any more comes to an end") {
   if (std::string(TAUT_CHROMIUM).find("NOTFOUND") != std::string::npos) {
     MESSAGE("skipped: no Chromium is installed");

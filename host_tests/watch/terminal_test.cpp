@@ -124,3 +124,53 @@ TEST_CASE(
   CHECK(lines[1] == "ALARM mu:C");
   CHECK(taut::host::screen_text(scene, live, 5, 20).size() == 5);
 }
+
+TEST_CASE("with a plan the screen says what to do, and a mark on the bar of the jack is at its stage") {
+  const Scratch scratch;
+  write_scene(scratch);
+  const taut::host::SceneDescription scene =
+      taut::host::read_scene_file((scratch.path / "scene.json").string());
+  taut::host::PlanNow plan;
+  plan.jacks = {"C.end"};
+  plan.unit = taut::host::ForceUnit::for_largest(2e5);
+  plan.stages = {{"1", false, {0}, {2e5}, {0.01}, true, false},
+                 {"2", false, {0}, {1.5e5}, {0.008}, false, false}};
+  plan.present = 1;
+  plan.orders = {{0, taut::host::JackOrder::let_out, 1.5e5, 5e4, {}, {}}};
+  plan.say = "let out C.end to 150.0 kN: 50.0 kN to go";
+  plan.error = 0.0127;
+  plan.anew = {{12.5, "mu of C is 0.260 and not 0.200"}};
+  taut::host::LiveAnswer live;
+  live.row = 7;
+  live.answer.tension = {1e5, 1e5, 1e5, 1e5};
+  live.answer.deviation = {0, 0, 0, 0};
+  live.answer.state.assign(3, taut::JointState::forward);
+  live.answer.mu.assign(3, 0.2);
+  live.answer.mu_deviation.assign(3, 0.1);
+  live.jacks = {{0, 1, 1e5, {}, {}}};
+  live.plan = std::make_shared<const taut::host::PlanNow>(plan);
+  const auto lines = taut::host::screen_text(scene, live, 40, 80);
+  const auto line_with = [&](const std::string& word) {
+    for (const std::string& line : lines)
+      if (line.find(word) != std::string::npos) return line;
+    return std::string();
+  };
+  CHECK(line_with("PLAN ") == "PLAN " + plan.say);
+  CHECK(line_with("1 pull C.end to 200.0 kN, 10.0 mm").find("passed") != std::string::npos);
+  CHECK(line_with("> 2 let out C.end to 150.0 kN, 8.0 mm").find("passed") == std::string::npos);
+  CHECK(line_with("planned anew at 12.5 s: because mu of C is 0.260 and not 0.200") != "");
+  CHECK(line_with("1.27 %") != "");
+  const std::string bar = line_with("[");
+  const auto width = [](const std::string& text) {
+    return static_cast<double>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+  };
+  const std::size_t begin = bar.find('[') + 1, mark = bar.find("\u25c6");
+  REQUIRE(mark != std::string::npos);
+  // Of 200 kN, which are the whole bar: the mark at three quarters, the force up to a half.
+  const double whole = width(bar.substr(begin, bar.find(']') - begin));
+  CHECK(width(bar) <= 80);
+  CHECK(std::fabs(width(bar.substr(begin, mark - begin)) - 0.75 * whole) <= 1);
+  CHECK(std::fabs(static_cast<double>(count_of(bar, "\u2588")) - 0.5 * whole) <= 1);
+  CHECK(taut::host::row_text(scene, live).find("; plan: let out C.end") != std::string::npos);
+}

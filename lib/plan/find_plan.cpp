@@ -334,6 +334,52 @@ class PlanSearch {
     }
   }
 
+  // From a jack that pulls already: releases on a grid, each with the best of all pulls that can follow, and
+  // downhill from the best few.
+  Found back_and_up() {
+    const std::size_t jack = groups_[0].jacks[0];
+    const PlanStage beginning = jacking_->beginning();
+    const double pulled = beginning.force[jack];
+    const int grid = scene_.second_order ? 12 : 48;
+    const auto stage = [&](double force) {
+      PlanStage at = beginning;
+      at.force[jack] = force;
+      return at;
+    };
+    struct Pair {
+      double back, again, error;
+    };
+    std::vector<Pair> pairs;
+    jacking_->go_to(start_);
+    for (int i = grid - 1; i >= 0 && pulled > 0; --i) {
+      const double back = pulled * i / grid;
+      if (!jacking_->jump(stage(back)).whole) break;
+      const std::string released = jacking_->state();
+      const Leg leg = jacking_->follow(stage(pulled));
+      Pair best{back, 0, 1e300};
+      for (std::size_t k = 1; k < leg.points.size(); ++k) {
+        const LegPoint &from = leg.points[k - 1], &to = leg.points[k];
+        const NearestPart nearest = nearest_part(from.tension, to.tension, goal_.target);
+        if (nearest.error >= best.error) continue;
+        best.again = back + (from.part + nearest.part * (to.part - from.part)) * (pulled - back);
+        best.error = nearest.error;
+      }
+      jacking_->go_to(released);
+      if (best.error < 1e300) pairs.push_back(best);
+    }
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Pair& a, const Pair& b) { return a.error < b.error; });
+    Found best;
+    best.shape = shape_at_once(groups_, 2, goal_.lock);
+    Course course(*jacking_, goal_, best.shape, start_, least_ratio_);
+    for (std::size_t n = 0; n < most_descents / 2 && n < pairs.size(); ++n) {
+      CoursePlan found =
+          descend(course, goal_, {pairs[n].back, pairs[n].again}, pulled / grid, moves_short / 5);
+      if (n == 0 || found.outcome.merit() < best.plan.outcome.merit()) best.plan = std::move(found);
+    }
+    return best.plan.force.empty() ? Found() : best;
+  }
+
   // The whole of what one jack can do in two moves.
   Found one_jack() {
     const std::size_t jack = groups_[0].jacks[0];
@@ -356,6 +402,7 @@ class PlanSearch {
     if (past_ != nullptr) {
       const UpAndBack release = best_release(*jacking_, goal_, jack, seating, start_);
       take(release, {release.back});
+      if (stages_ >= 2) take_better(best, back_and_up());
     }
     if (stages_ >= 2) {
       const UpAndBack both = best_up_and_back(*jacking_, goal_, jack, seating, condensed_.rigid ? 1 : 2,
