@@ -1,5 +1,7 @@
 #include "lib/live/planner.hpp"
 
+#include <sys/resource.h>
+
 #include <exception>
 #include <utility>
 
@@ -39,6 +41,9 @@ void Planner::ask(PlanRequest request) {
 }
 
 void Planner::work() {
+#ifdef __linux__
+  setpriority(PRIO_PROCESS, 0, 10);  // there, of this thread alone: rows come first
+#endif
   while (true) {
     PlanRequest request;
     {
