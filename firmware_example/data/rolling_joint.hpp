@@ -1,8 +1,14 @@
 // The scene "rolling cable-strut joint: three set-ups side by side" after static condensation, written by `taut export`: do not edit.
 #pragma once
 
+#ifndef TAUT_DEVICE_HPP
+#if __has_include("taut/device.hpp")
 #include "taut/condensation/condensed.hpp"
 #include "taut/estimation/knowledge.hpp"
+#else
+#include "taut_device.hpp"  // taut in one header
+#endif
+#endif
 
 namespace rolling_cable_strut_joint_three_set_ups_side_by_side {
 

@@ -16,6 +16,6 @@ if(WAY STREQUAL find_package)
 endif()
 
 run_or_fail(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${WORK}/build ${tools} ${eigen_alone}
-            -DWAY=${WAY} -DTAUT=${TAUT} -DCMAKE_PREFIX_PATH=${WORK}/moved)
+            -DWAY=${WAY} -DTAUT=${TAUT} -DVERSION=${VERSION} -DCMAKE_PREFIX_PATH=${WORK}/moved)
 run_or_fail(${CMAKE_COMMAND} --build ${WORK}/build)
 run_or_fail(${WORK}/build/consumer)

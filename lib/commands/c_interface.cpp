@@ -180,8 +180,13 @@ constexpr std::string_view source_pattern =
 #include <new>
 #include <type_traits>
 
-#include "@file@"
+#if __has_include("taut/device.hpp")
 #include "taut/device.hpp"
+#else
+#include "taut_device.hpp"  // taut in one header
+#endif
+
+#include "@file@"
 
 namespace {
 

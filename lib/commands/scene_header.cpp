@@ -420,10 +420,16 @@ std::string head(const std::vector<ExportedScene>& scenes, const CondensedCounts
          ".\n"
          "#pragma once\n"
          "\n"
+         "#ifndef TAUT_DEVICE_HPP\n"
+         "#if __has_include(\"taut/device.hpp\")\n"
          "#include \"taut/condensation/" +
          (capacity.leans() ? "second_order" : "condensed") + ".hpp\"\n" +
          (has_strokes ? "#include \"taut/estimation/gauges.hpp\"\n" : "") +
-         "#include \"taut/estimation/knowledge.hpp\"\n";
+         "#include \"taut/estimation/knowledge.hpp\"\n"
+         "#else\n"
+         "#include \"taut_device.hpp\"  // taut in one header\n"
+         "#endif\n"
+         "#endif\n";
 }
 
 std::string capacity_of(const CondensedCounts& counts) {
