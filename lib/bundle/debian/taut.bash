@@ -1,6 +1,6 @@
 # Completion of taut in bash. What it offers is what `taut --help` lists.
 _taut() {
-  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} offered
+  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} offered=""
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
     offered=$("${COMP_WORDS[0]}" --help 2>/dev/null | sed -n -e '/^[Ss][Uu][Bb][Cc]/,$s/^  \([a-z]\{1,\}\) .*/\1/p')

@@ -1,0 +1,5 @@
+"""What a recipe of a header library sees of Conan."""
+
+
+class ConanFile:
+    pass
