@@ -22,12 +22,7 @@ target_compile_options(
             -fno-math-errno
             -fstack-usage
             -fcallgraph-info=su)
-# For a test: what happens without.
-option(MONITOR_CONTRACT "Let the compiler fuse products and sums" OFF)
-if(MONITOR_CONTRACT)
-  add_library(contracted INTERFACE)
-  target_compile_options(contracted INTERFACE -ffp-contract=fast)
-endif()
+include(${monitor_folder}/boards/contracted.cmake)
 target_compile_definitions(cortex_m INTERFACE NDEBUG EIGEN_NO_IO EIGEN_DONT_VECTORIZE EIGEN_MAX_ALIGN_BYTES=0)
 target_include_directories(cortex_m INTERFACE ${monitor_folder} ${board_folder})
 target_link_libraries(cortex_m INTERFACE taut::taut taut_warnings $<TARGET_NAME_IF_EXISTS:contracted>)
