@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,35 @@
 
 namespace monitor::host {
 
+/// A line whose bytes have times.
+class MemoryLine {
+ public:
+  struct Byte {
+    std::uint8_t value;
+    std::uint32_t at;
+  };
+  std::deque<Byte> to_device;
+  std::vector<std::uint8_t> from_device;
+  std::uint32_t clock = 0;  ///< [us]
+
+  bool read(std::uint8_t& byte, std::uint32_t& at) {
+    if (to_device.empty()) return false;
+    byte = to_device.front().value;
+    at = to_device.front().at;
+    to_device.pop_front();
+    return true;
+  }
+  std::uint32_t microseconds() const { return clock; }
+  void write(const std::uint8_t* bytes, int count) {
+    from_device.insert(from_device.end(), bytes, bytes + count);
+  }
+};
+
 class MemoryBoard {
  public:
   // For the one who plays the world around.
   std::string to_device, from_device;
+  MemoryLine modbus;
   std::uint32_t clock = 0;
   std::vector<std::uint8_t> memory = std::vector<std::uint8_t>(memory_size);
   Start reason = Start::power_on;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/memory_board.hpp"
+#include "monitor/modbus_slave.hpp"
 #include "monitor/scenes.hpp"
 
 namespace monitor::host {
@@ -16,9 +17,12 @@ class MemoryMonitor {
 
   void begin();
   void step();
+  /// Of the Modbus line.
+  void step_modbus();
 
  private:
   Monitor<MemoryBoard> application_;
+  ModbusSlave<Monitor<MemoryBoard>, MemoryLine> modbus_;
 };
 
 }  // namespace monitor::host

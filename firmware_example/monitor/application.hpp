@@ -13,6 +13,7 @@
 #include "monitor/frame.hpp"
 #include "monitor/one_of.hpp"
 #include "monitor/record.hpp"
+#include "monitor/refusal.hpp"
 #include "monitor/session.hpp"
 #include "monitor/settings.hpp"
 #include "monitor/start.hpp"
@@ -25,6 +26,10 @@ template <class Board, class Settings, class... Sources>
 class Application {
  public:
   explicit Application(Board& board) : board_(board), records_(board, slot_size) {}
+
+  static constexpr int scenes = (Sources::scenes + ...);
+  /// Most numbers of a sample beside its time.
+  static constexpr int most_numbers = std::max({Session<Sources, Settings>::most_numbers...});
 
   /// Takes up the work where the record left it, and says so.
   void begin() {
@@ -59,6 +64,95 @@ class Application {
     watch_line();
   }
 
+  // What the commands do, for whatever line they come on.
+
+  /// What is kept beside the state of the session.
+  struct Common {
+    CellLimits limits;
+    std::uint32_t last = 0;      ///< sequence number of the last sample
+    std::uint32_t has_last = 0;  ///< whether there was one since the scene was chosen
+    std::uint32_t latched = 0;   ///< alarms that were not acknowledged
+    std::uint32_t restarts = 0;
+  };
+
+  /// Takes the sample that `read(session)` reads and says whether it fits; one with the number of the last is
+  /// not taken again.
+  template <class Read>
+  Refusal take_sample(std::uint32_t sequence, Read read) {
+    const std::uint32_t ahead = sequence - common_.last;
+    const bool repeated = common_.has_last != 0 && ahead == 0;
+    if (common_.has_last != 0 && ahead > 0x7FFFFFFF) return Refusal::sequence;
+    Refusal refusal = Refusal::none;
+    session_.visit([&](auto& session) {
+      if (!session.usable()) {
+        raise(Alarm::scene_refused);
+        refusal = Refusal::no_scene;
+        return;
+      }
+      if (!read(session)) {
+        refusal = Refusal::fields;
+        return;
+      }
+      last_sample_at_ = board_.milliseconds();
+      silent_ = false;
+      // Its answer was lost on the line: the model must not go there twice.
+      if (repeated) return;
+      if (common_.has_last != 0 && ahead != 1) raise(Alarm::sample_lost);
+      const Alarms found = session.take(common_.limits, [this] { board_.feed_watchdog(); });
+      pending_.add(found);
+      common_.latched |= found.bits();
+      common_.last = sequence;
+      common_.has_last = 1;
+      // First kept, then said: what was said is never forgotten.
+      keep();
+    });
+    return refusal;
+  }
+  /// Begins anew with another scene.
+  Refusal choose_scene(std::uint32_t scene) {
+    if (scene >= scenes) return Refusal::scene;
+    choose(static_cast<int>(scene));
+    return Refusal::none;
+  }
+  /// Zeroes a cell with its last reading.
+  Refusal zero(std::uint32_t cable, std::uint32_t end) {
+    return change_cell(cable, end, false, [this](auto& cell) {
+      // A zero far from zero would hide a force.
+      if (!(cell.last >= common_.limits.least && cell.last <= -common_.limits.least)) return Refusal::zero;
+      cell.zero = cell.last;
+      return Refusal::none;
+    });
+  }
+  /// Locks off, or jacks again.
+  Refusal lock(std::uint32_t cable, std::uint32_t end, bool locked) {
+    return change_cell(cable, end, true, [locked](auto& cell) {
+      cell.locked = locked;
+      return Refusal::none;
+    });
+  }
+  Refusal set_limits(const CellLimits& limits) {
+    // Within infinite ones an infinite reading were one like any other.
+    const bool are_finite = std::isfinite(limits.least) && std::isfinite(limits.most);
+    if (!(are_finite && limits.least <= 0 && limits.most > 0)) return Refusal::limits;
+    common_.limits = limits;
+    keep();
+    return Refusal::none;
+  }
+  void acknowledge_alarms() {
+    common_.latched = 0;
+    keep();
+  }
+  void restart() { board_.restart(); }
+
+  const Common& common() const { return common_; }
+  int scene() const { return scene_; }
+  Board& board() { return board_; }
+  /// Calls `call` with the session of the scene that was chosen.
+  template <class Call>
+  void visit(Call&& call) {
+    session_.visit(call);
+  }
+
  private:
   template <class Source>
   using SessionOf = Session<Source, Settings>;
@@ -70,18 +164,9 @@ class Application {
   using Reader = FrameReader<most_in>;
   using Writer = FrameWriter<most_out>;
 
-  /// What is kept beside the state of the session.
-  struct Common {
-    CellLimits limits;
-    std::uint32_t last = 0;      ///< sequence number of the last sample
-    std::uint32_t has_last = 0;  ///< whether there was one since the scene was chosen
-    std::uint32_t latched = 0;   ///< alarms that were not acknowledged
-    std::uint32_t restarts = 0;
-  };
   static constexpr int slot_size =
       Records<Board>::size_with(sizeof(Common) + std::max({SessionOf<Sources>::most_kept...}));
   static_assert(2 * slot_size <= Board::memory_size, "the non-volatile memory is too small for two records");
-  static constexpr int scenes = (Sources::scenes + ...);
 
   void raise(Alarm alarm) {
     pending_.raise(alarm);
@@ -164,12 +249,12 @@ class Application {
         return take_limits(fields);
       case 'Q':
         if (!fields.done()) return refuse("fields");
-        common_.latched = 0;
-        return done(kind);
+        acknowledge_alarms();
+        return acknowledge(kind);
       case 'R':
         if (!fields.done()) return refuse("fields");
         acknowledge(kind);
-        return board_.restart();
+        return restart();
       case 'H':
         if (!fields.done()) return refuse("fields");
         acknowledge(kind);
@@ -182,36 +267,16 @@ class Application {
   void take_sample(Fields fields) {
     std::uint32_t sequence = 0;
     if (!fields.number(sequence)) return refuse("fields");
-    const std::uint32_t ahead = sequence - common_.last;
-    const bool repeated = common_.has_last != 0 && ahead == 0;
-    if (common_.has_last != 0 && ahead > 0x7FFFFFFF) return refuse("sequence");
-    session_.visit([&](auto& session) {
-      if (!session.usable()) {
-        raise(Alarm::scene_refused);
-        return answer_state();
-      }
-      if (!session.read(fields)) return refuse("fields");
-      last_sample_at_ = board_.milliseconds();
-      silent_ = false;
-      // Its answer was lost on the line: the model must not go there twice.
-      if (repeated) return answer_state();
-      if (common_.has_last != 0 && ahead != 1) raise(Alarm::sample_lost);
-      const Alarms found = session.take(common_.limits, [this] { board_.feed_watchdog(); });
-      pending_.add(found);
-      common_.latched |= found.bits();
-      common_.last = sequence;
-      common_.has_last = 1;
-      // First kept, then said: what was said is never forgotten.
-      keep();
-      answer_state();
-    });
+    const Refusal refusal = take_sample(sequence, [&](auto& session) { return session.read(fields); });
+    if (refusal != Refusal::none && refusal != Refusal::no_scene) return refuse(word_of(refusal));
+    answer_state();
   }
 
   void take_choice(Fields fields) {
     std::uint32_t scene = 0;
     if (!fields.number(scene) || !fields.done()) return refuse("fields");
-    if (scene >= scenes) return refuse("scene");
-    choose(static_cast<int>(scene));
+    const Refusal refusal = choose_scene(scene);
+    if (refusal != Refusal::none) return refuse(word_of(refusal));
     answer_information();
   }
   void choose(int scene) {
@@ -225,19 +290,18 @@ class Application {
   void take_cell_command(char kind, Fields fields) {
     std::uint32_t cable = 0, end = 0;
     if (!fields.number(cable) || !fields.number(end) || !fields.done()) return refuse("fields");
+    acknowledge(kind, kind == 'Z' ? zero(cable, end) : lock(cable, end, kind == 'L'));
+  }
+  template <class Change>
+  Refusal change_cell(std::uint32_t cable, std::uint32_t end, bool needs_jack, Change change) {
+    Refusal refusal = Refusal::cell;
     session_.visit([&](auto& session) {
       auto* const cell = session.cell(cable, end);
-      if (cell == nullptr || (kind != 'Z' && !session.is_jacked(cable, end))) return refuse("cell");
-      if (kind == 'Z') {
-        // A zero far from zero would hide a force.
-        if (!(cell->last >= common_.limits.least && cell->last <= -common_.limits.least))
-          return refuse("zero");
-        cell->zero = cell->last;
-      } else {
-        cell->locked = kind == 'L';
-      }
-      done(kind);
+      if (cell == nullptr || (needs_jack && !session.is_jacked(cable, end))) return;
+      refusal = change(*cell);
     });
+    if (refusal == Refusal::none) keep();
+    return refusal;
   }
 
   void take_limits(Fields fields) {
@@ -245,17 +309,13 @@ class Application {
     if (!fields.real(limits.least) || !fields.real(limits.most) || !fields.number(limits.frozen_after) ||
         !fields.done())
       return refuse("fields");
-    // Within infinite ones an infinite reading were one like any other.
-    const bool are_finite = std::isfinite(limits.least) && std::isfinite(limits.most);
-    if (!(are_finite && limits.least <= 0 && limits.most > 0)) return refuse("limits");
-    common_.limits = limits;
-    done('G');
+    acknowledge('G', set_limits(limits));
   }
 
   // Answers.
 
-  void done(char kind) {
-    keep();
+  void acknowledge(char kind, Refusal refusal) {
+    if (refusal != Refusal::none) return refuse(word_of(refusal));
     acknowledge(kind);
   }
   void acknowledge(char kind) {

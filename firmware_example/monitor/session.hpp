@@ -75,11 +75,15 @@ class Session {
   };
   static_assert(std::is_trivially_copyable_v<State>, "the record keeps bytes");
 
+  /// Most numbers of a sample beside its time.
+  static constexpr int most_numbers = Cap::loads + 4 * Cap::cables;
+  /// Most things that the estimator finds odd in one sample.
+  static constexpr int most_findings = Findings::capacity() + (Settings::doubts_past ? Cap::cables : 0);
   /// Longest bodies of the frames of a sample and of its answer.
-  static constexpr int most_sample = 1 + 2 * 9 + 9 * (Cap::loads + 4 * Cap::cables);
+  static constexpr int most_sample = 1 + 2 * 9 + 9 * most_numbers;
   static constexpr int most_answer =
       1 + 2 + 9 * 8 + 9 * (2 * Cap::segments + 5 * Cap::joints + 2 * Cap::cables + Cap::struts) +
-      Cap::joints + 2 + 9 * (Findings::capacity() + (Settings::doubts_past ? Cap::cables : 0));
+      Cap::joints + 2 + 9 * most_findings;
   /// Most bytes that are kept: a State, and while the past is not known that of a second estimator.
   static constexpr std::size_t most_kept =
       sizeof(State) + (Settings::doubts_past ? sizeof(typename Estimator::State) : 0);
@@ -165,8 +169,10 @@ class Session {
   }
 
   /// Reads the numbers of a sample: the time since the last one, the factor of every load pattern, then what
-  /// the instruments of every end say. Nothing but them is changed.
-  bool read(Fields& fields) {
+  /// the instruments of every end say. Nothing but them is changed. `Numbers` is a Fields, or has its
+  /// real(), reading() and done().
+  template <class Numbers>
+  bool read(Numbers& fields) {
     bool fits = usable_ && fields.real(readings_.dt) && readings_.dt > 0 && std::isfinite(readings_.dt);
     for (int i = 0; fits && i < model().loads; ++i) fits = fields.real(readings_.sample.factor[i]);
     for_each_end([&](int c, std::size_t end, bool jacked) {
@@ -175,6 +181,12 @@ class Session {
              (!jacked || fields.reading(given.has_stroke, given.stroke));
     });
     return fits && fields.done();
+  }
+  /// How many numbers a sample has beside its time.
+  int count_numbers() const {
+    int count = model().loads;
+    for_each_end([&](int, std::size_t, bool jacked) { count += jacked ? 2 : 1; });
+    return count;
   }
   /// Answers the sample that was read. `feed` is called between bounded pieces of work.
   template <class Feed>
@@ -229,8 +241,7 @@ class Session {
     frame.number(outcome_.status.index);
     frame.number(outcome_.status.cable);
     if (!usable_) return;
-    estimator_.respond(response_, source_.struts());
-    past_.respond(estimator_, response_);
+    respond();
     const int segments = model().segments, joints = model().joints;
     for (int i = 0; i < segments; ++i) frame.real(response_.tension[i]);
     for (int j = 0; j < joints; ++j) frame.real(response_.slip[j]);
@@ -241,13 +252,32 @@ class Session {
     taut::for_each_jacked_end(model().cables,
                               [&](int c, std::size_t end) { frame.real(response_.payout[c][end]); });
     for (int i = 0; i < source_.strut_count(); ++i) frame.real(response_.strut[i]);
-    for (int i = 0; i < segments; ++i) frame.real(past_.estimate(estimator_, i).deviation);
+    for (int i = 0; i < segments; ++i) frame.real(deviation(i));
     for (int j = 0; j < joints; ++j) frame.real(estimator_.mu(j));
     for (int j = 0; j < joints; ++j) frame.real(estimator_.mu_deviation(j));
-    for (const taut::Alarm& finding : findings_) frame.number(code_of(finding));
+    for_each_finding([&](const taut::Alarm& finding) { frame.number(code_of(finding)); });
+  }
+
+  // The same answer, a number at a time.
+
+  /// From the estimator as it is; needs a usable scene. What follows is of the last call.
+  void respond() {
+    estimator_.respond(response_, source_.struts());
+    past_.respond(estimator_, response_);
+  }
+  const taut::Response<float, Cap>& response() const { return response_; }
+  int strut_count() const { return source_.strut_count(); }
+  /// Standard deviation of the tension of a segment [N].
+  float deviation(int segment) const { return past_.estimate(estimator_, segment).deviation; }
+  float mu(int joint) const { return estimator_.mu(joint); }
+  float mu_deviation(int joint) const { return estimator_.mu_deviation(joint); }
+  /// What the estimator finds odd in the last sample.
+  template <class Call>
+  void for_each_finding(Call call) const {
+    for (const taut::Alarm& finding : findings_) call(finding);
     for (int c = 0; c < model().cables.size(); ++c)
       if (!past_.is_wiped_out(estimator_, model().cables[c]))
-        frame.number(code_of(taut::Alarm::of(taut::Alarm::Kind::unknown_past, c, 0)));
+        call(taut::Alarm::of(taut::Alarm::Kind::unknown_past, c, 0));
   }
 
  private:

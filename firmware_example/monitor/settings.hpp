@@ -30,6 +30,10 @@ struct Settings {
   static constexpr std::uint32_t verify_every = 1;
   /// Milliseconds without a sample until the device says so.
   static constexpr std::uint32_t silence_after = 10000;
+  /// Of the Modbus line, where a board has one: this device, 1 to 247, and bits a second. The standard's are
+  /// 8 bits, even parity, one stop bit.
+  static constexpr std::uint8_t modbus_address = 1;
+  static constexpr std::uint32_t modbus_baud = 19200;
 };
 
 }  // namespace monitor

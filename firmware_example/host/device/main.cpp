@@ -1,4 +1,5 @@
-// The monitor on a PC: its serial line is standard input and output, its memory a file if one is named.
+// The monitor on a PC: its serial line is standard input and output, its memory a file if one is named, its
+// Modbus line a serial line if one is named.
 #include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>
@@ -8,8 +9,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "host/serial_line.hpp"
+#include "monitor/modbus_slave.hpp"
 #include "monitor/scenes.hpp"
 
 namespace {
@@ -34,11 +40,11 @@ class StdioBoard {
     if (::write(STDOUT_FILENO, bytes, static_cast<std::size_t>(count)) != count) std::exit(0);
   }
   std::uint32_t lost_bytes() const { return 0; }
-  /// Waits for bytes; the end of the input is the end of the world.
-  void idle() {
+  /// Waits for bytes here and on another line, if there is one; the end of the input is the end of the world.
+  void idle(int other_line) {
     if (taken_ < held_) return;
-    pollfd waiting{STDIN_FILENO, POLLIN, 0};
-    if (poll(&waiting, 1, 1) <= 0) return;
+    std::array<pollfd, 2> waiting{{{STDIN_FILENO, POLLIN, 0}, {other_line, POLLIN, 0}}};
+    if (poll(waiting.data(), 2, 1) <= 0 || waiting[0].revents == 0) return;
     const ssize_t count = ::read(STDIN_FILENO, bytes_.data(), bytes_.size());
     if (count <= 0) std::exit(0);
     taken_ = 0;
@@ -82,18 +88,46 @@ class StdioBoard {
 
 using Application = monitor::Monitor<StdioBoard>;
 alignas(Application) std::byte room[sizeof(Application)];
+using Modbus = monitor::ModbusSlave<Application, monitor::host::SerialLine>;
+
+int usage() {
+  std::fputs("usage: monitor.elf [MEMORY] [--modbus LINE [BAUD]]\n", stderr);
+  return 2;
+}
+
+int run(const std::vector<std::string>& words) {
+  std::size_t next = 0;
+  const char* memory = nullptr;
+  if (next < words.size() && words[next] != "--modbus") memory = words[next++].c_str();
+  std::optional<monitor::host::SerialLine> line;
+  std::uint32_t baud = monitor::Settings::modbus_baud;
+  if (next < words.size()) {
+    if (words[next] != "--modbus" || next + 1 == words.size() || next + 3 < words.size()) return usage();
+    if (next + 2 < words.size()) baud = static_cast<std::uint32_t>(std::atol(words[next + 2].c_str()));
+    line.emplace(words[next + 1], baud);
+  }
+  static StdioBoard board(memory);
+  std::optional<Modbus> modbus;
+  for (;;) {
+    auto* const application = new (room) Application(board);
+    if (line) modbus.emplace(*application, *line, monitor::Settings::modbus_address, baud);
+    application->begin();
+    while (!board.restarts()) {
+      application->step();
+      if (modbus) modbus->step();
+      board.idle(line ? line->descriptor() : -1);
+    }
+    board.come_back();
+  }
+}
 
 }  // namespace
 
 int main(int count, char** arguments) {
-  static StdioBoard board(count > 1 ? arguments[1] : nullptr);
-  for (;;) {
-    auto* const application = new (room) Application(board);
-    application->begin();
-    while (!board.restarts()) {
-      application->step();
-      board.idle();
-    }
-    board.come_back();
+  try {
+    return run({arguments + 1, arguments + count});
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "monitor: %s\n", problem.what());
   }
+  return 2;
 }
