@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "instruments/of_board.hpp"
 #include "monitor/alarms.hpp"
 #include "monitor/frame.hpp"
 #include "monitor/one_of.hpp"
@@ -98,6 +99,7 @@ class Application {
       // Its answer was lost on the line: the model must not go there twice.
       if (repeated) return;
       if (common_.has_last != 0 && ahead != 1) raise(Alarm::sample_lost);
+      if constexpr (instruments::HasInstruments<Board>::value) read_instruments(session);
       const Alarms found = session.take(common_.limits, [this] { board_.feed_watchdog(); });
       pending_.add(found);
       common_.latched |= found.bits();
@@ -183,6 +185,18 @@ class Application {
     bool usable = false;
     session_.visit([&](auto& session) { usable = session.begin(scene).ok(); });
     return usable;
+  }
+
+  /// The board's own, where the line has no reading.
+  template <class SessionType>
+  void read_instruments(SessionType& session) {
+    session.read_instruments(
+        [this](int cable, std::size_t end, instruments::Quantity quantity) {
+          return board_.instrument(cable, end, quantity);
+        },
+        [this](bool& has, float& value, const instruments::Reading& own) {
+          instruments::fill(has, value, own, board_.milliseconds(), Settings::oldest_reading);
+        });
   }
 
   // The record.

@@ -8,6 +8,7 @@
 #include <new>
 #include <type_traits>
 
+#include "instruments/reading.hpp"
 #include "monitor/alarms.hpp"
 #include "monitor/estimator_alarm.hpp"
 #include "monitor/frame.hpp"
@@ -187,6 +188,16 @@ class Session {
     int count = model().loads;
     for_each_end([&](int, std::size_t, bool jacked) { count += jacked ? 2 : 1; });
     return count;
+  }
+  /// Asks `instrument(cable, end, quantity)` for what the sample that was read does not have; `fill` puts it
+  /// there.
+  template <class Instrument, class Fill>
+  void read_instruments(Instrument instrument, Fill fill) {
+    for_each_end([&](int c, std::size_t end, bool jacked) {
+      auto& given = readings_.ends[c][end];
+      fill(given.has_force, given.force, instrument(c, end, instruments::Quantity::force));
+      if (jacked) fill(given.has_stroke, given.stroke, instrument(c, end, instruments::Quantity::stroke));
+    });
   }
   /// Answers the sample that was read. `feed` is called between bounded pieces of work.
   template <class Feed>

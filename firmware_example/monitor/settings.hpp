@@ -30,6 +30,8 @@ struct Settings {
   static constexpr std::uint32_t verify_every = 1;
   /// Milliseconds without a sample until the device says so.
   static constexpr std::uint32_t silence_after = 10000;
+  /// A reading of the board's own instruments that is older [ms] is out of range.
+  static constexpr std::uint32_t oldest_reading = 1000;
   /// Of the Modbus line, where a board has one: this device, 1 to 247, and bits a second. The standard's are
   /// 8 bits, even parity, one stop bit.
   static constexpr std::uint8_t modbus_address = 1;
