@@ -13,17 +13,21 @@ class SubstructureElement {
   using Scalar = typename SceneType::Scalar;
   static constexpr int dimension = SceneType::dimension;
 
-  SubstructureElement(const SceneType& scene, int index)
+  constexpr SubstructureElement(const SceneType& scene, int index)
       : scene_(&scene), given_(&scene.substructures[index]) {}
 
   /// Number of displacements: rows and columns of the matrix.
-  int size() const { return given_->nodes * dimension; }
-  int node(int row) const { return scene_->substructure_nodes[given_->first_node + row / dimension]; }
-  static int axis(int row) { return row % dimension; }
+  constexpr int size() const { return given_->nodes * dimension; }
+  constexpr int node(int row) const {
+    return scene_->substructure_nodes[given_->first_node + row / dimension];
+  }
+  static constexpr int axis(int row) { return row % dimension; }
   /// Stiffness [N/m].
-  Scalar operator()(int row, int column) const { return scene_->substructure_entries[entry(row, column)]; }
+  constexpr Scalar operator()(int row, int column) const {
+    return scene_->substructure_entries[entry(row, column)];
+  }
   /// The number of an entry in the scene's list.
-  int entry(int row, int column) const { return given_->first_entry + row * size() + column; }
+  constexpr int entry(int row, int column) const { return given_->first_entry + row * size() + column; }
 
  private:
   const SceneType* scene_;

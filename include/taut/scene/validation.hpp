@@ -3,12 +3,14 @@
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
-#include <cmath>
 #include <limits>
 
 #include "taut/elements/beam.hpp"
 #include "taut/elements/friction_element.hpp"
 #include "taut/elements/substructure.hpp"
+#include "taut/numerics/constant.hpp"
+#include "taut/numerics/larger.hpp"
+#include "taut/scene/constant_checks.hpp"
 #include "taut/scene/path.hpp"
 #include "taut/scene/scene.hpp"
 #include "taut/status.hpp"
@@ -20,9 +22,9 @@ namespace detail {
 template <class SceneType>
 class SceneCheck {
  public:
-  explicit SceneCheck(const SceneType& scene) : scene_(scene) {}
+  constexpr explicit SceneCheck(const SceneType& scene) : scene_(scene) {}
 
-  Status run() const {
+  constexpr Status run() const {
     Status status = capacities();
     if (status) status = nodes();
     if (status) status = struts();
@@ -31,7 +33,7 @@ class SceneCheck {
     for (int c = 0; status && c < scene_.cables.size(); ++c) status = cable(c);
     for (int i = 0; status && i < scene_.substructures.size(); ++i) status = substructure(i);
     if (status) status = loads();
-    if (status) status = supports();
+    if (status) status = is_constant_evaluated() ? ConstantCheck<SceneType>(scene_).supports() : supports();
     return status;
   }
 
@@ -42,7 +44,7 @@ class SceneCheck {
   static constexpr bool has_room_for_beams = SceneType::Capacity::beams > 0;
   static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
 
-  Status capacities() const {
+  constexpr Status capacities() const {
     const struct {
       int excess, capacity;
       Place place;
@@ -71,16 +73,18 @@ class SceneCheck {
     return Status::success();
   }
 
-  int jacked_ends() const {
+  constexpr int jacked_ends() const {
     int count = 0;
-    for_each_jacked_end(scene_.cables, [&count](int, std::size_t) { ++count; });
+    for (int c = 0; c < scene_.cables.size(); ++c)
+      for (const End end : scene_.cables[c].ends)
+        count += !scene_.cables[c].closed && end == End::jacked ? 1 : 0;
     return count;
   }
 
-  Status nodes() const {
+  constexpr Status nodes() const {
     for (int i = 0; i < scene_.nodes.size(); ++i) {
       for (const Real x : scene_.nodes[i].at)
-        if (!std::isfinite(x)) return Status::at(Code::not_finite, Place::node, i);
+        if (!is_finite(x)) return Status::at(Code::not_finite, Place::node, i);
       const unsigned held = has_room_for_beams ? scene_.nodes[i].held & ~rotations : scene_.nodes[i].held;
       if (held >> dimension != 0) return Status::at(Code::out_of_range, Place::node, i);
     }
@@ -89,30 +93,30 @@ class SceneCheck {
   static constexpr unsigned rotations = dimension == 2 ? held_r : held_rx | held_ry | held_rz;
 
   /// Finite and greater than zero, or the code that says which it is not.
-  static Code positive(Real x) {
-    if (!std::isfinite(x)) return Code::not_finite;
+  static constexpr Code positive(Real x) {
+    if (!is_finite(x)) return Code::not_finite;
     return x > 0 ? Code::ok : Code::not_positive;
   }
-  static Code not_negative(Real x) {
-    if (!std::isfinite(x)) return Code::not_finite;
+  static constexpr Code not_negative(Real x) {
+    if (!is_finite(x)) return Code::not_finite;
     return x >= 0 ? Code::ok : Code::negative;
   }
-  static Code first_failure(Code a, Code b) { return a != Code::ok ? a : b; }
+  static constexpr Code first_failure(Code a, Code b) { return a != Code::ok ? a : b; }
 
-  bool is_node(int i) const { return i >= 0 && i < scene_.nodes.size(); }
+  constexpr bool is_node(int i) const { return i >= 0 && i < scene_.nodes.size(); }
 
   /// Closer than the coordinates can tell apart.
-  bool coincide(int a, int b) const {
+  constexpr bool coincide(int a, int b) const {
     Real size = 0, distance = 0;
     for (std::size_t axis = 0; axis < dimension; ++axis) {
       const Real p = scene_.nodes[a].at[axis], q = scene_.nodes[b].at[axis];
-      size = std::fmax(size, std::fmax(std::fabs(p), std::fabs(q)));
-      distance = std::fmax(distance, std::fabs(p - q));
+      size = larger(size, larger(magnitude(p), magnitude(q)));
+      distance = larger(distance, magnitude(p - q));
     }
     return distance <= 8 * epsilon * size;
   }
 
-  Status struts() const {
+  constexpr Status struts() const {
     for (int i = 0; i < scene_.struts.size(); ++i) {
       const Strut<Real>& strut = scene_.struts[i];
       for (const int node : strut.nodes)
@@ -127,7 +131,7 @@ class SceneCheck {
     return Status::success();
   }
 
-  Status beams() const {
+  constexpr Status beams() const {
     for (int i = 0; i < scene_.beams.size(); ++i) {
       const auto& beam = scene_.beams[i];
       for (const int node : beam.nodes)
@@ -143,7 +147,7 @@ class SceneCheck {
     }
     return Status::success();
   }
-  static Code stiffness_of(const BeamSection<Real, dimension>& section) {
+  static constexpr Code stiffness_of(const BeamSection<Real, dimension>& section) {
     Code code = first_failure(positive(section.E), positive(section.A));
     if constexpr (dimension == 2) {
       code = first_failure(code, positive(section.I));
@@ -151,20 +155,26 @@ class SceneCheck {
       for (const Real x : {section.Iy, section.Iz, section.J, section.G})
         code = first_failure(code, positive(x));
       for (const Real x : section.up)
-        if (!std::isfinite(x)) code = first_failure(code, Code::not_finite);
+        if (!is_finite(x)) code = first_failure(code, Code::not_finite);
     }
     return code;
   }
   /// Whether `up` is there and not along the beam.
-  bool points_aside(const Beam<Real, 3>& beam) const {
+  constexpr bool points_aside(const Beam<Real, 3>& beam) const {
+    constexpr Real least = Real(1e-6);
+    if (is_constant_evaluated())
+      return ConstantCheck<SceneType>(scene_).sin_to(beam.section.up, beam.nodes[0], beam.nodes[1]) > least;
+    return sin_to_up(beam) > least;
+  }
+  Real sin_to_up(const Beam<Real, 3>& beam) const {
     const auto& up = beam.section.up;
     const auto along =
         Line<Real, 3>::between(scene_.nodes[beam.nodes[0]], scene_.nodes[beam.nodes[1]]).direction;
     const Vector unit = Vector(up[0], up[1], up[2]).stableNormalized();
-    return along.cross(unit).norm() > Real(1e-6);
+    return along.cross(unit).norm();
   }
 
-  Status cable(int c) const {
+  constexpr Status cable(int c) const {
     const Cable<Real>& cable = scene_.cables[c];
     if (cable.nodes < (cable.closed ? 3 : 2))
       return Status::at(Code::path_too_short, Place::cable, c, cable.nodes);
@@ -177,7 +187,7 @@ class SceneCheck {
         code = first_failure(code, not_negative(x));
       code = first_failure(code, first_failure(positive(cell.up), positive(cell.down)));
     }
-    if (!std::isfinite(cable.alpha)) code = first_failure(code, Code::not_finite);
+    if (!is_finite(cable.alpha)) code = first_failure(code, Code::not_finite);
     if (code != Code::ok) return Status::at(code, Place::cable, c);
     Status status = path(c);
     for (int i = 0; status && i < cable.segments(); ++i) status = segment(c, i);
@@ -185,7 +195,7 @@ class SceneCheck {
     return status;
   }
 
-  Status path(int c) const {
+  constexpr Status path(int c) const {
     const Cable<Real>& cable = scene_.cables[c];
     for (int i = 0; i < cable.nodes; ++i) {
       const int node = scene_.path[cable.first_path + i];
@@ -197,30 +207,36 @@ class SceneCheck {
     return Status::success();
   }
 
-  Status segment(int c, int i) const {
+  constexpr Status segment(int c, int i) const {
     const Cable<Real>& cable = scene_.cables[c];
     const auto ends = scene_.segment_nodes(cable, i);
     if (coincide(ends[0], ends[1]))
       return Status::along(Code::coincident_nodes, Place::segment, c, i, ends[1]);
     const Real prestrain = scene_.prestrain[cable.first_segment + i];
-    if (!std::isfinite(prestrain)) return Status::along(Code::not_finite, Place::segment, c, i);
-    if (!(std::fabs(prestrain) < 1)) return Status::along(Code::out_of_range, Place::segment, c, i);
+    if (!is_finite(prestrain)) return Status::along(Code::not_finite, Place::segment, c, i);
+    if (!(magnitude(prestrain) < 1)) return Status::along(Code::out_of_range, Place::segment, c, i);
     return Status::success();
   }
 
-  Status joint(int c, int j) const {
+  constexpr Status joint(int c, int j) const {
     const Cable<Real>& cable = scene_.cables[c];
     const Code code = not_negative(scene_.mu[cable.first_joint + j]);
     if (code != Code::ok) return Status::along(code, Place::joint, c, j);
     const auto at = scene_.joint_nodes(cable, j);
-    const auto frame =
-        JointFrame<Real, dimension>::of(scene_.nodes[at.before], scene_.nodes[at.at], scene_.nodes[at.after]);
+    const Real sin_alpha = is_constant_evaluated()
+                               ? ConstantCheck<SceneType>(scene_).sin_alpha(at.before, at.at, at.after)
+                               : frame_of(at).sin_alpha;
     // alpha below 64 units of rounding cannot be told from zero.
-    if (!(frame.sin_alpha > 64 * epsilon)) return Status::along(Code::folded_cable, Place::joint, c, j);
+    if (!(sin_alpha > 64 * epsilon)) return Status::along(Code::folded_cable, Place::joint, c, j);
     return Status::success();
   }
 
-  Status substructure(int index) const {
+  JointFrame<Real, dimension> frame_of(const typename SceneType::JointNodes& at) const {
+    return JointFrame<Real, dimension>::of(scene_.nodes[at.before], scene_.nodes[at.at],
+                                           scene_.nodes[at.after]);
+  }
+
+  constexpr Status substructure(int index) const {
     const Substructure& given = scene_.substructures[index];
     const SubstructureElement<SceneType> K(scene_, index);
     for (int i = 0; i < given.nodes; ++i) {
@@ -233,13 +249,15 @@ class SceneCheck {
     Real largest = 0;
     for (int i = 0; i < K.size(); ++i)
       for (int k = 0; k < K.size(); ++k) {
-        if (!std::isfinite(K(i, k))) return Status::at(Code::not_finite, Place::substructure, index, i);
-        largest = std::fmax(largest, std::fabs(K(i, k)));
+        if (!is_finite(K(i, k))) return Status::at(Code::not_finite, Place::substructure, index, i);
+        largest = larger(largest, magnitude(K(i, k)));
       }
-    const Real tolerance = std::sqrt(epsilon) * largest;  // as printed by another program, to half the digits
+    // As printed by another program, to half the digits.
+    constexpr Real half_the_digits = constant_square_root(epsilon);
+    const Real tolerance = half_the_digits * largest;
     for (int i = 0; i < K.size(); ++i)
       for (int k = 0; k < i; ++k)
-        if (std::fabs(K(i, k) - K(k, i)) > tolerance)
+        if (magnitude(K(i, k) - K(k, i)) > tolerance)
           return Status::at(Code::not_symmetric, Place::substructure, index, i);
     if (!semidefinite(K, tolerance)) return Status::at(Code::not_semidefinite, Place::substructure, index);
     return Status::success();
@@ -247,7 +265,7 @@ class SceneCheck {
 
   /// Elimination with the largest diagonal entry first: a negative one, or a column left over beside zeros,
   /// is proof.
-  static bool semidefinite(const SubstructureElement<SceneType>& K, Real tolerance) {
+  static constexpr bool semidefinite(const SubstructureElement<SceneType>& K, Real tolerance) {
     const int n = K.size();
     FixedArray<Real, SceneType::Capacity::substructure_entries> copy;
     const auto a = [&copy, n](int i, int k) -> Real& { return copy[i * n + k]; };
@@ -258,13 +276,13 @@ class SceneCheck {
       Real least = 0;
       for (int i = 0; i < n; ++i) {
         if (a(i, i) > a(pivot, pivot)) pivot = i;
-        least = std::fmin(least, a(i, i));
+        if (a(i, i) < least) least = a(i, i);
       }
       if (least < -tolerance) return false;
       if (a(pivot, pivot) <= tolerance) {
         for (int i = 0; i < n; ++i)
           for (int k = 0; k < n; ++k)
-            if (std::fabs(a(i, k)) > 2 * tolerance) return false;
+            if (magnitude(a(i, k)) > 2 * tolerance) return false;
         return true;
       }
       for (int i = 0; i < n; ++i) {
@@ -278,21 +296,21 @@ class SceneCheck {
     return true;
   }
 
-  Status loads() const {
+  constexpr Status loads() const {
     const auto is_load = [this](int i) { return i >= 0 && i < scene_.loads; };
     for (int i = 0; i < scene_.forces.size(); ++i) {
       const auto& given = scene_.forces[i];
       if (!is_load(given.load)) return Status::at(Code::out_of_range, Place::force, i, given.load);
       if (!is_node(given.node)) return Status::at(Code::unknown_node, Place::force, i, given.node);
       for (const Real x : given.force)
-        if (!std::isfinite(x)) return Status::at(Code::not_finite, Place::force, i);
+        if (!is_finite(x)) return Status::at(Code::not_finite, Place::force, i);
     }
     for (int i = 0; i < scene_.temperatures.size(); ++i) {
       const auto& given = scene_.temperatures[i];
       if (!is_load(given.load)) return Status::at(Code::out_of_range, Place::temperature, i, given.load);
       if (given.cable < 0 || given.cable >= scene_.cables.size())
         return Status::at(Code::out_of_range, Place::temperature, i, given.cable);
-      if (!std::isfinite(given.kelvin)) return Status::at(Code::not_finite, Place::temperature, i);
+      if (!is_finite(given.kelvin)) return Status::at(Code::not_finite, Place::temperature, i);
     }
     return Status::success();
   }
@@ -328,7 +346,7 @@ class SceneCheck {
       middle += position(i, Vector::Zero(), 1) / static_cast<Real>(scene_.nodes.size());
     Real size = epsilon;
     for (int i = 0; i < scene_.nodes.size(); ++i)
-      size = std::fmax(size, position(i, middle, 1).template lpNorm<Eigen::Infinity>());
+      size = larger(size, position(i, middle, 1).template lpNorm<Eigen::Infinity>());
 
     Gram resistance = Gram::Zero();
     for (int i = 0; i < scene_.nodes.size(); ++i) {
@@ -354,7 +372,7 @@ class SceneCheck {
     }
 
     const Eigen::SelfAdjointEigenSolver<Gram> solver(resistance);
-    const Real free_below = 64 * epsilon * std::fmax(Real(1), solver.eigenvalues()[motions - 1]);
+    const Real free_below = 64 * epsilon * larger(Real(1), solver.eigenvalues()[motions - 1]);
     for (int mode = 0; mode < motions; ++mode) {
       if (solver.eigenvalues()[mode] > free_below) continue;
       int node = 0;
@@ -378,9 +396,10 @@ class SceneCheck {
 
 /// Checks everything about a scene that can be checked before it is loaded. A failure names the part; Place
 /// and the numbers are explained at Code. For `capacity_exceeded` the index is the capacity and the amount
-/// what is missing.
+/// what is missing. In a constant expression too:
+/// static_assert(validate(scene)) compiles only if the scene can be used.
 template <class Scalar, int Dimension, class Cap>
-Status validate(const Scene<Scalar, Dimension, Cap>& scene) {
+constexpr Status validate(const Scene<Scalar, Dimension, Cap>& scene) {
   return detail::SceneCheck<Scene<Scalar, Dimension, Cap>>(scene).run();
 }
 
