@@ -401,3 +401,53 @@ TEST_CASE("a row of noise that no model has an answer for is left out of the pas
   CHECK_FALSE(ends.begin_after({move(2e5, 2e5), move(0, 400)}));
   CHECK_FALSE(ends.why().ok());
 }
+
+TEST_CASE("of two cables the first stays locked while the rest of the second one is found") {
+  SceneDescription scene = arc(4, 0.3);
+  SceneDescription second = arc(4, 0.3);
+  for (NodeDescription node : second.nodes) {
+    node.at[1] -= 100;
+    scene.nodes.push_back(node);
+  }
+  CableDescription cable = second.cables[0];
+  cable.name = "D";
+  for (int& node : cable.path) node += 6;
+  scene.cables.push_back(cable);
+  PlanGoal goal = goal_for(scene, 3e5, 4);
+  goal.target.assign(10, 3e5);
+  goal.most_segment.assign(10, no_limit);
+  goal.most_force.assign(2, {no_limit, no_limit});
+  goal.most_stroke = goal.most_force;
+  goal.lock = true;
+  const Plan plan = find_plan(scene, goal);
+  REQUIRE(plan.status.ok());
+  PlanPast past;
+  past.moves = {{{{0, 0}, {0, 0}}, goal.factor}};
+  std::size_t s = 0;
+  for (; s < plan.shape.size(); ++s) {
+    past.moves.push_back({plan.stages[s], goal.factor});
+    if (plan.shape[s].locks) break;
+  }
+  REQUIRE(s + 1 < plan.shape.size());
+  past.rest.assign(plan.shape.begin() + static_cast<std::ptrdiff_t>(s) + 1, plan.shape.end());
+  for (std::size_t r = s + 1; r < plan.shape.size(); ++r)
+    if (!plan.shape[r].locks) past.force.push_back(plan.stages[r].force[1]);
+  const Plan same = find_rest_of_plan(scene, goal, past);
+  CHECK(same.is_as_before);
+  CHECK(same.outcome.error == doctest::Approx(plan.outcome.error).epsilon(1e-9));
+  // The second cable slides more easily than was thought. The first one is done: it does not count any more,
+  // and two moves are left.
+  past.moves_left = 2;
+  for (double& mu : scene.cables[1].mu) mu = 0.15;
+  for (std::size_t i = 0; i < 5; ++i) goal.target[i] = 0;
+  const Plan found = find_rest_of_plan(scene, goal, past);
+  CHECK_FALSE(found.is_as_before);
+  for (const PlanStage& stage : found.stages) {
+    CHECK(stage.locked[0] == 1);
+    CHECK(stage.force[0] == plan.stages[s].force[0]);
+  }
+  CHECK(found.stages.back().locked[1] == 1);
+  // As if it had been known from the start: five segments in two moves, in runs of three and two.
+  const double ratio = std::pow(arc_rho(0.15), 2);
+  CHECK(found.outcome.error == doctest::Approx((1 - ratio) / (1 + ratio)).epsilon(1e-6));
+}

@@ -79,8 +79,7 @@ PlanGuide::PlanGuide(const SceneDescription& scene, const PlanGoal& goal, const 
       now_(at_rest(plan.jacks.size())),
       moves_left_(goal.has_stages ? static_cast<std::size_t>(goal.stages) : usual_moves),
       planned_(known_mu(scene)),
-      read_before_(plan.jacks.size(), 0),
-      ahead_(plan.jacks.size(), 0),
+      ahead_(plan.jacks.size()),
       asked_at_(plan.jacks.size(), 0) {
   take_outcome(plan, prior);
 }
@@ -137,22 +136,30 @@ std::optional<PlanRequest> PlanGuide::take(const LogRow& row, const Answer& answ
   return request(row.time, *found, mu);
 }
 
-// A step that the estimator waits with until the next reading confirms it: whoever pumps must not wait.
+// After a rest the estimator waits with the first steps of a pump until it is sure that they are no outliers:
+// whoever pumps must not wait so long.
 void PlanGuide::look_ahead(const LogRow& row, const PlanStage& now) {
   constexpr double stands = 0.25, steps = 3;
   for (std::size_t k = 0; k < jacks_.size(); ++k) {
+    Ahead& ahead = ahead_[k];
     const std::optional<double>& reading = row.cables[jacks_[k].cable][jacks_[k].end].reading;
+    const bool stood = has_row_ && std::fabs(now.force[k] - now_.force[k]) < stands * tolerance_[k];
+    if (!stood || now.locked[k] != 0) {
+      ahead.read = reading;
+      ahead.by = 0;
+      continue;
+    }
     if (!reading) continue;
-    const double step = *reading - read_before_[k];
-    // Where a jack turns the friction of its ram lets the reading go ahead alone.
-    const double play = 2 * scene_.cables[jacks_[k].cable].cell[jacks_[k].end].part * now.force[k];
-    const bool goes_on = finder_.direction(k) * (now.force[k] - finder_.memory().begin.force[k]) >
-                         straight * tolerance_[k] + play;
-    const bool waits = goes_on && now.locked[k] == 0 &&
-                       std::fabs(now.force[k] - now_.force[k]) < stands * tolerance_[k] &&
-                       std::fabs(step) > steps * tolerance_[k];
-    ahead_[k] = waits ? step : 0;
-    read_before_[k] = *reading;
+    if (!ahead.read) ahead.read = reading;
+    const double step = *reading - *ahead.read;
+    const int way = step > 0 ? 1 : -1;
+    ahead.by = 0;
+    if (std::fabs(step) <= steps * tolerance_[k]) continue;
+    // Where a jack has turned the friction of its ram lets the reading go ahead alone.
+    const double whole_play = 2 * scene_.cables[jacks_[k].cable].cell[jacks_[k].end].part * now.force[k];
+    const double gone = way * (now.force[k] - finder_.memory().begin.force[k]);
+    const double play = gone > straight * tolerance_[k] + whole_play ? 0 : whole_play;
+    ahead.by = way * std::max(0.0, std::fabs(step) - play);
   }
 }
 
@@ -313,7 +320,7 @@ PlanOrder PlanGuide::order_of(std::size_t k) const {
   const int way = finder_.direction(k);
   const bool pulls = way >= 0;
   order.to = finder_.stages()[present].force[k];
-  const double force = now_.force[k] + ahead_[k];
+  const double force = now_.force[k] + ahead_[k].by;
   order.to_go = (pulls ? 1 : -1) * (order.to - force);
   const InstrumentDescription& gauge = scene_.cables[jacks_[k].cable].cell[jacks_[k].end];
   if (!gauge.calibration.empty()) {

@@ -46,6 +46,12 @@ class PlanGuide {
   bool take_change();
 
  private:
+  // How far a jack is surely ahead of what the estimator believes.
+  struct Ahead {
+    std::optional<double> read;  // where it stands
+    double by = 0;
+  };
+
   PlanStage stand(const LogRow& row, const Answer& answer) const;
   std::vector<double> open_forces_left() const;
   void look_ahead(const LogRow& row, const PlanStage& now);
@@ -77,9 +83,9 @@ class PlanGuide {
   std::optional<double> expected_, at_95_;
   KnownMu planned_;  // what the plan was made with
   std::vector<PlanAnew> anew_;
-  std::string off_plan_;                     // a jack was stopped elsewhere: how
-  std::vector<double> read_before_, ahead_;  // of every jack: its last reading; how far it surely is ahead
-  std::vector<double> asked_at_;             // where the jacks stood when a plan was asked for
+  std::string off_plan_;          // a jack was stopped elsewhere: how
+  std::vector<Ahead> ahead_;      // of every jack
+  std::vector<double> asked_at_;  // where the jacks stood when a plan was asked for
   bool is_planning_ = false, has_changed_ = false;
   std::set<std::string> raised_;  // limits
 };
