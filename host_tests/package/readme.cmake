@@ -1,4 +1,5 @@
-# Every C++ block of README.md compiles without a warning, and a program prints the text block that follows it.
+# Every C++ block of README.md and of the page for firmware engineers compiles without a warning, and a program prints the
+# text block that follows it.
 cmake_minimum_required(VERSION 3.22)
 include(${CMAKE_CURRENT_LIST_DIR}/run_or_fail.cmake)
 file(REMOVE_RECURSE ${WORK})
@@ -23,6 +24,8 @@ macro(take_block begin)
 endmacro()
 
 file(READ ${TAUT}/README.md text)
+file(READ ${TAUT}/firmware_example/README.md firmware)
+string(APPEND text "${firmware}")
 set(count 0)
 set(programs 0)
 while(TRUE)
