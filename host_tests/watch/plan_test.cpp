@@ -243,6 +243,30 @@ TEST_CASE("a program that was killed goes on in the stage of the plan that it wa
   CHECK(other.err().find("has a plan to another goal") != std::string::npos);
 }
 
+TEST_CASE("from a state that estimate has written, the stage is found with the first row") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene_with(0.2));
+  write(scratch, "goal.json", goal);
+  const std::string header = "time,C.end\n";
+  std::string log = header;
+  for (int row = 0; row <= 40; ++row) log += std::to_string(row) + "," + std::to_string(3000 * row) + "\n";
+  write(scratch, "log.csv", log);
+  REQUIRE(run_taut(scratch, "estimate " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv") +
+                                " --state " + scratch.quoted("state"))
+              .status == 0);
+  WatchedProgram watch(scratch,
+                       {"scene.json", "-", "--http", "0", "--goal", "goal.json", "--state", "state"});
+  const int port = watch.port();
+  watch.write(header + "41,123000\n");
+  const Json plan = answer_to(port, 41).at("plan");
+  CHECK(plan.at("stage") == 0);
+  CHECK(plan.at("order") == "pull");
+  CHECK(plan.at("jacks").at("C.end").at("to_go").get<double>() ==
+        doctest::Approx(plan.at("jacks").at("C.end").at("to").get<double>() - 123000).epsilon(0.02));
+  watch.close_input();
+  CHECK(watch.ended() == 0);
+}
+
 TEST_CASE(
     "beyond a limit of the goal there is an alarm and an order to stop, until the force has come back") {
   const Scratch scratch;

@@ -21,8 +21,8 @@ struct WatchOptions {
 };
 
 /// Follows the rows until they end or a signal asks for it, and returns the exit status: 0, or 1 if there is
-/// no answer at some row, or no plan to the goal. Remarks and failures go to standard error. Throws InputError for unusable input;
-/// what was answered before is recorded.
+/// no answer at some row, or no plan to the goal. Remarks and failures go to standard error. Throws
+/// InputError for unusable input; what was answered before is recorded.
 int watch(const WatchOptions& options);
 
 }  // namespace taut::host

@@ -73,8 +73,8 @@ class Jacking {
   /// why() says the reason.
   [[nodiscard]] bool begin();
   /// In place of begin(): brings prestrain on and goes through all that has been jacked; plans go on from
-  /// there, with the loads of the goal. A move that has no answer, as between noisy readings of two jacks near
-  /// zero, is left out. False if the last one has none; why() says the reason.
+  /// there, with the loads of the goal. A move that has no answer, as between noisy readings of two jacks
+  /// near zero, is left out. False if the last one has none; why() says the reason.
   [[nodiscard]] bool begin_after(const std::vector<PastMove>& past);
   const Status& why() const { return why_; }
   bool loads_come_first() const { return loads_come_first_; }
