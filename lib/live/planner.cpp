@@ -10,16 +10,21 @@
 #include "lib/live/stop_signal.hpp"
 
 namespace taut::host {
+namespace {
+
+// Rows come first.
+void give_way() {
+#ifdef __linux__
+  setpriority(PRIO_PROCESS, 0, 10);  // there, of this thread alone
+#endif
+}
+
+}  // namespace
 
 Planner::Planner(const PlanGoal& goal, std::function<void(PlanFound)> found)
     : goal_(goal), found_(std::move(found)) {
   const SignalsHeldBack held;
-  thread_ = std::thread([this] {
-    call_with_own_stack([this] {
-      work();
-      return 0;
-    });
-  });
+  thread_ = std::thread([this] { work(); });
 }
 
 Planner::~Planner() {
@@ -41,9 +46,6 @@ void Planner::ask(PlanRequest request) {
 }
 
 void Planner::work() {
-#ifdef __linux__
-  setpriority(PRIO_PROCESS, 0, 10);  // there, of this thread alone: rows come first
-#endif
   while (true) {
     PlanRequest request;
     {
@@ -53,8 +55,14 @@ void Planner::work() {
       request = std::move(*request_);
       request_.reset();
     }
-    PlanFound found = find(std::move(request));
+    PlanFound found;
+    call_with_own_stack([&] {
+      give_way();
+      found = find(std::move(request));
+      return 0;
+    });
     if (is_over_) return;
+    // Not with that priority: rows wait while it is taken.
     found_(std::move(found));
   }
 }

@@ -33,10 +33,11 @@ struct PlanFound {
   std::string failure;  ///< why there is none; empty: there is
 };
 
-/// One thread with the stack that solvers need, and one request at a time.
+/// One request at a time, in a thread with the stack that solvers need and, on a Linux system, a lower
+/// priority.
 class Planner {
  public:
-  /// `found` is called in the thread. The goal must outlive it.
+  /// `found` is called in another thread, of the usual priority. The goal must outlive it.
   Planner(const PlanGoal& goal, std::function<void(PlanFound)> found);
   /// Gives up what is being looked for.
   ~Planner();
