@@ -25,6 +25,10 @@ for look in light dark; do
     "file://$work/run.html"
 done
 
+"$taut" plan plan_string.json plan_string_goal.json --report "$work/plan.html" > "$work/plan"
+browse --no-pdf-header-footer --print-to-pdf="$work/plan.pdf" "file://$work/plan.html"
+pdftoppm -r 96 -png -f 1 -l 1 -singlefile "$work/plan.pdf" "$folder/plan"
+
 # The log is at its end at once, and the page stays there.
 "$taut" watch rigid_saddles.json rigid_saddles_site.csv --http 0 2> "$work/url" > "$work/terminal" &
 watched=$!

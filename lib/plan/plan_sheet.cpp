@@ -18,8 +18,9 @@ namespace {
 constexpr const char* dash = "\u2013";
 constexpr double mm = 1000;
 constexpr const char* sheet_style = R"(
-@page{size:A4;margin:14mm}
 .blank{min-width:3.5rem;border-left:1px solid var(--rule);border-right:1px solid var(--rule)}
+@media print{body{font-size:9.5pt;line-height:1.35}h2{margin:3mm 0 1mm}ul{margin:1mm 0}figure{margin:1mm 0}
+.note,.files,.legend{font-size:8pt}table{font-size:8pt}}
 )";
 
 std::string cell(const char* look, const std::string& html) { return element("td", {{"class", look}}, html); }
