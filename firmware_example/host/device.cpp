@@ -111,9 +111,10 @@ Information Device::information() { return information_of(ask("I", 'I', "")); }
 
 Information Device::choose(std::uint32_t scene) {
   sequence_ = 0;
-  // The device greets with the same kind of frame: only one about this scene is the answer.
-  ask("C " + number_field(scene), 'I', "");
+  // The device greets with the same kind of frame, and while it starts it may not hear: only one about this
+  // scene is the answer.
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    ask("C " + number_field(scene), 'I', "");
     const Information found = information();
     if (found.scene == scene && !found.has_last) return found;
   }

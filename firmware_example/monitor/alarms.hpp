@@ -18,8 +18,9 @@ enum class Alarm : std::uint8_t {
   silence,          ///< no sample for a while
   state_lost,       ///< the record in memory was not usable: begun anew without load
   restarted,        ///< after a power failure or by the watchdog, not on command
+  not_kept,         ///< the state could not be written to memory that outlives the power
 };
-constexpr int alarm_count = 12;
+constexpr int alarm_count = 13;
 
 /// A set of alarms.
 class Alarms {
@@ -39,8 +40,9 @@ class Alarms {
 
 /// For people; the device sends the bits.
 constexpr const char* alarm_words[alarm_count] = {
-    "bad_frame", "bytes_lost", "sample_lost",   "sensor_range", "sensor_frozen", "budget_exceeded",
-    "no_answer", "doubtful",   "scene_refused", "silence",      "state_lost",    "restarted"};
+    "bad_frame",       "bytes_lost", "sample_lost", "sensor_range",  "sensor_frozen",
+    "budget_exceeded", "no_answer",  "doubtful",    "scene_refused", "silence",
+    "state_lost",      "restarted",  "not_kept"};
 
 /// What the forces in an answer are worth.
 enum class Quality : char {

@@ -37,9 +37,9 @@ class Application {
     board_.feed_watchdog();
     if (board_.start() != Start::commanded) raise(Alarm::restarted);
     const auto found = records_.find(header_);
-    if (found != Records<Board>::Found::record || !take_up()) {
+    if (found != Found::record || !take_up()) {
       // The very first start has nothing to lose.
-      if (found != Records<Board>::Found::nothing) raise(Alarm::state_lost);
+      if (found != Found::nothing) raise(Alarm::state_lost);
       choose(0);
     }
     last_sample_at_ = board_.milliseconds();
@@ -62,6 +62,8 @@ class Application {
       }
       break;
     }
+    records_.idle();
+    watch_records();
     watch_line();
   }
 
@@ -106,7 +108,7 @@ class Application {
       common_.last = sequence;
       common_.has_last = 1;
       // First kept, then said: what was said is never forgotten.
-      keep();
+      keep(Keep::soon);
     });
     return refusal;
   }
@@ -166,8 +168,9 @@ class Application {
   using Reader = FrameReader<most_in>;
   using Writer = FrameWriter<most_out>;
 
+  using RecordsType = typename RecordsOf<Board>::Type;
   static constexpr int slot_size =
-      Records<Board>::size_with(sizeof(Common) + std::max({SessionOf<Sources>::most_kept...}));
+      RecordsType::size_with(sizeof(Common) + std::max({SessionOf<Sources>::most_kept...}));
   static_assert(2 * slot_size <= Board::memory_size, "the non-volatile memory is too small for two records");
 
   void raise(Alarm alarm) {
@@ -224,7 +227,7 @@ class Application {
     });
     return done;
   }
-  void keep() {
+  void keep(Keep how_soon = Keep::at_once) {
     session_.visit([&](auto& session) {
       if (!session.usable()) return;
       const auto& state = session.save();
@@ -237,8 +240,14 @@ class Application {
       records_.add(&common_, sizeof common_);
       records_.add(&state, sizeof state);
       if (further > 0) records_.add(&session.save_above(), further);
-      records_.finish();
+      records_.finish(how_soon);
     });
+    watch_records();
+  }
+  void watch_records() {
+    if (records_.failures() == not_kept_) return;
+    not_kept_ = records_.failures();
+    raise(Alarm::not_kept);
   }
 
   // Frames.
@@ -406,7 +415,7 @@ class Application {
   Board& board_;
   OneOf<SessionOf<Sources>...> session_;
   int scene_ = 0;
-  Records<Board> records_;
+  RecordsType records_;
   RecordHeader header_;
   Common common_;
   Reader reader_;
@@ -414,6 +423,7 @@ class Application {
   Alarms pending_;  // since the last answer
   std::uint32_t bad_frames_ = 0;
   std::uint32_t lost_bytes_ = 0;
+  std::uint32_t not_kept_ = 0;
   std::uint32_t last_sample_at_ = 0;
   bool silent_ = false;
 };

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "monitor/crc32.hpp"
 
@@ -23,6 +24,31 @@ struct RecordHeader {
   std::uint32_t sequence = 0;  ///< one more with every record
 };
 
+/// Whether there is a whole record at `start`, no longer than `slot` [bytes].
+template <class Memory>
+bool is_good_record(Memory& memory, int start, int slot, const RecordHeader& header) {
+  constexpr int around = static_cast<int>(sizeof header + sizeof(std::uint32_t));
+  if (header.magic != RecordHeader::magic_number || header.version != RecordHeader::present_version ||
+      slot < around || header.length > static_cast<std::uint32_t>(slot - around))
+    return false;
+  Crc32 crc;
+  const std::size_t count = sizeof header + header.length;
+  std::uint8_t chunk[32];
+  for (std::size_t done = 0; done < count; done += sizeof chunk) {
+    const std::size_t part = count - done < sizeof chunk ? count - done : sizeof chunk;
+    memory.read(start + static_cast<int>(done), chunk, part);
+    crc.add(chunk, part);
+  }
+  std::uint32_t checksum = 0;
+  memory.read(start + static_cast<int>(count), &checksum, sizeof checksum);
+  return checksum == crc.value();
+}
+
+enum class Found : std::uint8_t { record, nothing, damage };
+
+/// How soon a record must outlive the power.
+enum class Keep : std::uint8_t { at_once, soon };
+
 /// Two slots in a memory `Memory` with read(at, to, count) and write(at, from, count).
 ///
 /// The slot that is written is never the one that was good last, and its checksum is its last word: cut at
@@ -30,8 +56,6 @@ struct RecordHeader {
 template <class Memory>
 class Records {
  public:
-  enum class Found : std::uint8_t { record, nothing, damage };
-
   /// `slot` is the size of one slot [bytes].
   Records(Memory& memory, int slot) : memory_(memory), slot_(slot) {}
 
@@ -47,7 +71,7 @@ class Records {
       RecordHeader other;
       memory_.read(slot * slot_, &other, sizeof other);
       blank = blank && (other.magic == 0 || other.magic == 0xFFFFFFFF);
-      if (!is_good(slot, other)) continue;
+      if (!is_good_record(memory_, slot * slot_, slot_, other)) continue;
       // The sequence may pass zero.
       if (latest_ >= 0 && other.sequence - header.sequence > 0x7FFFFFFF) continue;
       header = other;
@@ -74,40 +98,45 @@ class Records {
     crc_.add(bytes, count);
     put(bytes, count);
   }
-  void finish() {
+  /// This memory outlives the power: at once is always.
+  void finish(Keep) {
     const std::uint32_t checksum = crc_.value();
     put(&checksum, sizeof checksum);
   }
+  /// For records that are written later: nothing here.
+  void idle() {}
+  /// How many could not be written.
+  static constexpr std::uint32_t failures() { return 0; }
+
+  // For memory of two kinds.
+
+  /// Goes on after a record that is elsewhere.
+  void continue_after(std::uint32_t sequence) { sequence_ = sequence; }
+  /// Where the newest record is, and how many bytes it has with its checksum.
+  int latest_at() const { return latest_ * slot_; }
+  int latest_size() const { return at_ - latest_at(); }
 
  private:
   void put(const void* bytes, std::size_t count) {
     memory_.write(at_, bytes, count);
     at_ += static_cast<int>(count);
   }
-  bool is_good(int slot, const RecordHeader& header) {
-    if (header.magic != RecordHeader::magic_number || header.version != RecordHeader::present_version ||
-        header.length > static_cast<std::uint32_t>(slot_) || size_with(header.length) > slot_)
-      return false;
-    Crc32 crc;
-    const std::size_t count = sizeof header + header.length;
-    const int start = slot * slot_;
-    std::uint8_t chunk[32];
-    for (std::size_t done = 0; done < count; done += sizeof chunk) {
-      const std::size_t part = count - done < sizeof chunk ? count - done : sizeof chunk;
-      memory_.read(start + static_cast<int>(done), chunk, part);
-      crc.add(chunk, part);
-    }
-    std::uint32_t checksum = 0;
-    memory_.read(start + static_cast<int>(count), &checksum, sizeof checksum);
-    return checksum == crc.value();
-  }
-
   Memory& memory_;
   int slot_;
   int latest_ = -1;  // slot of the newest good record
   int at_ = 0;
   std::uint32_t sequence_ = 0;
   Crc32 crc_;
+};
+
+/// What keeps the records of a board: what it names, or two slots in its memory.
+template <class Board, class = void>
+struct RecordsOf {
+  using Type = Records<Board>;
+};
+template <class Board>
+struct RecordsOf<Board, std::void_t<typename Board::RecordsType>> {
+  using Type = typename Board::RecordsType;
 };
 
 }  // namespace monitor

@@ -311,7 +311,7 @@ TEST_CASE("what cannot be done is refused with the exception of the standard, an
   CHECK(bus.read(3, 11, 1) == refusal(3, 2));
   CHECK(bus.read(3, 118, 1) == refusal(3, 2));  // nine numbers
   CHECK(bus.read(1, 5, 1) == refusal(1, 2));
-  CHECK(bus.read(2, 12, 1) == refusal(2, 2));
+  CHECK(bus.read(2, 13, 1) == refusal(2, 2));
   for (std::uint8_t function = 1; function <= 4; ++function) {
     CHECK(bus.read(function, 0, 0) == refusal(function, 3));
     CHECK(bus.read(function, 0, function < 3 ? 2001 : 126) == refusal(function, 3));

@@ -169,9 +169,9 @@ TEST_CASE("the number of the record passes zero") {
   put(0, 0xFFFFFFFF);
   put(1, 0);
   Records records(board, slot);
-  REQUIRE(records.find(found) == Records::Found::record);
+  REQUIRE(records.find(found) == monitor::Found::record);
   CHECK(found.sequence == 0);
   put(0, 1);
-  REQUIRE(records.find(found) == Records::Found::record);
+  REQUIRE(records.find(found) == monitor::Found::record);
   CHECK(found.sequence == 1);
 }

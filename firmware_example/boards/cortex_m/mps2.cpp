@@ -98,7 +98,7 @@ Mps2::Mps2() {
   systick().control = 7;
   uart().divider = 217;  // 115200 baud
   uart().control = transmit_on | receive_on | receive_interrupt_on;
-  interrupt_enable() = 1U << receive_interrupt;
+  interrupt_enable() = 1U << receive_interrupts[0];
 }
 
 bool Mps2::read(char& byte) {

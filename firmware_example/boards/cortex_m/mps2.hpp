@@ -10,7 +10,7 @@
 namespace boards {
 
 constexpr int interrupts = 32;
-constexpr int receive_interrupt = 0;
+constexpr int receive_interrupts[] = {0};
 
 void on_receive();
 void on_tick();

@@ -41,7 +41,7 @@ constexpr Vectors make_vectors() {
   vectors.handlers[0] = start_up;
   vectors.handlers[1] = ignore;  // the watchdog's warning; its reset follows
   vectors.handlers[14] = boards::on_tick;
-  vectors.handlers[15 + boards::receive_interrupt] = boards::on_receive;
+  for (const int receive : boards::receive_interrupts) vectors.handlers[15 + receive] = boards::on_receive;
   return vectors;
 }
 
