@@ -227,8 +227,7 @@ class CommandLine {
   ReportOptions reporting_;
   std::vector<std::string> scenes_;
   std::string c_name_;
-  std::string method_ = methods.front().first, scalar_ = "double",
-              language_ = languages.front().first;
+  std::string method_ = methods.front().first, scalar_ = "double", language_ = languages.front().first;
 };
 
 int run(int argc, char** argv) {
