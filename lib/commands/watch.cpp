@@ -94,7 +94,7 @@ class Watch {
     if (!options_.http.empty()) {
       server = std::make_unique<HttpServer>(
           http_address("--http", options_.http), board_, history_,
-          [this](const LiveAnswerPtr& now) { return live_page(scene_, name(), now); });
+          [this](const LiveAnswerPtr& now) { return live_page(scene_, name(), bounds(), now); });
       std::cerr << server->url() << std::endl;
     }
     const Terminal terminal(scene_, board_);
@@ -128,6 +128,17 @@ class Watch {
     return is_serial_            ? serial_line(options_.serial).device
            : options_.log == "-" ? "standard input"
                                  : options_.log;
+  }
+
+  LiveBounds bounds() const {
+    LiveBounds bounds;
+    if (goal_) {
+      bounds.target = goal_->target;
+      bounds.most_segment = goal_->most_segment;
+    }
+    bounds.least_force = options_.limits.least_force;
+    if (options_.limits.most_force >= 0) bounds.most_force = options_.limits.most_force;
+    return bounds;
   }
 
   std::unique_ptr<LineSource> open_source() {

@@ -1,6 +1,7 @@
 #include "lib/live/live_page.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "lib/files/result_file.hpp"
@@ -44,8 +45,9 @@ AlarmMeaning meaning_of(const std::string& word) {
 
 class LivePage {
  public:
-  LivePage(const SceneDescription& scene, const std::string& log, const LiveAnswerPtr& now)
-      : scene_(scene), log_(log), now_(now), has_row_(now && now->row > 0), record_(scene) {
+  LivePage(const SceneDescription& scene, const std::string& log, const LiveBounds& bounds,
+           const LiveAnswerPtr& now)
+      : scene_(scene), log_(log), bounds_(bounds), now_(now), has_row_(now && now->row > 0), record_(scene) {
     if (has_row_) {
       record_.rows = now->row;
       record_.end = now->answer;
@@ -267,6 +269,21 @@ class LivePage {
     data["cables"] = Json::array();
     for (const CableDescription& cable : scene_.cables) data["cables"].push_back(cable.name);
     data["jacks"] = jack_names();
+    data["targets"] = Json::array();
+    data["limits"] = Json::array();
+    for (std::size_t c = 0; c < scene_.cables.size(); ++c) {
+      const std::size_t first = start_of(scene_, c).segment;
+      Json targets = Json::array();
+      double most = bounds_.most_force;
+      for (std::size_t i = first; i < first + scene_.cables[c].segments(); ++i) {
+        if (i < bounds_.target.size())
+          targets.push_back(bounds_.target[i] > 0 ? Json(bounds_.target[i]) : Json(nullptr));
+        if (i < bounds_.most_segment.size()) most = std::min(most, bounds_.most_segment[i]);
+      }
+      data["targets"].push_back(std::move(targets));
+      data["limits"].push_back({bounds_.least_force > 0 ? Json(bounds_.least_force) : Json(nullptr),
+                                most < HUGE_VAL ? Json(most) : Json(nullptr)});
+    }
     for (int s = 0; s < 4; ++s) {
       const auto state = static_cast<JointState>(s);
       data["outlines"][state_word(state)] = joint_outline(state);
@@ -285,6 +302,7 @@ class LivePage {
 
   const SceneDescription& scene_;
   const std::string& log_;
+  const LiveBounds& bounds_;
   const LiveAnswerPtr& now_;
   bool has_row_;
   RunRecord record_;
@@ -294,8 +312,9 @@ class LivePage {
 
 }  // namespace
 
-std::string live_page(const SceneDescription& scene, const std::string& log, const LiveAnswerPtr& now) {
-  return LivePage(scene, log, now)();
+std::string live_page(const SceneDescription& scene, const std::string& log, const LiveBounds& bounds,
+                      const LiveAnswerPtr& now) {
+  return LivePage(scene, log, bounds, now)();
 }
 
 }  // namespace taut::host

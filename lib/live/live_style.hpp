@@ -83,6 +83,8 @@ inline constexpr const char* live_script = R"(
       segment.querySelector('.cable').setAttribute('class', 'cable c' + colour);
       segment.querySelector('title').textContent = segment.dataset.name + ': ' + number(forces[i]) + ' ' + unit.name +
         ', sd ' + short(list[i].sd / unit.newtons, 2);
+      var label = segment.querySelector('text.force');
+      if (label) put(label, number(forces[i]));
     });
     var states = [];
     data.cables.forEach(function (cable) { states = states.concat(answer.joints[cable] || []); });
@@ -204,9 +206,20 @@ inline constexpr const char* live_script = R"(
         high.push([i, part.high], [i + 1, part.high]);
         values.push(part.low, part.high);
       });
+      var lines = [{ look: 'estimate', points: line }];
+      (data.targets[c] || []).forEach(function (target, i) {
+        if (target === null) return;
+        lines.push({ look: 'target', points: [[i, target], [i + 1, target]] });
+        values.push(target);
+      });
+      data.limits[c].forEach(function (limit) {
+        if (limit === null) return;
+        lines.push({ look: 'limit', points: [[0, limit], [list.length, limit]] });
+        values.push(limit);
+      });
       var every = Math.ceil(list.length / 8), middles = [];
       for (var m = 0; list.length > m; m += every) middles.push(m + 0.5);
-      draw(by('along' + c), [{ look: 'estimate', points: line }], around(values, 0.01), [0, list.length],
+      draw(by('along' + c), lines, around(values, 0.01), [0, list.length],
         { y: number, at: middles, x: function (v) { return 'T' + Math.round(v + 0.5); } }, high.concat(low.reverse()));
     });
   }

@@ -30,7 +30,9 @@ figure{margin:.5rem 0 1rem;break-inside:avoid}
 .patch{width:1.4rem;height:.8rem;flex:none}
 .plot{padding:16px 10px 24px 60px}
 svg{display:block;overflow:visible}
-svg text.lean{font-size:10px}
+svg text.lean,svg text.force{font-size:10px}
+svg text.force{fill:var(--ink)}
+svg text.node{font-size:9px}
 svg text{font-size:12px;fill:var(--soft);stroke:none;font-variant-numeric:tabular-nums}
 .x-title{text-align:right;padding-right:10px;margin-top:-2px}
 .grid line{stroke:var(--rule);stroke-width:1}
@@ -220,6 +222,8 @@ inline constexpr const char* page_script = R"(
       segment.querySelector('.cable').setAttribute('class', 'cable c' + colour);
       segment.querySelector('title').textContent =
         segment.dataset.name + ': ' + frame[1][i].toFixed(data.decimals) + ' ' + data.unit;
+      var label = segment.querySelector('text.force');
+      if (label) label.textContent = frame[1][i].toFixed(data.decimals);
     });
     joints.forEach(function (joint, j) {
       var state = data.states[frame[2].charAt(j)];

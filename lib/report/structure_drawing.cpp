@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "lib/files/result_file.hpp"
 #include "lib/report/chart.hpp"
@@ -48,6 +49,7 @@ class StructureDrawing {
     std::string parts = substructures() + beams() + struts() + supports();
     for (std::size_t c = 0; c < scene_.cables.size(); ++c) parts += segments(c);
     for (std::size_t c = 0; c < scene_.cables.size(); ++c) parts += jacks(c) + joints(c);
+    parts += node_labels();
     if (scene_.dimension == 3) parts += axes();
     return element("svg",
                    {{"class", "structure"},
@@ -176,9 +178,45 @@ class StructureDrawing {
         says += ": " + unit_.text(force) + ", " + say("sd") + " " +
                 unit_.deviation(record_.end.deviation[first + i]);
       }
-      drawn += element(
-          "g", {{"class", "segment"}, {"data-name", name}},
-          line("hit", from, to) + line("casing", from, to) + line(look.c_str(), from, to) + title(says));
+      drawn += element("g", {{"class", "segment"}, {"data-name", name}},
+                       line("hit", from, to) + line("casing", from, to) + line(look.c_str(), from, to) +
+                           title(says) + force_label(first + i, from, to));
+    }
+    return drawn;
+  }
+
+  // Along the segment and below it, where there is room for it.
+  std::string force_label(std::size_t segment, const CurvePoint& from, const CurvePoint& to) const {
+    constexpr double least_length = 40, off = 13;
+    const CurvePoint along = difference(to, from);
+    const double length = std::hypot(along.x, along.y);
+    if (length < least_length || !has_room()) return "";
+    const bool is_upright = along.x > 1e-9 * length || (along.x > -1e-9 * length && along.y < 0);
+    const CurvePoint reading = is_upright ? along : CurvePoint{-along.x, -along.y};
+    const CurvePoint middle{(from.x + to.x) / 2 - off * reading.y / length,
+                            (from.y + to.y) / 2 + off * reading.x / length + 3};
+    return element("text",
+                   {{"class", "force"}, {"transform", turned(middle, reading)}, {"text-anchor", "middle"}},
+                   has_answer() ? unit_.number(record_.end.tension[segment]) : "");
+  }
+  bool has_room() const { return start_of(scene_, scene_.cables.size()).segment <= most_labels; }
+  // Of what a cable runs over and ends at.
+  std::string node_labels() const {
+    constexpr std::size_t longest_name = 12;
+    std::string drawn;
+    if (!has_room()) return drawn;
+    std::vector<char> is_named(scene_.nodes.size());
+    for (const CableDescription& cable : scene_.cables)
+      for (const int node : cable.path) is_named[static_cast<std::size_t>(node)] = 1;
+    for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+      if (!is_named[i]) continue;
+      const CurvePoint at = points_.at(static_cast<int>(i));
+      drawn += element("text",
+                       {{"class", "node"},
+                        {"x", coordinate(at.x)},
+                        {"y", coordinate(at.y - 11)},
+                        {"text-anchor", "middle"}},
+                       escaped(shortened(scene_.nodes[i].name, longest_name)));
     }
     return drawn;
   }
@@ -245,6 +283,8 @@ class StructureDrawing {
     }
     return element("g", {{"class", "axes"}, {"aria-hidden", "true"}}, drawn);
   }
+
+  static constexpr std::size_t most_labels = 40;  // segments: more are a crowd
 
   const SceneDescription& scene_;
   const RunRecord& record_;
