@@ -200,11 +200,11 @@ class StructureDrawing {
                    has_answer() ? unit_.number(record_.end.tension[segment]) : "");
   }
   bool has_room() const { return start_of(scene_, scene_.cables.size()).segment <= most_labels; }
-  // Of what a cable runs over and ends at.
+  // Of what a cable runs over and ends at; in space they would stand on other things.
   std::string node_labels() const {
     constexpr std::size_t longest_name = 12;
     std::string drawn;
-    if (!has_room()) return drawn;
+    if (scene_.dimension == 3 || !has_room()) return drawn;
     std::vector<char> is_named(scene_.nodes.size());
     for (const CableDescription& cable : scene_.cables)
       for (const int node : cable.path) is_named[static_cast<std::size_t>(node)] = 1;
