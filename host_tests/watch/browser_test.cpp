@@ -206,6 +206,12 @@ TEST_CASE(
   CHECK(browser.value("(function () { var p = document.querySelector('#load0 .stage').getAttribute('points')"
                       ".split(' ').map(function (q) { return q.split(','); }); return p.length === 2 "
                       "? p[0][1] === p[1][1] : false; })()") == true);
+  // Every segment has its target in the chart of the forces along the cable, and its force on the drawing.
+  CHECK(
+      comes_true([&] { return browser.value("document.querySelectorAll('#along0 .target').length") == 4; }));
+  CHECK(browser.value("document.querySelectorAll('#along0 .limit').length") == 0);
+  CHECK(browser.value("Array.prototype.filter.call(document.querySelectorAll('.structure text.force'), "
+                      "function (label) { return label.textContent !== ''; }).length > 0") == true);
   const Json calm = browser.value("getComputedStyle(document.getElementById('order')).backgroundColor");
   int row = 2;
   for (double force = 4000; force <= 210000; force += 2000, ++row)
