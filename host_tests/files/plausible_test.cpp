@@ -1,6 +1,7 @@
 // What is possible and yet surely a mistake is refused with its place and remedy, unless it is meant.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
@@ -139,6 +140,26 @@ TEST_CASE("strokes in mm without the unit are refused; from any mark and with a 
   check_refused({}, "estimate", strokes(0, 10, 0), "as in C.end.stroke [mm]");
   check_taken({}, "estimate", strokes(7.4, 7.41, 0));
   check_taken({}, "estimate", strokes(0, 0.01, 7));
+}
+
+TEST_CASE(
+    "a force in kN without the unit is refused where the stroke grows as if it were a thousand times "
+    "larger") {
+  // 100 kN stretch the cable by 50 mm; 100 N would by 0.05.
+  const auto log = [](double newtons, double slack, double softness) {
+    return ramp("time,C.end,C.end.stroke", 20, [=](int i) {
+      const double part = i / 20.0;
+      return std::to_string(newtons * part) + "," +
+             std::to_string(0.3 + slack * std::min(1.0, 5 * part) + softness * 0.05 * part);
+    });
+  };
+  check_refused(Site(), "estimate", log(100, 0, 1),
+                "; write the unit of the column after its name, as in C.end [kN]");
+  check_refused(Site(), "estimate", log(100, 0, 1), "where cable \"C\" itself stretches by 0.0");
+  check_refused(Site(), "estimate", log(100, 0.1, 3), "C.end [kN]");
+  check_taken(Site(), "estimate", log(1e5, 0, 1));
+  check_taken(Site(), "estimate", log(1e5, 0.2, 1));  // slack that is taken out first
+  check_taken(Site(), "estimate", log(1e5, 0, 10));   // a structure ten times as soft as its cable
 }
 
 TEST_CASE("a cell that scatters by more than its cable ever pulls is refused at its place in the scene") {

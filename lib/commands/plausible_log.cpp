@@ -6,11 +6,13 @@
 #include "lib/files/input_error.hpp"
 #include "lib/files/plausible_scene.hpp"
 #include "lib/files/text.hpp"
+#include "lib/report/number_text.hpp"
 
 namespace taut::host {
 namespace {
 
 constexpr double least_strain = 1e-6, part_of_length = 0.1, part_of_largest = 0.5, clear_of_noise = 20;
+constexpr double least_growth = 0.005, most_times_stretch = 100;  // [m], [-]
 constexpr std::size_t most_strokes = 4096, least_strokes = 3, least_readings = 3;
 
 std::string column_of(const CableDescription& cable, std::size_t end) {
@@ -56,7 +58,7 @@ void PlausibleLog::take(const LogRow& row) {
       const EndRow& given = row.cables[c][end];
       if (given.stroke) {
         Strokes& strokes = cables_[c].stroke[end];
-        strokes.take({*given.stroke, row.line});
+        strokes.take({*given.stroke, row.line, given.reading.value_or(std::nan(""))});
         cables_[c].is_read_under_load |= *given.stroke != strokes.kept.front().at;
       }
       if (!given.reading) continue;
@@ -83,6 +85,7 @@ void PlausibleLog::require(const LogReader& log, const std::string& path, bool h
     for (std::size_t end = 0; end < 2; ++end) {
       if (!scene_.cables[c].is_jacked(end)) continue;
       require_strokes(c, end, log, path);
+      require_stretch(c, end, log, path);
     }
     if (!has_past) require_column(c, log, path);
     require_deviations(c);
@@ -132,6 +135,36 @@ void PlausibleLog::require_strokes(std::size_t c, std::size_t end, const LogRead
          "strokes go from " + plain(least.at) + " to " + plain(largest.at) +
              " m, over more than a tenth of cable " + quote(cable.name),
          "write the unit of the column after its name, as in " + column + " [mm]");
+}
+
+// Between half of the largest force and all of it slack is out, whatever the friction.
+void PlausibleLog::require_stretch(std::size_t c, std::size_t end, const LogReader& log,
+                                   const std::string& path) const {
+  const CableDescription& cable = scene_.cables[c];
+  const double pull = cables_[c].jack[end].pull();
+  std::vector<Stroke> high;
+  for (const Stroke& stroke : cables_[c].stroke[end].kept)
+    if (stroke.force >= pull / 2) high.push_back(stroke);
+  if (pull == 0 || high.size() < least_strokes) return;
+  std::sort(high.begin(), high.end(), [](const Stroke& a, const Stroke& b) { return a.force < b.force; });
+  // Single wrong readings do not count.
+  const auto median = [](std::vector<Stroke>::const_iterator from, std::vector<Stroke>::const_iterator to) {
+    std::vector<double> at;
+    for (; from != to; ++from) at.push_back(from->at);
+    std::nth_element(at.begin(), at.begin() + static_cast<std::ptrdiff_t>(at.size() / 2), at.end());
+    return at[at.size() / 2];
+  };
+  const auto third = static_cast<std::ptrdiff_t>(high.size() / 3);
+  const double grown = median(high.end() - third, high.end()) - median(high.begin(), high.begin() + third);
+  const double further = (high.end() - 1 - third / 2)->force - (high.begin() + third / 2)->force;
+  const double stretch = further * length_of(cable, scene_) / (cable.E * cable.A);
+  if (!(further > pull / 10) || !(grown > least_growth) || !(grown > most_times_stretch * stretch)) return;
+  const std::string column = column_of(cable, end);
+  refuse(path, log.place(log.header_line(), column),
+         "between half of its largest force and all of it the stroke of " + column + " grows by " +
+             trimmed(significant(1000 * grown, 3)) + " mm, where cable " + quote(cable.name) +
+             " itself stretches by " + trimmed(significant(1000 * stretch, 2)) + " mm",
+         unit_remedy(cable, end, "kN"));
 }
 
 void PlausibleLog::require_deviations(std::size_t c) const {

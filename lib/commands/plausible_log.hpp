@@ -20,11 +20,11 @@ class PlausibleLog {
 
   void take(const LogRow& row);
   /// Throws InputError, unless the scene says "plausible": false, if most readings of a jack strain its cable
-  /// by more than 2 %, or all jacks together none by 1e-6, though they pull; if a stroke, but for the tenth
-  /// of its readings at either end, goes over more than a tenth of the cable; if a described cell scatters by
-  /// more than half of what the jacks of its cable ever pull, though these readings do not; and, where the
-  /// log does not go on from a state, if no jack of a cable has a column though other instruments read it
-  /// under load.
+  /// by more than 2 %, or all jacks together none by 1e-6, though they pull; if a stroke grows a hundred
+  /// times faster with the force than the cable stretches; if a stroke, but for the tenth of its readings at
+  /// either end, goes over more than a tenth of the cable; if a described cell scatters by more than half of
+  /// what the jacks of its cable ever pull, though these readings do not; and, where the log does not go on
+  /// from a state, if no jack of a cable has a column though other instruments read it under load.
   void require(const LogReader& log, const std::string& path, bool has_past) const;
 
  private:
@@ -40,6 +40,7 @@ class PlausibleLog {
   struct Stroke {
     double at;
     std::size_t line;
+    double force;  ///< that the jack read in the same row; not a number: none
   };
   struct Strokes {
     std::vector<Stroke> kept;
@@ -54,6 +55,7 @@ class PlausibleLog {
   };
 
   void require_units_of_jacks(const LogReader& log, const std::string& path) const;
+  void require_stretch(std::size_t c, std::size_t end, const LogReader& log, const std::string& path) const;
   void require_strokes(std::size_t c, std::size_t end, const LogReader& log, const std::string& path) const;
   void require_deviations(std::size_t c) const;
   void require_column(std::size_t c, const LogReader& log, const std::string& path) const;
