@@ -12,6 +12,8 @@ namespace {
 constexpr int most_events = 100000;
 // Events in the same place.
 constexpr int most_stalls = 64;
+// Of a cable by what its structure hangs through without it, of its length: twice what a strand stretches.
+constexpr double most_slack = 0.01;
 
 }  // namespace
 
@@ -48,9 +50,18 @@ bool Jacking::begin() {
   }
   const std::string before = state();
   const Followed loaded = model_->advance(row_of(at_rest(), goal_.factor), 1);
-  loads_come_first_ = loaded.whole();
+  loads_come_first_ = loaded.whole() && !hangs_too_low();
   if (!loads_come_first_) go_to(before);
   return true;
+}
+
+// With slack cables, in second-order theory: linear theory has no such limit.
+bool Jacking::hangs_too_low() const {
+  if (!scene_.second_order) return false;
+  const LegPoint loaded = here();
+  for (std::size_t k = 0; k < jacks_.size(); ++k)
+    if (-loaded.stroke[k] > most_slack * length_of(scene_.cables[jacks_[k].cable], scene_)) return true;
+  return false;
 }
 
 bool Jacking::begin_after(const std::vector<PastMove>& past) {

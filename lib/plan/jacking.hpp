@@ -69,8 +69,8 @@ class Jacking {
           GiveUp give_up = {});
 
   /// Brings prestrain and loads on, with all jacks at zero. If the structure does not stand under its loads
-  /// without its cables, the loads come with the first move. False if there is no answer even without loads;
-  /// why() says the reason.
+  /// without its cables, or in second-order theory leaves a cable slack by a hundredth of its length, the
+  /// loads come with the first move. False if there is no answer even without loads; why() says the reason.
   [[nodiscard]] bool begin();
   /// In place of begin(): brings prestrain on and goes through all that has been jacked; plans go on from
   /// there, with the loads of the goal. A move that has no answer, as between noisy readings of two jacks
@@ -97,6 +97,7 @@ class Jacking {
   LegPoint here() const;
 
  private:
+  bool hangs_too_low() const;
   LogRow row_of(const PlanStage& stage, const std::vector<double>& factor) const;
   void count();
 
