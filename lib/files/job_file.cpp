@@ -10,7 +10,6 @@
 namespace taut::host {
 namespace {
 
-constexpr int format_version = 1;
 constexpr std::size_t largest_file = std::size_t{16} << 20;
 constexpr std::size_t most_stages = 100;
 constexpr double largest_tolerance = 1;
@@ -34,7 +33,7 @@ class JobReader {
   JobReader(const Field& root, const SceneDescription& scene) : root_(root), scene_(scene) {}
 
   Job read() {
-    read_head();
+    root_.require_head("job", "{ \"taut\": 1, \"project\": \"...\" }", job_keys);
     for (const auto& [key, text] : {std::pair{"project", &job_.project},
                                     {"drawing", &job_.drawing},
                                     {"contractor", &job_.contractor},
@@ -50,18 +49,6 @@ class JobReader {
   }
 
  private:
-  void read_head() const {
-    if (!root_.is_object()) root_.members("a job: { \"taut\": 1, \"project\": \"...\" }");
-    // The version first: all that follows may differ in another one.
-    if (const auto version = root_.find("taut")) {
-      const double found = version->number("1, the version of the format");
-      if (found != format_version)
-        version->refuse("version " + plain(found) + " of the format is not known",
-                        "write a job of version 1");
-    }
-    root_.require_keys(job_keys, "");
-  }
-
   static void read_text_of(const Field& object, const char* key, std::string& text) {
     if (const auto field = object.find(key)) text = field->text("a text");
   }

@@ -85,6 +85,19 @@ std::vector<Field::Member> Field::members(const std::string& meaning) const {
   return all;
 }
 
+void Field::require_head(const std::string& kind, const std::string& example, const Keys& keys) const {
+  constexpr int format_version = 1;
+  if (!is_object()) members("a " + kind + ": " + example);
+  // The version first: all that follows may differ in another one.
+  if (const auto version = find("taut")) {
+    const double found = version->number("1, the version of the format");
+    if (found != format_version)
+      version->refuse("version " + plain(found) + " of the format is not known",
+                      "write a " + kind + " of version 1");
+  }
+  require_keys(keys, "");
+}
+
 void Field::require_keys(const Keys& keys, const std::string& meaning) const {
   require(JsonValue::Kind::object, meaning);
   for (std::size_t i = 0; i < value_->keys.size(); ++i) {

@@ -50,6 +50,9 @@ class Field {
 
   /// Refuses an object that has a key beside `keys` or lacks a required one.
   void require_keys(const Keys& keys, const std::string& meaning) const;
+  /// Of a whole file, which is `kind`, as in `goal`, and looks like `example`: refuses what is no object, is
+  /// of another version of the format, or has other keys.
+  void require_head(const std::string& kind, const std::string& example, const Keys& keys) const;
   /// The value at a key of an object, if there is one.
   std::optional<Field> find(const char* key) const;
   /// The value at a key that is there.

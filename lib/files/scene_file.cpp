@@ -16,7 +16,6 @@
 namespace taut::host {
 namespace {
 
-constexpr int format_version = 1;
 constexpr std::size_t largest_file = std::size_t{16} << 20;
 
 const Keys scene_keys = {
@@ -123,16 +122,7 @@ class SceneReader {
   std::string vector_shape() const { return scene_.dimension == 2 ? "[x, y]" : "[x, y, z]"; }
 
   void read_head() {
-    if (!root_.is_object()) root_.members("a scene: { \"taut\": 1, ... }");
-    // The version first: all that follows may differ in another one.
-    if (const auto version = root_.find("taut")) {
-      const double found = version->number("1, the version of the format");
-      if (found != format_version) {
-        version->refuse("version " + plain(found) + " of the format is not known",
-                        "write a scene of version 1");
-      }
-    }
-    root_.require_keys(scene_keys, "");
+    root_.require_head("scene", "{ \"taut\": 1, ... }", scene_keys);
     scene_.name = root_.at("name").text("a title for the scene");
     const Field field = root_.at("dimension");
     const double found = field.number("2 or 3");

@@ -11,7 +11,6 @@
 namespace taut::host {
 namespace {
 
-constexpr int format_version = 1;
 constexpr std::size_t largest_file = std::size_t{16} << 20;
 constexpr const char* stroke_key = "stroke";
 
@@ -30,7 +29,7 @@ class GoalReader {
 
   PlanGoal read(const std::string& file) {
     goal_.file = file;
-    read_head();
+    root_.require_head("goal", "{ \"taut\": 1, \"target\": { ... } }", goal_keys);
     require_jacks();
     goal_.factor.assign(scene_.loads.size(), 0);
     if (const auto loads = root_.find("loads")) read_loads(*loads);
@@ -45,18 +44,6 @@ class GoalReader {
   }
 
  private:
-  void read_head() const {
-    if (!root_.is_object()) root_.members("a goal: { \"taut\": 1, \"target\": { ... } }");
-    // The version first: all that follows may differ in another one.
-    if (const auto version = root_.find("taut")) {
-      const double found = version->number("1, the version of the format");
-      if (found != format_version)
-        version->refuse("version " + plain(found) + " of the format is not known",
-                        "write a goal of version 1");
-    }
-    root_.require_keys(goal_keys, "");
-  }
-
   void require_jacks() const {
     for (const CableDescription& cable : scene_.cables)
       if (cable.is_jacked(0) || cable.is_jacked(1)) return;
