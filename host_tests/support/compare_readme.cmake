@@ -1,5 +1,5 @@
 # The block of README.md between MARK and the end mark is what TABLE prints, to the letter; with FENCE, as a
-# block of text.
+# block of text. TABLE may be given an ARGUMENT.
 set(mark "${MARK}\n")
 set(end "<!-- end -->")
 # Without a kind, message() leaves the text as it is.
@@ -8,7 +8,7 @@ function(refuse problem)
   message(FATAL_ERROR "${problem}")
 endfunction()
 
-execute_process(COMMAND ${TABLE} OUTPUT_VARIABLE table RESULT_VARIABLE status)
+execute_process(COMMAND ${TABLE} ${ARGUMENT} OUTPUT_VARIABLE table RESULT_VARIABLE status)
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "${TABLE} failed: ${status}")
 endif()

@@ -42,6 +42,22 @@ file(COPY ${TAUT}/LICENSE ${TAUT}/lib/CHANGELOG.md DESTINATION ${OUTPUT}/taut)
 file(COPY ${OUTPUT}/taut_device.hpp DESTINATION ${OUTPUT}/taut/src)
 file(COPY ${TAUT}/firmware_example/data/rolling_joint.hpp DESTINATION ${OUTPUT}/taut/examples/JackLoad)
 
+# A board: the program of the README, with the one header in place of the library.
+copy_with_version(stm32f405 ${OUTPUT}/stm32f405)
+file(COPY ${TAUT}/firmware_example/data/rolling_joint.json DESTINATION ${OUTPUT}/stm32f405)
+file(READ ${TAUT}/README.md text)
+set(first "#include <taut/taut.hpp>\n")
+string(FIND "${text}" "```cpp\n${first}" begin)
+if(begin EQUAL -1)
+  message(FATAL_ERROR "README.md has no program")
+endif()
+string(LENGTH "```cpp\n${first}" length)
+math(EXPR begin "${begin} + ${length}")
+string(SUBSTRING "${text}" ${begin} -1 text)
+string(FIND "${text}" "```" end)
+string(SUBSTRING "${text}" 0 ${end} text)
+file(WRITE ${OUTPUT}/stm32f405/main.cpp "#include \"taut_device.hpp\"\n${text}")
+
 copy_with_version(conan ${OUTPUT}/conan)
 file(COPY ${TAUT}/LICENSE ${TAUT}/include DESTINATION ${OUTPUT}/conan)
 

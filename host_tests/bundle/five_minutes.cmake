@@ -1,0 +1,22 @@
+# A new user's five minutes: `make run` beside the bundle exports the scene, builds the program of the README for an
+# STM32F405, and the emulated board prints what the README shows.
+cmake_minimum_required(VERSION 3.22)
+include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
+need_tool(cross arm-none-eabi-g++)
+need_tool(emulator qemu-system-arm)
+need_tool(make make)
+file(COPY ${BUNDLE}/stm32f405 ${BUNDLE}/taut_device.hpp DESTINATION ${WORK})
+cmake_path(GET PROGRAM PARENT_PATH folder)
+set(ENV{PATH} "${folder}:$ENV{PATH}")
+run_or_fail(${make} -C ${WORK}/stm32f405)
+execute_process(COMMAND ${make} -s -C ${WORK}/stm32f405 run OUTPUT_VARIABLE printed COMMAND_ERROR_IS_FATAL ANY TIMEOUT 60)
+
+file(READ ${TAUT}/README.md text)
+set(mark "<!-- output of the program -->\n```text\n")
+string(FIND "${text}" "${mark}" begin)
+string(LENGTH "${mark}" length)
+math(EXPR begin "${begin} + ${length}")
+string(SUBSTRING "${text}" ${begin} -1 text)
+string(FIND "${text}" "```" end)
+string(SUBSTRING "${text}" 0 ${end} expected)
+need_equal("the board prints other forces than the README shows" "${printed}" "${expected}")
