@@ -6,22 +6,7 @@ file(REMOVE_RECURSE ${WORK})
 list(TRANSFORM EIGEN_INCLUDE PREPEND -isystem)
 set(compile ${CXX} -std=c++17 -ffp-contract=off -fno-exceptions -fno-rtti ${WARNINGS} -I${TAUT}/include
             -I${TAUT}/firmware_example/data ${EIGEN_INCLUDE})
-
-# Takes what lies between the lines `begin` and "```" from `text`, which then begins after it. Sets `found`.
-macro(take_block begin)
-  string(FIND "${text}" "\n${begin}\n" at)
-  set(found OFF)
-  if(NOT at EQUAL -1)
-    set(found ON)
-    string(LENGTH "\n${begin}\n" length)
-    math(EXPR at "${at} + ${length}")
-    string(SUBSTRING "${text}" ${at} -1 text)
-    string(FIND "${text}" "\n```\n" end)
-    math(EXPR end "${end} + 1")
-    string(SUBSTRING "${text}" 0 ${end} block)
-    string(SUBSTRING "${text}" ${end} -1 text)
-  endif()
-endmacro()
+include(${CMAKE_CURRENT_LIST_DIR}/take_block.cmake)
 
 file(READ ${TAUT}/README.md text)
 file(READ ${TAUT}/firmware_example/README.md firmware)
