@@ -116,12 +116,13 @@ TEST_CASE("readings in N under a header in kN are refused; a single wrong one is
               ramp("time,C.end", 20, [](int i) { return i == 9 ? "9.9e37" : up_to(2e4, 20, i); }));
 }
 
-TEST_CASE("readings that strain no cable by 1e-6 are refused; 1 kN on a strand is taken") {
-  // 19 kN in MN without a unit.
-  check_refused(
-      {}, "estimate", ramp("time,C.end", 20, [](int i) { return up_to(0.019, 20, i); }),
-      "log.csv: line 1, column 2 (C.end): no jack strains its cable by as much as 1e-6 in the whole log; "
-      "write the unit of the column after its name, as in C.end [kN]");
+TEST_CASE("forces in kN or MN without their unit are refused; 1 kN on a strand is taken") {
+  // 19 kN in MN; and in kN the least and the most that cables are strained by, 0.1 and 0.7 %.
+  for (const double most : {0.019, 20.0, 140.0})
+    check_refused(
+        {}, "estimate", ramp("time,C.end", 20, [&](int i) { return up_to(most, 20, i); }),
+        "log.csv: line 1, column 2 (C.end): no jack strains its cable by as much as 1e-5 in the whole log; "
+        "write the unit of the column after its name, as in C.end [kN]");
   check_taken({}, "estimate", ramp("time,C.end", 20, [](int i) { return up_to(1000, 20, i); }));
   check_taken({}, "estimate", "time,C.end\n1,0\n2,0\n3,0\n4,0\n");
   check_taken({}, "simulate", "time,C.end\n1,1\n2,2\n3,3\n4,4\n");
@@ -145,21 +146,21 @@ TEST_CASE("strokes in mm without the unit are refused; from any mark and with a 
 TEST_CASE(
     "a force in kN without the unit is refused where the stroke grows as if it were a thousand times "
     "larger") {
-  // 100 kN stretch the cable by 50 mm; 100 N would by 0.05.
+  // 300 kN stretch the cable by 150 mm; 300 N would by 0.15.
   const auto log = [](double newtons, double slack, double softness) {
     return ramp("time,C.end,C.end.stroke", 20, [=](int i) {
       const double part = i / 20.0;
       return std::to_string(newtons * part) + "," +
-             std::to_string(0.3 + slack * std::min(1.0, 5 * part) + softness * 0.05 * part);
+             std::to_string(0.3 + slack * std::min(1.0, 5 * part) + softness * 0.15 * part);
     });
   };
-  check_refused(Site(), "estimate", log(100, 0, 1),
+  check_refused(Site(), "estimate", log(300, 0, 1),
                 "; write the unit of the column after its name, as in C.end [kN]");
-  check_refused(Site(), "estimate", log(100, 0, 1), "where cable \"C\" itself stretches by 0.0");
-  check_refused(Site(), "estimate", log(100, 0.1, 3), "C.end [kN]");
-  check_taken(Site(), "estimate", log(1e5, 0, 1));
-  check_taken(Site(), "estimate", log(1e5, 0.2, 1));  // slack that is taken out first
-  check_taken(Site(), "estimate", log(1e5, 0, 10));   // a structure ten times as soft as its cable
+  check_refused(Site(), "estimate", log(300, 0, 1), "where cable \"C\" itself stretches by 0.0");
+  check_refused(Site(), "estimate", log(300, 0.1, 3), "C.end [kN]");
+  check_taken(Site(), "estimate", log(3e5, 0, 1));
+  check_taken(Site(), "estimate", log(3e5, 0.2, 1));  // slack that is taken out first
+  check_taken(Site(), "estimate", log(3e5, 0, 5));    // a structure five times as soft as its cable
 }
 
 TEST_CASE("a cell that scatters by more than its cable ever pulls is refused at its place in the scene") {

@@ -11,7 +11,7 @@
 namespace taut::host {
 namespace {
 
-constexpr double least_strain = 1e-6, part_of_length = 0.1, part_of_largest = 0.5, clear_of_noise = 20;
+constexpr double least_strain = 1e-5, part_of_length = 0.1, part_of_largest = 0.5, clear_of_noise = 20;
 constexpr double least_growth = 0.005, most_times_stretch = 100;  // [m], [-]
 constexpr std::size_t most_strokes = 4096, least_strokes = 3, least_readings = 3;
 
@@ -116,7 +116,7 @@ void PlausibleLog::require_units_of_jacks(const LogReader& log, const std::strin
   if (pull == 0 || largest_strain >= least_strain) return;
   const CableDescription& cable = scene_.cables[first_cable];
   refuse(path, log.place(log.header_line(), column_of(cable, first_end)),
-         "no jack strains its cable by as much as 1e-6 in the whole log",
+         "no jack strains its cable by as much as 1e-5 in the whole log",
          unit_remedy(cable, first_end, "kN"));
 }
 
