@@ -14,8 +14,13 @@ target_compile_options(taut_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconver
                                                -Werror)
 
 if(TAUT_SANITIZE)
-  # For the whole build: code with and without address checks must not be mixed.
-  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # For the whole build: code with and without address checks must not be mixed. A null pointer crashes by itself; GCC
+  # looks for one, and for its alignment, at every access to a member, which takes two fifths of the build.
+  set(checks -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    list(APPEND checks -fno-sanitize=null,alignment)
+  endif()
+  add_compile_options(${checks})
   add_link_options(-fsanitize=address,undefined)
 endif()
 
