@@ -99,6 +99,19 @@ constexpr int slot = 5000;  // three a sector
 
 }  // namespace
 
+/// Where a sector begins: RM0090, 3.3. Four of 16 KiB, one of 64, seven of 128.
+constexpr std::uint32_t begin_of_sector(std::uint32_t number) {
+  std::uint32_t address = 0x08000000;
+  for (std::uint32_t i = 0; i < number; ++i) address += (i < 4 ? 16 : i == 4 ? 64 : 128) * 1024;
+  return address;
+}
+using boards::RecordSectors;
+static_assert(begin_of_sector(RecordSectors::first) == RecordSectors::address);
+static_assert(begin_of_sector(RecordSectors::first + 1) ==
+              RecordSectors::address + RecordSectors::sector_size);
+static_assert(begin_of_sector(12) == 0x08000000 + 1024 * 1024, "the two last sectors of 1 MiB");
+static_assert(begin_of_sector(SmallSectors::first) == SmallSectors::address);
+
 TEST_CASE("the controller is used as its manual says") {
   SimulatedFlash part;
   Controller flash(part);

@@ -71,6 +71,16 @@ struct TimedByte {
 Ring<char, 1024> received_frames;
 Ring<TimedByte, 512> received_bus;
 
+/// USART1 is on APB2, which halves the clock of the core, USART2 on APB1, which has a fourth of it.
+constexpr Rates divided(std::uint32_t core) { return {core, core / 2, core / 4}; }
+/// 16 MHz / m * n / p for the core, / q for what is not used here. What each may be: 7.2 and 7.3.2.
+constexpr std::uint32_t inner_hz = 16000000, pll_m = 16, pll_n = 336, pll_p = 2, pll_q = 7;
+constexpr std::uint32_t pll_in = inner_hz / pll_m, pll_out = pll_in * pll_n;
+constexpr Rates pll_rates = divided(pll_out / pll_p);
+static_assert(pll_in >= 1000000 && pll_in <= 2000000 && pll_out >= 100000000 && pll_out <= 432000000);
+static_assert(pll_rates.core <= 168000000 && pll_rates.usart1 <= 84000000 && pll_rates.usart2 <= 42000000);
+static_assert(pll_out / pll_q <= 48000000);
+
 constexpr std::uint32_t most_looks = 100000;
 /// Whether the bits come, in bounded time.
 bool comes(volatile std::uint32_t& where, std::uint32_t mask, std::uint32_t bits) {
@@ -83,20 +93,21 @@ bool comes(volatile std::uint32_t& where, std::uint32_t mask, std::uint32_t bits
 Rates start_clocks() {
   // A core that runs has an oscillator: without one this is an emulator, at 168 MHz and without these
   // registers.
-  if (clocks().control == 0) return {168000000, 84000000, 42000000};
+  if (clocks().control == 0) return pll_rates;
   clocks().enable_apb1 = clocks().enable_apb1 | 1U << 28U;  // power, in its highest range after reset
-  // 16 MHz / 16 * 336 / 2.
-  clocks().pll = 16U | 336U << 6U | 0U << 16U | 7U << 24U;
+  // The source is the oscillator inside; bits that have no meaning stay as they are after reset.
+  constexpr std::uint32_t fields = 0x3FU | 0x1FFU << 6U | 3U << 16U | 1U << 22U | 0xFU << 24U;
+  clocks().pll = (clocks().pll & ~fields) | pll_m | pll_n << 6U | (pll_p / 2 - 1) << 16U | pll_q << 24U;
   clocks().control = clocks().control | 1U << 24U;
-  if (!comes(clocks().control, 1U << 25U, 1U << 25U)) return {16000000, 16000000, 16000000};
+  if (!comes(clocks().control, 1U << 25U, 1U << 25U)) return {inner_hz, inner_hz, inner_hz};
   // Five wait states, prefetch and instructions cached; not data, for the record changes.
   flash_access() = 5U | 1U << 8U | 1U << 9U;
-  if (!comes(flash_access(), 7U, 5U)) return {16000000, 16000000, 16000000};
+  if (!comes(flash_access(), 7U, 5U)) return {inner_hz, inner_hz, inner_hz};
   // AHB / 1, APB1 / 4, APB2 / 2, then the PLL.
   clocks().configuration = 5U << 10U | 4U << 13U;
   clocks().configuration = 5U << 10U | 4U << 13U | 2U;
-  if (!comes(clocks().configuration, 3U << 2U, 2U << 2U)) return {16000000, 4000000, 8000000};
-  return {168000000, 84000000, 42000000};
+  if (!comes(clocks().configuration, 3U << 2U, 2U << 2U)) return divided(inner_hz);
+  return pll_rates;
 }
 
 void start_lines(const Rates& rates, std::uint32_t modbus_baud) {

@@ -12,7 +12,7 @@
 namespace boards {
 
 constexpr int interrupts = 82;
-/// USART1 and USART2. RM0090, table 61.
+/// USART1 and USART2. RM0090, 12.2.
 constexpr int receive_interrupts[] = {37, 38};
 
 void on_receive();
