@@ -5,7 +5,7 @@
 // no Eigen, and of the C library square roots alone. What has still to be condensed needs taut.hpp.
 //
 // A static Tracker or Estimator is all zeros until start(): it lies in .bss, and takes no flash. advance()
-// before start() fails with `not_started`; what returns no Status must not be called then.
+// before start() fails with `not_started`; what returns no Status says zero then.
 #pragma once
 
 // Headers of boards define these, and the standard library does not bear it.

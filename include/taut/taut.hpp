@@ -15,7 +15,7 @@
 // ERRORS are values: a Status, or a Progress with one, that cannot be ignored. It is false if something is
 // wrong, and names the node, joint, cable or end; segments and joints are counted along their cable there.
 // Nothing throws or prints. What returns no Status cannot fail.
-// advance() before start() fails with `not_started`; what returns no Status must not be called then.
+// advance() before start() fails with `not_started`; what returns no Status says zero then.
 //
 // MEMORY. No heap. An object holds all its storage, of a size that its types fix: keep Tracker, Estimator,
 // Condensation and above all Stepwise in static memory rather than on a stack. There is no recursion, so the

@@ -135,8 +135,8 @@ class Estimator : private CondensedType::Capacity::Account {
             gauges_.save(),  confirmed_,    is_ahead_,      forces_.save()};
   }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `capacity_exceeded` if and
-  /// only if start() would, and with `bad_sample` if the state is none of this scene; then only start() or
-  /// another restore() may follow. Cost: that of one event.
+  /// only if start() would, and with `bad_sample` if the state is none of this scene or was saved before
+  /// start(); then only start() or another restore() may follow. Cost: that of one event.
   template <class Cells = NoGauges>
   Status restore(const CondensedType& condensed, const KnowledgeType& knowledge, const State& state,
                  const AlarmLimits<Scalar>& limits = {}, const Cells& gauges = {}) {
@@ -294,10 +294,11 @@ class Estimator : private CondensedType::Capacity::Account {
   /// condensed scene, `strut` has the number of the scene. Cost: all that moves along the cables once an
   /// unknown and jack.
   ForceEstimate<Scalar> estimate_strut(const typename CondensedType::Struts& rows, int strut) const {
+    if (!tracker_.is_started()) return {};
     return taut::estimate_strut(tracker_, rows, jacks_, filter_, filter_.prior(), strut);
   }
   /// Friction coefficient of a joint, and its standard deviation [-].
-  Scalar mu(int joint) const { return filter_.mu(joint); }
+  Scalar mu(int joint) const { return tracker_.is_started() ? filter_.mu(joint) : Scalar(0); }
   Scalar mu_deviation(int joint) const { return filter_.mu_deviation(joint); }
   /// The unknown that it depends on, as Capacity::Account counts those of friction, or -1.
   int friction_unknown(int joint) const { return filter_.unknown_of(joint); }
@@ -306,6 +307,7 @@ class Estimator : private CondensedType::Capacity::Account {
   /// Tracker::respond().
   void respond(Response<Scalar, Cap>& response,
                const typename CondensedType::Struts* struts = nullptr) const {
+    if (!tracker_.is_started()) return;
     tracker_.respond(response, struts);
     for (int i = 0; i < model().segments; ++i) response.tension[i] = force(i);
     model().resolve_joints(response);

@@ -24,7 +24,7 @@ class TrackedForces {
   /// Whether the joint slides, or slid before the load came to rest.
   bool is_at_limit(int joint) const { return cables_.state.slides[joint] != JointState::stick; }
   /// rho of a joint as it is used now.
-  Real rho(int joint) const { return cables_.laws.rho(joint); }
+  Real rho(int joint) const { return is_started() ? cables_.laws.rho(joint) : Real(0); }
 
   /// How much of what friction can hold at a joint is used, |T1 - T2| / (kappa (T1 + T2)) [-]: 1 where it
   /// slides. For a strut whose foot the cable alone holds that is tan(lambda) / mu, lambda being its angle to
@@ -38,7 +38,8 @@ class TrackedForces {
   /// By what part of itself displacements have changed the bend of the cable at a joint since the scene was
   /// drawn [-]; 0 in linear theory. Second-order theory is at home up to about 0.1.
   Scalar bend_change(int joint) const {
-    if constexpr (Model::has_level) return static_cast<Scalar>(cables_.model->bend[joint]);
+    if constexpr (Model::has_level)
+      if (is_started()) return static_cast<Scalar>(cables_.model->bend[joint]);
     return 0;
   }
   /// Tension of a segment [N], >= 0.
@@ -78,6 +79,9 @@ class TrackedForces {
       moving.of(cables_.map.move(i)) = cables_.map.column_move(k, i);
     return moving;
   }
+  /// Whether there is a scene. Before start() or restore() there are no model(), condensed(), elongations()
+  /// and unstrained(); what else is asked says zero.
+  bool is_started() const { return cables_.model != nullptr; }
   /// The condensed scene; in second-order theory, at the level of the forces.
   const Model& model() const { return *cables_.model; }
   /// The loads and jack forces reached.
@@ -98,13 +102,16 @@ class TrackedForces {
   /// The largest force so far, but for what came and went between two events [N].
   Scalar peak() const {
     Scalar most = static_cast<Scalar>(cables_.state.peak);
-    for (int i = 0; i < cables_.model->segments; ++i) most = larger(most, cables_.state.tension[i]);
+    for (int i = 0; is_started() && i < cables_.model->segments; ++i)
+      most = larger(most, cables_.state.tension[i]);
     return most;
   }
 
-  /// The state at the end of the path followed. Forces of struts only if their rows are given.
+  /// The state at the end of the path followed. Forces of struts only if their rows are given. Before start()
+  /// nothing is written.
   void respond(Response<Scalar, Cap>& response,
                const typename CondensedType::Struts* struts = nullptr) const {
+    if (!is_started()) return;
     const Moving moved = cables_.moves();
     for (int i = 0; i < cables_.model->segments; ++i) response.tension[i] = tension(i);
     cables_.model->resolve_joints(response);

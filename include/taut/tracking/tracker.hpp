@@ -100,8 +100,8 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     return saved;
   }
   /// Goes on where save() was called on a tracker of the same scene, with the same bits. Fails with
-  /// `bad_sample` if and only if the state is none of this scene; then only start() or another restore() may
-  /// follow. Cost: that of one event.
+  /// `bad_sample` if and only if the state is none of this scene, or was saved before start(); then only
+  /// start() or another restore() may follow. Cost: that of one event.
   Status restore(const CondensedType& condensed, const State& saved) {
     return restore(condensed, as_condensed, saved);
   }
@@ -109,12 +109,14 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   template <class Friction, class Errors = NoLoadErrors>
   Status restore(const CondensedType& condensed, const Friction& friction, const State& saved,
                  const Errors& errors = {}) {
-    if (!level_.restore(condensed, saved)) return Status::at(Code::bad_sample, Place::none, -1);
+    const Status broken = Status::at(Code::bad_sample, Place::none, -1);
+    // What was saved before start() has no prestrain to go to.
+    const bool is_of_scene = level_.restore(condensed, saved) && saved.goal.prestrain == 1;
     take(friction, errors);
+    if (!is_of_scene) return broken;
     cables_.state = saved;
     if constexpr (is_adjustable) cables_.derivatives.set_frozen(saved);
     cables_.find_redundant_jack();
-    const Status broken = Status::at(Code::bad_sample, Place::none, -1);
     if (!(saved.peak >= 0)) return broken;
     // The piece was begun at other loads than those reached.
     cables_.state.now = saved.built;

@@ -26,12 +26,13 @@ struct Verdict {
 /// its friction at its limit, Eq. (9).
 ///
 /// Uses the condensed scene and the moves alone, none of what the tracker keeps for speed: segments^2
-/// multiplications.
+/// multiplications. Before start() nothing is violated.
 template <class CondensedType, int Parameters>
 Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Parameters>& tracker) {
   using Scalar = typename CondensedType::Scalar;
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
+  if (!tracker.is_started()) return {};
   const auto& model = tracker.model();
   const auto moves = tracker.moves();
   const auto& loads = tracker.loads();
