@@ -148,7 +148,7 @@ class Player {
     const auto found = device_.choose(options_.number);
     if (!found.status)
       throw InputError(options_.scene, "", "the device refuses the scene",
-                       failure_text(found.status, scene_));
+                       failure_text(found.status, scene_).english());
     std::size_t segments = 0, joints = 0;
     for (const CableDescription& cable : scene_.cables) {
       segments += cable.segments();
@@ -200,7 +200,7 @@ class Player {
   }
 
   std::string reason(const DeviceAnswer& answer) const {
-    if (!answer.status) return failure_text(answer.status, scene_);
+    if (!answer.status) return failure_text(answer.status, scene_).english();
     return "the device says " + in_words(answer.alarms);
   }
 

@@ -191,7 +191,7 @@ TEST_CASE(
   CHECK(row.factor[0] == 4);
   CHECK(row.cables[0][0].force == 2000);
   REQUIRE(reader.remarks().size() == 1);
-  CHECK(reader.remarks()[0] ==
+  CHECK(reader.remarks()[0].english() ==
         "log: line 3, column 2 (Fy): the factor 9.9e+37 is more than the cables can carry; the one before is "
         "kept");
 }

@@ -88,14 +88,14 @@ TEST_CASE("a row holds the values under their columns") {
   answer.mu_deviation = {6, 7, 8, 9};
   answer.alarms = "mu:C sensor:C.end";
   answer.notices = "no-information:C.end";
-  answer.verdict = "do not trust: a; b";
+  answer.verdict = std::string("do not trust: a; b");
   const std::string state = result_row(two_cables(), 0.25, answer, as_double);
   const std::string numbers =
       state.substr(0, state.size() - 1) + ",11,12,0.5,6,13,14,15,0.25,0.125,0.75,7,8,9,";
   CHECK(result_row(two_cables(), 0.25, answer, as_double, ResultColumns::estimate) ==
         numbers + "mu:C sensor:C.end,no-information:C.end,do not trust: a; b\n");
   answer.alarms = answer.notices = "";
-  answer.verdict = "trust";
+  answer.verdict = std::string("trust");
   CHECK(result_row(two_cables(), 0.25, answer, as_double, ResultColumns::estimate) == numbers + ",,trust\n");
 }
 

@@ -221,10 +221,10 @@ TEST_CASE("a scene beyond the largest capacity is refused with both numbers") {
 
 TEST_CASE("a failure of a run names the joint, its cable and its node") {
   const SceneDescription scene = every_key();
-  CHECK(failure_text(Status::along(Code::state_iterations, Place::joint, 0, 1), scene) ==
+  CHECK(failure_text(Status::along(Code::state_iterations, Place::joint, 0, 1), scene).english() ==
         "joint 2 of cable \"main\" at node \"mid~2\": jammed: the joint states do not settle; "
         "try taut simulate --method stepwise --substeps 100, or stay below this load");
-  CHECK(failure_text(Status::at(Code::mechanism, Place::node, 1), scene) ==
+  CHECK(failure_text(Status::at(Code::mechanism, Place::node, 1), scene).english() ==
         "node \"mid/1\": mechanism: nothing holds this node; add a strut, a support or a substructure that "
         "holds it");
 }

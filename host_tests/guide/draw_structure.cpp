@@ -22,9 +22,9 @@ using namespace taut::host;
 std::string picture(const RunOptions& run) {
   LogFollower follower(run);
   RunRecord record(follower.scene());
-  const std::string end =
+  const Sentence end =
       follower.follow([&](const LogRow& row, const Answer& answer) { record.add(row, answer); });
-  if (!end.empty()) throw std::runtime_error(end);
+  if (!end.empty()) throw std::runtime_error(end.english());
   const ForceScale scale(record.end.tension);
   const ForceUnit unit = ForceUnit::for_largest(scale.high);
   const std::string drawing = structure_drawing(follower.scene(), record, unit, scale);

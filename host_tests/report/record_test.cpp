@@ -7,14 +7,17 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "files/run_program.hpp"
 #include "lib/files/date_time.hpp"
 #include "lib/files/sha256.hpp"
+#include "lib/files/status_text.hpp"
 #include "lib/files/verdict.hpp"
 #include "lib/report/alarm_meaning.hpp"
 #include "lib/report/stressing_record.hpp"
@@ -67,7 +70,7 @@ struct Jacking {
     answer.deviation = {1, 1};
     answer.mu = answer.mu_deviation = answer.slip = answer.contact = answer.friction_used = {0};
     answer.state = {taut::JointState::stick};
-    answer.verdict = "trust";
+    answer.verdict = std::string("trust");
     expected.payout = {{0, 1e-7 * force - wedge}};
     record.add(row, answer, &expected);
   }
@@ -111,16 +114,17 @@ std::string log_with_strokes(double part) {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-// The literals of the first argument of every call of say() in a source, neighbours joined.
-std::vector<std::string> said_in(const std::string& source) {
+// The literals of the first argument of every call of this function in a source, neighbours joined.
+std::vector<std::string> said_in(const std::string& source, const std::string& function) {
   std::vector<std::string> found;
-  for (std::size_t at = source.find("say("); at != std::string::npos; at = source.find("say(", at + 1)) {
+  for (std::size_t at = source.find(function + "("); at != std::string::npos;
+       at = source.find(function + "(", at + 1)) {
     if (at > 0 && (std::isalnum(static_cast<unsigned char>(source[at - 1])) || source[at - 1] == '_'))
       continue;
     std::string literal;
     bool is_open = false;
     int depth = 0;
-    for (std::size_t i = at + 3; i < source.size(); ++i) {
+    for (std::size_t i = at + function.size(); i < source.size(); ++i) {
       const char c = source[i];
       if (c == '"') {
         is_open = true;
@@ -129,6 +133,8 @@ std::vector<std::string> said_in(const std::string& source) {
             literal += "\u2013", i += 5;
           else if (source.compare(i, 6, "\\u00b1") == 0)
             literal += "\u00b1", i += 5;
+          else if (source[i] == '\\')
+            literal += source[++i];
           else
             literal += source[i];
         }
@@ -143,6 +149,17 @@ std::vector<std::string> said_in(const std::string& source) {
     }
   }
   return found;
+}
+
+// The first English pattern of a sentence that the table does not have; empty if it has all.
+std::string without_words(const Sentence& sentence) {
+  if (sentence.is_itself()) return "";
+  const bool is_known = std::any_of(begin_of_words(), end_of_words(),
+                                    [&](const Translation& row) { return row.english == sentence.words(); });
+  if (!is_known) return sentence.words();
+  for (const Sentence& part : sentence.parts())
+    if (const std::string unknown = without_words(part); !unknown.empty()) return unknown;
+  return "";
 }
 
 std::set<std::string> places_in(const std::string& pattern) {
@@ -304,7 +321,7 @@ TEST_CASE("a job that does not fit is refused with the place, and nothing is wri
   CHECK_FALSE(fs::exists(scratch.path / "page.html"));
 }
 
-TEST_CASE("a report speaks the language that it is asked for, names and remarks excepted") {
+TEST_CASE("a report speaks the language that it is asked for, names excepted") {
   for (const auto& [code, title] :
        {std::pair{"en", "Stressing record"}, {"zh", "张拉记录"}, {"de", "Spannprotokoll"}}) {
     CAPTURE(code);
@@ -315,8 +332,44 @@ TEST_CASE("a report speaks the language that it is asked for, names and remarks 
     CHECK(has(page, std::string("<html lang=\"") + code + "\">"));
     CHECK(has(page, title));
     if (code == std::string("en")) continue;
-    for (const char* english : {"Stressing record", "at the end of the log", "Force along", "Segment",
-                                "joint sticks", "What it means", "Signature", "passes", "95 % band"}) {
+    for (const char* english :
+         {"Stressing record", "at the end of the log", "Force along", "Segment", "joint sticks",
+          "What it means", "Signature", "passes", "95 % band", "is taken for", "Remarks"}) {
+      CAPTURE(english);
+      CHECK_FALSE(has(page, english));
+    }
+  }
+}
+
+TEST_CASE(
+    "remarks, and why an answer ends, are said in the language of the report and in English beside it") {
+  const std::string scene = R"({ "taut": 1, "name": "n", "dimension": 2,
+    "nodes": { "a": [0, 0], "b": [1, 0], "c": [2, 0.5] }, "supports": { "a": "xy", "b": "xy", "c": "xy" },
+    "cables": [ { "name": "C", "path": ["a", "b", "c"], "E": 2e11, "A": 1e-4, "start": "jacked", "end": "jacked",
+                  "friction": { "law": "point", "mu": 0.1 } } ],
+    "loads": { "dead": { "forces": { "b": [0, -1] } } } })";
+  for (const auto& [code, ends, remark] :
+       {std::tuple{"de", "das Seil wird durchgezogen", "Seil &quot;C&quot; hat kein &quot;mu_sd&quot;"},
+        {"zh", "索被整体拉过", "索 &quot;C&quot; 没有 &quot;mu_sd&quot;"}}) {
+    CAPTURE(code);
+    const Scratch scratch;
+    std::ofstream(scratch.path / "scene.json") << scene;
+    std::ofstream(scratch.path / "log.csv")
+        << "time,C.start,C.end\n1,10000,10000\n2,20000,20000\n3,20000,40000\n";
+    const Outcome outcome =
+        run_taut(scratch, "report " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv") +
+                              " -o " + scratch.quoted("page.html") + " --language " + code);
+    CHECK(has(outcome.err,
+              "the cable is pulled through: the jack forces differ by more than all friction; "
+              "bring the jack forces closer together, or anchor one end"));
+    CHECK(has(outcome.err, "remark: cable \"C\" has no \"mu_sd\": half of mu, 0.05, is taken"));
+    CHECK(has(outcome.err, "remark: the log has no column \"dead\""));
+    const std::string page = text_of(scratch.path / "page.html");
+    CHECK(WellFormed(page)() == "");
+    CHECK(has(page, ends));
+    CHECK(has(page, remark));
+    for (const char* english : {"pulled through", "closer together", "half of mu", "no column", "taken for",
+                                "row 3", "line 4", " time "}) {
       CAPTURE(english);
       CHECK_FALSE(has(page, english));
     }
@@ -334,17 +387,20 @@ TEST_CASE("every text that a report says has its words in every language, with t
       CHECK(places_in(row->english) == places_in(other));
     }
   }
-  std::size_t texts = 0;
-  for (const auto& entry : fs::directory_iterator(TAUT_REPORT_SOURCES)) {
+  std::map<std::string, std::size_t> texts;
+  for (const auto& entry : fs::recursive_directory_iterator(TAUT_HOST_SOURCES)) {
+    if (entry.path().extension() != ".cpp") continue;
     const std::string source = text_of(entry.path());
-    for (const std::string& text : said_in(source)) {
-      CAPTURE(entry.path());
-      CAPTURE(text);
-      CHECK(known.count(text) == 1);
-      ++texts;
-    }
+    for (const char* function : {"say", "Sentence"})
+      for (const std::string& text : said_in(source, function)) {
+        CAPTURE(entry.path());
+        CAPTURE(text);
+        CHECK(known.count(text) == 1);
+        ++texts[function];
+      }
   }
-  CHECK(texts > 100);
+  CHECK(texts["say"] > 100);
+  CHECK(texts["Sentence"] > 50);
   for (const char* kind : {"outlier", "sensor", "mu", "stuck", "elongation", "force-high", "force-low",
                            "no-information", "gauge", "model-misfit", "frozen", "gain", "unknown-past",
                            "lift-off", "silent", "unreadable", "no such alarm"}) {
@@ -356,24 +412,78 @@ TEST_CASE("every text that a report says has its words in every language, with t
 
 TEST_CASE("verdicts are said in other languages with the names that they have") {
   const Words german(Language::german);
-  CHECK(german.verdict("trust") == "vertrauen");
+  CHECK(german(Verdict().take("")) == "vertrauen");
   for (const char* word : {"unknown-past:Seil", "frozen:Seil.start", "model-misfit:Seil.start",
                            "sensor:Seil.start", "elongation:Seil.end", "gauge:strut2", "outlier:Seil.end"}) {
     Verdict verdict;
-    std::string english;
-    for (int i = 0; i < 10; ++i) english = verdict.take(word);
-    CAPTURE(english);
-    REQUIRE_FALSE(is_trust(english));
-    const std::string said = german.verdict(english);
-    CHECK(said != english);
+    Sentence sentence;
+    for (int i = 0; i < 10; ++i) sentence = verdict.take(word);
+    CAPTURE(sentence.english());
+    REQUIRE_FALSE(is_trust(sentence));
+    CHECK(without_words(sentence).empty());
+    const std::string said = german(sentence);
+    CHECK(said != sentence.english());
     CHECK(has(said, "nicht vertrauen: "));
     CHECK_FALSE(has(said, " the "));
     CHECK_FALSE(has(said, "does not"));
     CHECK(has(said, std::string(word).substr(std::string(word).find(':') + 1)));
   }
-  // What it has no words for stays as it is.
-  CHECK(german.verdict("do not trust: the moon; the stroke at C.end contradicts the model") ==
-        "nicht vertrauen: the moon; der Weg bei C.end widerspricht dem Modell");
+}
+
+TEST_CASE("what has no words in the table, and what stands for itself, stays as it is") {
+  const Words german(Language::german);
+  CHECK(german(Sentence("{1}: the moon", {std::string("a node")})) == "a node: the moon");
+  CHECK(german(Sentence("{1}: {2}; {3}", {Sentence("a node"), std::string("{2}"), Sentence("the scene")})) ==
+        "ein Knoten: {2}; die Szene");
+  CHECK(without_words(Sentence("{1}; {2}", {Sentence("the moon"), Sentence("a node")})) == "the moon");
+}
+
+TEST_CASE("every reason for which there may be no answer has its words in every language") {
+  SceneDescription scene = two_segments();
+  scene.dimension = 2;
+  StrutDescription strut;
+  strut.nodes = {1, 3};
+  strut.E = scene.cables[0].E = 2e11;
+  strut.A = scene.cables[0].A = 1e-3;
+  scene.struts = {strut, strut};
+  NodeDescription foot;
+  foot.name = "foot";
+  foot.at = {1, -1, 0};
+  scene.nodes.push_back(foot);
+  BeamDescription beam;
+  beam.nodes = {0, 2};
+  scene.beams.push_back(beam);
+  LoadDescription load;
+  load.name = "dead";
+  scene.loads.push_back(load);
+  scene.cables[0].ends[0] = taut::End::jacked;
+  SceneDescription leaning = scene;
+  leaning.second_order = TargetDescription();
+  std::set<std::string> said;
+  for (SceneDescription* const of : {&scene, &leaning})
+    for (const double mu : {0.0, 0.1})
+      for (int code = 1; code <= static_cast<int>(taut::Code::not_started) + 1; ++code)
+        for (int place = 0; place <= static_cast<int>(taut::Place::beam); ++place)
+          for (int index = -1; index < 5; ++index)
+            for (const int cable : {-1, 0}) {
+              of->cables[0].mu = {mu};
+              const taut::Status status = taut::Status::along(static_cast<taut::Code>(code),
+                                                              static_cast<taut::Place>(place), cable, index);
+              const Sentence sentence = failure_text(status, *of);
+              CAPTURE(sentence.english());
+              REQUIRE(without_words(sentence).empty());
+              said.insert(sentence.english());
+            }
+  const auto is_said = [&](const std::string& part) {
+    return std::any_of(said.begin(), said.end(), [&](const std::string& text) { return has(text, part); });
+  };
+  for (const char* part :
+       {"tension count", "add a second strut", "runs away (strut 1 from node \"foot\", strut 2",
+        "without friction strut 1", "two jacks at work", "load pattern \"dead\"", "rotation of a beam",
+        "end of cable \"C\""}) {
+    CAPTURE(std::string(part));
+    CHECK(is_said(part));
+  }
 }
 
 TEST_CASE("texts for names are put in as they are, whatever they hold") {

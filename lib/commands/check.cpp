@@ -178,7 +178,8 @@ std::string joint_numbers(const std::vector<std::size_t>& joints) {
 // Joints of one cable with their nodes, as many as fit into a line.
 std::string joints_text(const SceneDescription& scene, std::size_t cable,
                         const std::vector<std::size_t>& joints) {
-  if (joints.size() == 1) return joint_text(scene, static_cast<int>(cable), static_cast<int>(joints[0]));
+  if (joints.size() == 1)
+    return joint_text(scene, static_cast<int>(cable), static_cast<int>(joints[0])).english();
   return joint_numbers(joints) + " of cable " + quote(scene.cables[cable].name);
 }
 
@@ -279,7 +280,7 @@ std::vector<std::string> theory_warnings(const SceneDescription& scene, const Co
     SceneDescription leaning = scene;
     leaning.second_order = compared.target;
     std::string text = "second-order theory has no answer " + where(*compared.second) + ": " +
-                       reason_to_stop(compared.second->path, leaning);
+                       reason_to_stop(compared.second->path, leaning).english();
     if (compared.linear)
       text += "; linear theory has none " + where(*compared.linear);
     else if (!scene.second_order)
@@ -341,7 +342,7 @@ int check(const std::string& scene_path, const std::string& log_path) {
     const bool helps = !scene.second_order && compared && !compared->second;
     const std::string remedy =
         helps ? "second-order theory has an answer" + second_order_remedy(scene, *compared) : "";
-    return refuse(scene, failure_text(stands, scene, remedy));
+    return refuse(scene, failure_text(stands, scene, remedy).english());
   }
   const std::vector<HangingJoint> loose = loose_joints(scene, condensed), hanging = hanging_joints(scene);
   output.write(condition(condensed.condensing.condition) + mechanisms(loose.size()) +

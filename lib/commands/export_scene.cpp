@@ -26,7 +26,8 @@ ExportedScene exported_scene(const std::string& file) {
   ExportedScene scene;
   scene.description = read_scene_file(file);
   fill_in_mu_deviations(scene.description);
-  for (const std::string& text : fill_in_jacks(scene.description)) std::cerr << "remark: " << text << '\n';
+  for (const Sentence& remark : fill_in_jacks(scene.description))
+    std::cerr << "remark: " << remark.english() << '\n';
   scene.in_double = arrays_of(scene.description, ScalarType::float64);
   if (scene.in_double.condensed.condensing.status)
     scene.in_float = arrays_of(scene.description, ScalarType::float32);
@@ -86,13 +87,13 @@ int export_scenes(const ExportOptions& options) {
     require_other_names(scene, scenes);
     require_same_theory(scene, scenes);
     if (const Status status = scene.in_double.condensed.condensing.status; !status) {
-      std::cerr << description.file << ": " << failure_text(status, description) << '\n';
+      std::cerr << description.file << ": " << failure_text(status, description).english() << '\n';
       return 1;
     }
     if (const Status status = scene.in_float.condensed.condensing.status; !status) {
       std::cerr << "remark: the header holds no condensed<float>"
                 << (options.scenes.size() == 1 ? "" : " of " + quote(description.name)) << ": "
-                << failure_text(status, description) << '\n';
+                << failure_text(status, description).english() << '\n';
     }
     scenes.push_back(std::move(scene));
   }

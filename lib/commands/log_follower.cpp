@@ -29,9 +29,12 @@ constexpr std::size_t most_bytes = std::size_t{1} << 28;
 constexpr const char* standard_input = "standard input";
 constexpr double most_bend_change = 0.1;
 constexpr int most_tried = 1000000;  // load steps a row
-constexpr const char* under_load =
-    "the log begins under load: until the cables have slid over all joints their forces are those of any "
-    "past; --state FILE goes on from the log before";
+
+Sentence under_load() {
+  return Sentence(
+      "the log begins under load: until the cables have slid over all joints their forces are those of any "
+      "past; --state FILE goes on from the log before");
+}
 
 LogRules rules_for(const RunOptions& options, const SceneDescription& scene) {
   LogRules rules;
@@ -65,12 +68,12 @@ SceneDescription scene_for(const RunOptions& options) {
 
 std::string name_of(ScalarType scalar) { return scalar == ScalarType::float32 ? "float" : "double"; }
 
-// Where on the path the answer ends, if that is known.
-std::string part(double fraction) {
-  if (fraction <= 0 || fraction > 1) return "";
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), ", after %.4g %% of the path to it", 100 * fraction);
-  return text.data();
+// A place, and where on the path to it the answer ends, if that is known.
+Sentence part_of_path(const Sentence& place, double fraction) {
+  if (fraction <= 0 || fraction > 1) return place;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", 100 * fraction);
+  return Sentence("{1}, after {2} % of the path to it", {place, std::string(text.data())});
 }
 
 // Rows on a terminal show themselves how far the run is.
@@ -80,9 +83,10 @@ bool wants_progress(const RunOptions& options) {
 
 }  // namespace
 
-std::string reason_to_stop(const Followed& path, const SceneDescription& scene) {
+Sentence reason_to_stop(const Followed& path, const SceneDescription& scene) {
   if (!path.status) return failure_text(path.status, scene);
-  return "the event budget is spent: too many changes between sticking and sliding; add rows in between";
+  return Sentence(
+      "the event budget is spent: too many changes between sticking and sliding; add rows in between");
 }
 
 LogFollower::LogFollower(const RunOptions& options)
@@ -116,7 +120,7 @@ LogFollower::LogFollower(const RunOptions& options, LogStream stream)
 
 // The whole of it is checked before anything is computed.
 void LogFollower::read_log() {
-  std::vector<std::string> left_out;
+  std::vector<Sentence> left_out;
   PlausibleLog plausible(scene_);
   const bool measures = options_.method == Method::estimate;
   rows_ = check_log(options_.log, scene_, rules_, &left_out, [&](const LogRow& row) {
@@ -124,14 +128,14 @@ void LogFollower::read_log() {
   });
   read_state();
   std::ifstream stream = open_log(options_.log);
-  for (const std::string& text : left_out) remark(text);
+  for (const Sentence& sentence : left_out) remark(sentence);
   const LogReader log(stream, options_.log, scene_, rules_);
   if (measures) plausible.require(log, options_.log, begun_.has_value());
   remark_on_columns(log);
   if (begun_)
     fill_in_mu_deviations(scene_);
   else if (measures)
-    for (const std::string& text : fill_in_deviations(options_.log, rules_, scene_)) remark(text);
+    for (const Sentence& taken : fill_in_deviations(options_.log, rules_, scene_)) remark(taken);
 }
 
 // What is not in its header is not known.
@@ -141,15 +145,16 @@ void LogFollower::open_stream() {
   if (begun_)
     fill_in_mu_deviations(scene_);
   else if (options_.method == Method::estimate)
-    for (const std::string& text : fill_in_deviations(*stream_, scene_)) remark(text);
+    for (const Sentence& taken : fill_in_deviations(*stream_, scene_)) remark(taken);
 }
 
-std::string LogFollower::follow(const RowVisitor& visit) {
+Sentence LogFollower::follow(const RowVisitor& visit) {
   const Followed start =
       begun_ ? model_->restore(begun_->bytes, begun_->time) : model_->start(options_.substeps);
   if (!start.whole())
-    return options_.scene + ": before the first row" + part(start.fraction) + ": " +
-           reason(start, [&](int substeps) { return model_->start(substeps); });
+    return Sentence("{1}: {2}: {3}",
+                    {options_.scene, part_of_path(Sentence("before the first row"), start.fraction),
+                     reason(start, [&](int substeps) { return model_->start(substeps); })});
   if (begun_) {
     last_.time = begun_->time;
     last_.factor = begun_->factor;
@@ -164,7 +169,7 @@ std::string LogFollower::follow(const RowVisitor& visit) {
   return follow(log, visit);
 }
 
-std::string LogFollower::go_on(LogStream stream, const RowVisitor& visit) {
+Sentence LogFollower::go_on(LogStream stream, const RowVisitor& visit) {
   source_.emplace(std::move(stream));
   stream_ = std::make_unique<LogReader>(source_->text, source_->name, scene_, rules_);
   left_out_ = 0;
@@ -179,22 +184,23 @@ void LogFollower::begin() {
     first_load_ = std::make_unique<FirstLoad>(rules_, scene_);
     model_->doubt_past();
   } else if (begins_under_load(options_.log, rules_, scene_)) {
-    remark(under_load);
+    remark(under_load());
     model_->forget_past();
   }
 }
 
 // Load steps that jam are tried smaller: whether that helps nobody knows beforehand.
-std::string LogFollower::reason(const Followed& path, const std::function<Followed(int)>& again) const {
+Sentence LogFollower::reason(const Followed& path, const std::function<Followed(int)>& again) const {
   if (options_.method != Method::stepwise || path.status.code != Code::state_iterations)
     return reason_to_stop(path, scene_);
   for (const int times : {10, 100})
     if (const int substeps = std::min(options_.substeps, most_tried / times) * times; again(substeps).whole())
-      return failure_text(path.status, scene_, "with --substeps " + std::to_string(substeps) + " it goes on");
-  return failure_text(path.status, scene_, "smaller load steps do not help: try --method tracker");
+      return failure_text(path.status, scene_,
+                          Sentence("with --substeps {1} it goes on", {std::to_string(substeps)}));
+  return failure_text(path.status, scene_, Sentence("smaller load steps do not help: try --method tracker"));
 }
 
-std::string LogFollower::follow(LogReader& log, const RowVisitor& visit) {
+Sentence LogFollower::follow(LogReader& log, const RowVisitor& visit) {
   LogRow row = log.first_row();
   if (begun_) {
     row.factor = last_.factor;
@@ -205,13 +211,13 @@ std::string LogFollower::follow(LogReader& log, const RowVisitor& visit) {
   ProgressLine progress(rows_, wants_progress(options_));
   while (log.next(row)) {
     origin_ = log.origin();
-    if (const std::string end = follow_row(row, answer, visit); !end.empty()) return end;
+    if (Sentence end = follow_row(row, answer, visit); !end.empty()) return end;
     progress.reach(row.row);
   }
-  return "";
+  return {};
 }
 
-std::string LogFollower::follow_stream(const RowVisitor& visit) {
+Sentence LogFollower::follow_stream(const RowVisitor& visit) {
   if (source_->begins) source_->begins();
   LogRow row = stream_->first_row();
   const bool goes_on = begun_ || followed_ > 0;
@@ -231,9 +237,9 @@ std::string LogFollower::follow_stream(const RowVisitor& visit) {
     is_known = false;
     origin_ = stream_->origin();
     if (first_load_) take_first_load(row);
-    if (const std::string end = follow_row(row, answer, visit); !end.empty()) return end;
+    if (Sentence end = follow_row(row, answer, visit); !end.empty()) return end;
   }
-  return "";
+  return {};
 }
 
 // The next row that can be used; what is left out is as if it were not there.
@@ -263,19 +269,20 @@ bool LogFollower::next_of_stream(LogRow& row) {
 }
 
 // Returns why it has no answer; empty if it has one.
-std::string LogFollower::follow_row(const LogRow& row, Answer& answer, const RowVisitor& visit) {
+Sentence LogFollower::follow_row(const LogRow& row, Answer& answer, const RowVisitor& visit) {
   if (const Followed path = model_->advance(row, options_.substeps); !path.whole())
-    return place(row) + part(path.fraction) + loads_at_end(path, row) + ": " +
-           reason(path, [&](int substeps) { return model_->advance(row, substeps); });
+    return Sentence("{1}{2}: {3}",
+                    {part_of_path(place(row), path.fraction), loads_at_end(path, row),
+                     reason(path, [&](int substeps) { return model_->advance(row, substeps); })});
   model_->read(answer);
   if (const std::string number = impossible_number(scene_, answer); !number.empty())
-    return place(row) + ": " + number + "; " + remedy_of_impossible_numbers;
+    return Sentence("{1}: {2}; {3}", {place(row), number, Sentence(remedy_of_impossible_numbers)});
   warn_of_bend(row, answer);
   if (options_.method == Method::estimate) answer.verdict = verdict_.take(answer.alarms);
   ++followed_;
   last_ = row;
   visit(row, answer);
-  return "";
+  return {};
 }
 
 // The forces of the jacks where something runs away.
@@ -312,11 +319,14 @@ void LogFollower::warn_of_bend(const LogRow& row, const Answer& answer) {
       std::array<char, 16> percent{};
       std::snprintf(percent.data(), percent.size(), "%.0f %%", 100 * std::fabs(change));
       bends_too_far_ = true;
+      const Sentence bend = Sentence(change < 0 ? "the cable is bent by {1} less than in the scene"
+                                                : "the cable is bent by {1} more than in the scene",
+                                     {std::string(percent.data())});
       return remark(
-          place(row) + ": " + joint_text(scene_, static_cast<int>(c), static_cast<int>(j)) +
-          ": the cable is bent by " + percent.data() + (change < 0 ? " less" : " more") +
-          " than in the scene; second-order theory is made for a tenth: beyond it compare with a program for "
-          "large displacements");
+          Sentence("{1}: {2}: {3}; second-order theory is made for a tenth: beyond it compare with a program "
+                   "for large "
+                   "displacements",
+                   {place(row), joint_text(scene_, static_cast<int>(c), static_cast<int>(j)), bend}));
     }
 }
 
@@ -327,7 +337,7 @@ void LogFollower::take_first_load(const LogRow& row) {
     model_->deny_past();
     first_load_.reset();
   } else if (followed_ == 1 && model_->has_unknown_past()) {
-    remark(under_load);
+    remark(under_load());
   } else if (followed_ > 0 && !model_->has_unknown_past()) {
     first_load_.reset();
   }
@@ -382,7 +392,7 @@ void LogFollower::take_state(const std::string& path, const std::string& text) {
 void LogFollower::remark_on_new_columns(const LogReader& log) {
   const auto is_new = [&](const std::string& column, bool is_known) {
     if (log.has(column) && !is_known)
-      remark("column " + quote(column) + " is not used: the state began without it");
+      remark(Sentence("column {1} is not used: the state began without it", {quote(column)}));
   };
   for (const CableDescription& cable : scene_.cables) {
     for (std::size_t end = 0; end < 2 && !cable.closed; ++end) {
@@ -399,9 +409,9 @@ void LogFollower::remark_on_new_columns(const LogReader& log) {
     is_new("strut" + std::to_string(i + 1), scene_.struts[i].gauge.is_given);
 }
 
-void LogFollower::remark(const std::string& text) {
-  std::cerr << "remark: " << text << '\n';
-  remarks_.push_back(text);
+void LogFollower::remark(const Sentence& sentence) {
+  std::cerr << "remark: " << sentence.english() << '\n';
+  remarks_.push_back(sentence);
 }
 
 // Columns that are not there, and columns without effect.
@@ -410,20 +420,21 @@ void LogFollower::remark_on_columns(const LogReader& log) {
   if (begun_) return remark_on_new_columns(log);
   for (const LoadDescription& load : scene_.loads) {
     if (!log.has(load.name))
-      remark("the log has no column " + quote(load.name) + ": the factor of this load stays 0");
+      remark(Sentence("the log has no column {1}: the factor of this load stays 0", {quote(load.name)}));
   }
   const auto remark_on_measurement = [&](const std::string& column) {
     if (!measures && log.has(column))
-      remark("column " + quote(column) + " is a measurement: simulate does not use it");
+      remark(Sentence("column {1} is a measurement: simulate does not use it", {quote(column)}));
   };
   for (const CableDescription& cable : scene_.cables) {
     for (std::size_t end = 0; end < 2; ++end) {
       const std::string column = cable.name + "." + end_name(end);
       if (cable.is_jacked(end) && !log.has(column)) {
-        remark("the log has no column " + quote(column) + ": this jack force stays 0");
+        remark(Sentence("the log has no column {1}: this jack force stays 0", {quote(column)}));
       }
       if (!measures && !cable.is_jacked(end) && log.has(column)) {
-        remark("column " + quote(column) + " is a measurement at an anchored end: simulate does not use it");
+        remark(Sentence("column {1} is a measurement at an anchored end: simulate does not use it",
+                        {quote(column)}));
       }
       remark_on_measurement(column + ".stroke");
     }
@@ -436,12 +447,14 @@ void LogFollower::remark_on_columns(const LogReader& log) {
 
 void LogFollower::remark_on_substeps() {
   if (options_.method == Method::tracker && options_.substeps > 1)
-    remark("--substeps has no effect: the method tracker follows a row from event to event, not in steps");
+    remark(Sentence(
+        "--substeps has no effect: the method tracker follows a row from event to event, not in steps"));
 }
 
-std::string LogFollower::place(const LogRow& row) const {
-  return (is_stream() ? source_->name : options_.log) + ": line " + std::to_string(row.line) + " (row " +
-         std::to_string(row.row) + ", time " + plain(row.time) + " s)";
+Sentence LogFollower::place(const LogRow& row) const {
+  return Sentence("{1}: line {2} (row {3}, time {4} s)",
+                  {is_stream() ? source_->name : options_.log, std::to_string(row.line),
+                   std::to_string(row.row), plain(row.time)});
 }
 
 }  // namespace taut::host

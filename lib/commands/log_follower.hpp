@@ -11,6 +11,7 @@
 #include "lib/commands/first_load.hpp"
 #include "lib/commands/result_writer.hpp"
 #include "lib/files/input_error.hpp"
+#include "lib/files/sentence.hpp"
 #include "lib/files/state_file.hpp"
 #include "lib/files/verdict.hpp"
 #include "lib/kinds/make_model.hpp"
@@ -62,14 +63,14 @@ class LogFollower {
   /// InputError where one cannot be used, and nothing is known of rows to come.
   bool is_stream() const { return source_.has_value(); }
   /// What a reader of the result may not expect.
-  const std::vector<std::string>& remarks() const { return remarks_; }
+  const std::vector<Sentence>& remarks() const { return remarks_; }
 
   /// Follows the log to its last row or to the first that has no answer. Returns where and why the answer
   /// ends; empty if the log is whole.
-  std::string follow(const RowVisitor& visit);
+  Sentence follow(const RowVisitor& visit);
   /// After follow(): the same with another log, whose times may begin anew. Columns that were not in the
   /// first one are not used, with a remark.
-  std::string go_on(LogStream stream, const RowVisitor& visit);
+  Sentence go_on(LogStream stream, const RowVisitor& visit);
   /// While a stream is followed, and after it: whether it has the column.
   bool has_column(const std::string& name) const { return stream_ != nullptr && stream_->has(name); }
   /// All that a LogStream needs to go on after the last row that was visited, or is being; nothing as long as
@@ -85,14 +86,14 @@ class LogFollower {
   void keep_state() const;
 
  private:
-  void remark(const std::string& text);
+  void remark(const Sentence& sentence);
   void read_log();
   void open_stream();
   void begin();
-  std::string follow(LogReader& log, const RowVisitor& visit);
-  std::string reason(const Followed& path, const std::function<Followed(int)>& again) const;
-  std::string follow_stream(const RowVisitor& visit);
-  std::string follow_row(const LogRow& row, Answer& answer, const RowVisitor& visit);
+  Sentence follow(LogReader& log, const RowVisitor& visit);
+  Sentence reason(const Followed& path, const std::function<Followed(int)>& again) const;
+  Sentence follow_stream(const RowVisitor& visit);
+  Sentence follow_row(const LogRow& row, Answer& answer, const RowVisitor& visit);
   bool next_of_stream(LogRow& row);
   void take_first_load(const LogRow& row);
   std::string loads_at_end(const Followed& path, const LogRow& row) const;
@@ -104,7 +105,7 @@ class LogFollower {
   void take_state(const std::string& path, const std::string& text);
   SavedState present_state() const;
   void remark_on_new_columns(const LogReader& log);
-  std::string place(const LogRow& row) const;
+  Sentence place(const LogRow& row) const;
 
   const RunOptions& options_;
   SceneDescription scene_;
@@ -118,11 +119,11 @@ class LogFollower {
   Verdict verdict_;
   LogRow last_;
   std::optional<Moment> origin_;  // of its time
-  std::vector<std::string> remarks_;
+  std::vector<Sentence> remarks_;
   bool bends_too_far_ = false;  // and that has been said
 };
 
 /// Why a model came no further.
-std::string reason_to_stop(const Followed& path, const SceneDescription& scene);
+Sentence reason_to_stop(const Followed& path, const SceneDescription& scene);
 
 }  // namespace taut::host

@@ -47,7 +47,7 @@ int plan(const PlanOptions& options) {
   PlanResult result;
   result.plan = find_plan(scene, goal);
   if (!result.plan.status) {
-    std::cerr << options.scene << ": " << failure_text(result.plan.status, scene) << '\n';
+    std::cerr << options.scene << ": " << failure_text(result.plan.status, scene).english() << '\n';
     return 1;
   }
   const std::string log = plan_log(scene, goal, result.plan);

@@ -21,7 +21,7 @@ class Prediction {
  public:
   explicit Prediction(const SceneDescription& scene)
       : scene_(scene), model_(make_model(scene, Method::tracker, ScalarType::float64)) {
-    go_on("before the first row", model_->start(1));
+    go_on(Sentence("before the first row"), model_->start(1));
   }
 
   /// The answer to the row; null where there is none.
@@ -30,7 +30,7 @@ class Prediction {
     // Noise: a jack cannot push.
     for (auto& cable : row.cables)
       for (EndRow& end : cable) end.force = std::max(end.force, 0.0);
-    go_on("in row " + std::to_string(row.row), model_->advance(row, 1));
+    go_on(Sentence("in row {1}", {std::to_string(row.row)}), model_->advance(row, 1));
     if (!run_.reason.empty()) return nullptr;
     model_->read(answer_);
     return &answer_;
@@ -43,13 +43,14 @@ class Prediction {
     if (number.empty())
       run_.tension = answer_.tension;
     else
-      run_.reason = "it has no answer at the end: " + number;
+      run_.reason = Sentence("it has no answer at the end: {1}", {number});
     return run_;
   }
 
  private:
-  void go_on(const std::string& where, const Followed& path) {
-    if (!path.whole()) run_.reason = "it has no answer " + where + ": " + reason_to_stop(path, scene_);
+  void go_on(const Sentence& where, const Followed& path) {
+    if (!path.whole())
+      run_.reason = Sentence("it has no answer {1}: {2}", {where, reason_to_stop(path, scene_)});
   }
 
   const SceneDescription& scene_;
@@ -93,7 +94,7 @@ int report(const ReportOptions& options) {
   OutputFile output(options.output);
   RunRecord record(follower.scene());
   Prediction prediction(follower.scene());
-  const std::string end = follower.follow(
+  const Sentence end = follower.follow(
       [&](const LogRow& row, const Answer& answer) { record.add(row, answer, prediction.advance(row)); });
   if (follower.began()) sheet.began = moment_text(*follower.began());
   output.write(report_page({follower.scene(), options.scene, options.log, record, prediction.finished(), end,
@@ -101,7 +102,7 @@ int report(const ReportOptions& options) {
                             Words(options.language)}));
   output.finish();
   if (end.empty()) return 0;
-  std::cerr << end << "; the report ends before it\n";
+  std::cerr << end.english() << "; the report ends before it\n";
   return 1;
 }
 

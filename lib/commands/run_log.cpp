@@ -10,11 +10,11 @@ namespace taut::host {
 namespace {
 
 // Of a stream, every row is written before the next one comes, and what was written stays.
-std::string follow(LogFollower& follower, ResultWriter& writer) {
+Sentence follow(LogFollower& follower, ResultWriter& writer) {
   const bool is_stream = follower.is_stream();
   if (is_stream) writer.flush();
   try {
-    const std::string end = follower.follow([&](const LogRow& row, const Answer& answer) {
+    const Sentence end = follower.follow([&](const LogRow& row, const Answer& answer) {
       writer.take(row.time, answer);
       if (is_stream) writer.flush();
     });
@@ -34,12 +34,12 @@ int run_log(const RunOptions& options) {
   const ResultColumns columns =
       options.method == Method::estimate ? ResultColumns::estimate : ResultColumns::state;
   ResultWriter writer(options.output, scene, columns, options.numbers, options.choice);
-  const std::string end = follow(follower, writer);
+  const Sentence end = follow(follower, writer);
   if (end.empty()) {
     follower.keep_state();
     return 0;
   }
-  std::cerr << end << "; the result ends before it\n";
+  std::cerr << end.english() << "; the result ends before it\n";
   return 1;
 }
 

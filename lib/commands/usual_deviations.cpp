@@ -19,6 +19,8 @@ constexpr double usual_mu_sd = 0.5, usual_gain_sd = 0.01, usual_zero_sd = 0.002,
 // Of a tendon when it is tensioned, and of a strut.
 constexpr double usual_strain = 0.005, usual_strain_of_strut = 0.001;
 
+std::string digits(double number) { return trimmed(significant(number, 3)); }
+
 /// What a gauge is called in a log, and what is known of it.
 struct GaugeColumn {
   std::string name;
@@ -44,7 +46,7 @@ std::vector<GaugeColumn> gauges_of(const LogReader& log, SceneDescription& scene
 
 // A gauge that the scene says nothing of, or not all, is an ordinary one.
 void take_gauges(const std::vector<GaugeColumn>& gauges, std::vector<ReadingScatter>& columns,
-                 std::vector<std::string>& remarks) {
+                 std::vector<Sentence>& remarks) {
   for (std::size_t g = 0; g < gauges.size(); ++g) {
     InstrumentDescription& instrument = *gauges[g].instrument;
     if (columns[g].largest() == 0) continue;
@@ -52,15 +54,16 @@ void take_gauges(const std::vector<GaugeColumn>& gauges, std::vector<ReadingScat
     if (!instrument.sd) instrument.sd = std::max(least_noise * columns[g].largest(), columns[g].scatter());
     if (!instrument.gain_sd) instrument.gain_sd = usual_gain_sd;
     if (!instrument.zero_sd) instrument.zero_sd = usual_zero_sd * columns[g].largest();
-    remarks.push_back("the scene does not say all of the gauge " + quote(gauges[g].name) +
-                      " in \"sensors\": \"sd\" " + trimmed(significant(*instrument.sd, 3)) +
-                      " N, \"gain_sd\" " + plain(*instrument.gain_sd) + " and \"zero_sd\" " +
-                      trimmed(significant(*instrument.zero_sd, 3)) + " N are taken");
+    remarks.push_back(Sentence(
+        "the scene does not say all of the gauge {1} in \"sensors\": \"sd\" {2} N, \"gain_sd\" {3} and "
+        "\"zero_sd\" {4} N are taken",
+        {quote(gauges[g].name), digits(*instrument.sd), digits(*instrument.gain_sd),
+         digits(*instrument.zero_sd)}));
   }
 }
 
 void fill_in_gauges(const std::string& path, const LogRules& rules, SceneDescription& scene,
-                    std::vector<std::string>& remarks) {
+                    std::vector<Sentence>& remarks) {
   std::ifstream stream = open_log(path);
   LogReader log(stream, path, scene, rules);
   const std::vector<GaugeColumn> gauges = gauges_of(log, scene);
@@ -76,7 +79,7 @@ void fill_in_gauges(const std::string& path, const LogRules& rules, SceneDescrip
   take_gauges(gauges, columns, remarks);
 }
 
-void expect_gauges(const LogReader& log, SceneDescription& scene, std::vector<std::string>& remarks) {
+void expect_gauges(const LogReader& log, SceneDescription& scene, std::vector<Sentence>& remarks) {
   const std::vector<GaugeColumn> gauges = gauges_of(log, scene);
   std::vector<ReadingScatter> columns(gauges.size());
   for (std::size_t g = 0; g < gauges.size(); ++g) {
@@ -89,7 +92,7 @@ void expect_gauges(const LogReader& log, SceneDescription& scene, std::vector<st
   take_gauges(gauges, columns, remarks);
 }
 
-void fill_in_strokes(const LogReader& log, SceneDescription& scene, std::vector<std::string>& remarks) {
+void fill_in_strokes(const LogReader& log, SceneDescription& scene, std::vector<Sentence>& remarks) {
   for (CableDescription& cable : scene.cables)
     for (std::size_t end = 0; end < 2; ++end) {
       const std::string column = cable.name + "." + end_name(end) + ".stroke";
@@ -97,8 +100,8 @@ void fill_in_strokes(const LogReader& log, SceneDescription& scene, std::vector<
       if (!cable.is_jacked(end) || stroke.is_given || !log.has(column)) continue;
       stroke.is_given = stroke.is_assumed = stroke.has_free_zero = true;
       stroke.sd = usual_stroke_sd;
-      remarks.push_back("the stroke " + quote(column) +
-                        " is not in \"sensors\": \"sd\" 0.001 m and a free zero are taken");
+      remarks.push_back(Sentence(
+          "the stroke {1} is not in \"sensors\": \"sd\" 0.001 m and a free zero are taken", {quote(column)}));
     }
 }
 
@@ -165,23 +168,26 @@ CellTable read_cells(const std::string& path, const SceneDescription& scene, con
   return cells;
 }
 
+Sentence listed(const Sentence& list, const Sentence& next) {
+  return list.empty() ? next : Sentence("{1}, {2}", {list, next});
+}
+
 // What is taken for the parts of an instrument that the scene does not say; with its gain and zero only if
 // they may be unknown.
-std::string fill_in(const CellReadings& readings, bool has_constants, InstrumentDescription& instrument) {
-  std::string taken;
-  const auto take = [&](std::optional<double>& value, double usual, const std::string& what) {
+Sentence fill_in(const CellReadings& readings, bool has_constants, InstrumentDescription& instrument) {
+  Sentence taken;
+  const auto take = [&](std::optional<double>& value, double usual, const Sentence& what) {
     if (value) return;
     value = usual;
-    taken += (taken.empty() ? "" : ", ") + what;
+    taken = listed(taken, what);
   };
-  const double noise = std::max(readings.noise.sd(), least_noise * readings.largest);
-  const bool is_read = readings.count > 0;
+  const double noise = std::max(readings.noise.sd(), least_noise * readings.largest),
+               zero = usual_zero_sd * readings.largest;
   take(instrument.sd, noise,
-       "sd " + trimmed(significant(noise, 3)) + (is_read ? " N as its readings scatter" : " N"));
+       Sentence(readings.count > 0 ? "sd {1} N as its readings scatter" : "sd {1} N", {digits(noise)}));
   if (!has_constants) return taken;
-  take(instrument.gain_sd, usual_gain_sd, "gain_sd " + plain(usual_gain_sd));
-  const double zero = usual_zero_sd * readings.largest;
-  take(instrument.zero_sd, zero, "zero_sd " + trimmed(significant(zero, 3)) + " N");
+  take(instrument.gain_sd, usual_gain_sd, Sentence("gain_sd {1}", {digits(usual_gain_sd)}));
+  take(instrument.zero_sd, zero, Sentence("zero_sd {1} N", {digits(zero)}));
   return taken;
 }
 
@@ -195,47 +201,50 @@ int count_cells(const CellTable& cells, const SceneDescription& scene, bool at_j
 }
 
 // Cells without readings are none.
-void fill_in_cells(const CellTable& cells, SceneDescription& scene, std::vector<std::string>& remarks) {
+void fill_in_cells(const CellTable& cells, SceneDescription& scene, std::vector<Sentence>& remarks) {
   const int at_jacks = count_cells(cells, scene, true), others = count_cells(cells, scene, false);
   if (std::max(at_jacks, others) > most_unknown_cells)
-    remarks.push_back("more than " + std::to_string(most_unknown_cells) +
-                      " load cells: gain and zero that the scene does not say are taken for exact");
+    remarks.push_back(
+        Sentence("more than {1} load cells: gain and zero that the scene does not say are taken for exact",
+                 {std::to_string(most_unknown_cells)}));
   for (std::size_t c = 0; c < scene.cables.size(); ++c) {
     CableDescription& cable = scene.cables[c];
     for (std::size_t end = 0; end < 2; ++end) {
       InstrumentDescription& cell = cable.cell[end];
       if (cell.exact || cells[c][end].largest == 0) continue;
       const bool has_constants = (cable.is_jacked(end) ? at_jacks : others) <= most_unknown_cells;
-      std::string taken = fill_in(cells[c][end], has_constants, cell);
+      Sentence taken = fill_in(cells[c][end], has_constants, cell);
       if (cable.is_jacked(end) && !cell.is_given && has_constants) {
         cell.part_sd = usual_hysteresis_sd;
-        taken += ", hysteresis sd " + plain(usual_hysteresis_sd);
+        taken = listed(taken, Sentence("hysteresis sd {1}", {digits(usual_hysteresis_sd)}));
       }
       if (!taken.empty())
-        remarks.push_back("the load cell " + quote(cable.name + "." + end_name(end)) +
-                          " is taken for an ordinary one in what \"sensors\" does not say of it: " + taken);
+        remarks.push_back(Sentence(
+            "the load cell {1} is taken for an ordinary one in what \"sensors\" does not say of it: {2}",
+            {quote(cable.name + "." + end_name(end)), taken}));
     }
   }
 }
 
 }  // namespace
 
-std::vector<std::string> fill_in_mu_deviations(SceneDescription& scene) {
-  std::vector<std::string> remarks;
+std::vector<Sentence> fill_in_mu_deviations(SceneDescription& scene) {
+  std::vector<Sentence> remarks;
   for (CableDescription& cable : scene.cables) {
     if (cable.has_mu_sd || cable.joints() == 0) continue;
     double sum = 0;
     for (const double mu : cable.mu) sum += mu;
     cable.mu_sd = usual_mu_sd * sum / static_cast<double>(cable.joints());
     if (cable.mu_sd > 0)
-      remarks.push_back("cable " + quote(cable.name) + " has no \"mu_sd\": half of mu, " +
-                        plain(cable.mu_sd) + ", is taken for its standard deviation");
+      remarks.push_back(
+          Sentence("cable {1} has no \"mu_sd\": half of mu, {2}, is taken for its standard deviation",
+                   {quote(cable.name), digits(cable.mu_sd)}));
   }
   return remarks;
 }
 
-std::vector<std::string> fill_in_jacks(SceneDescription& scene) {
-  std::vector<std::string> remarks;
+std::vector<Sentence> fill_in_jacks(SceneDescription& scene) {
+  std::vector<Sentence> remarks;
   CellTable cells(scene.cables.size());
   for (std::size_t c = 0; c < cells.size(); ++c)
     for (std::size_t end = 0; end < 2; ++end)
@@ -245,9 +254,9 @@ std::vector<std::string> fill_in_jacks(SceneDescription& scene) {
   return remarks;
 }
 
-std::vector<std::string> fill_in_deviations(const std::string& path, const LogRules& rules,
-                                            SceneDescription& scene) {
-  std::vector<std::string> remarks = fill_in_mu_deviations(scene);
+std::vector<Sentence> fill_in_deviations(const std::string& path, const LogRules& rules,
+                                         SceneDescription& scene) {
+  std::vector<Sentence> remarks = fill_in_mu_deviations(scene);
   fill_in_gauges(path, rules, scene, remarks);
   std::ifstream stream = open_log(path);
   fill_in_strokes(LogReader(stream, path, scene, rules), scene, remarks);
@@ -255,8 +264,8 @@ std::vector<std::string> fill_in_deviations(const std::string& path, const LogRu
   return remarks;
 }
 
-std::vector<std::string> fill_in_deviations(const LogReader& log, SceneDescription& scene) {
-  std::vector<std::string> remarks = fill_in_mu_deviations(scene);
+std::vector<Sentence> fill_in_deviations(const LogReader& log, SceneDescription& scene) {
+  std::vector<Sentence> remarks = fill_in_mu_deviations(scene);
   expect_gauges(log, scene, remarks);
   fill_in_strokes(log, scene, remarks);
   CellTable cells(scene.cables.size());

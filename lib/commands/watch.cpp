@@ -110,7 +110,7 @@ class Watch {
     } const quitter{planner_};
 
     is_replaying_ = true;
-    std::string end = replay();
+    Sentence end = replay();
     is_replaying_ = false;
     while (end.empty() && !stop_.is_requested()) {
       LineBuffer lines(*source);
@@ -119,7 +119,7 @@ class Watch {
     }
     if (follower_ && state_) renew_state();
     if (end.empty()) return 0;
-    std::cerr << end << "; what is shown ends before it\n";
+    std::cerr << end.english() << "; what is shown ends before it\n";
     return 1;
   }
 
@@ -161,9 +161,9 @@ class Watch {
   }
 
   // Rows that were answered before the program was killed, after the state that was written last.
-  std::string replay() {
-    if (!state_) return "";
-    std::string end;
+  Sentence replay() {
+    if (!state_) return {};
+    Sentence end;
     for (const KeptRows& part : state_->rows()) {
       if (part.rows.empty() || !end.empty()) continue;
       std::string text = part.header + "\n";
@@ -179,7 +179,7 @@ class Watch {
     return end;
   }
 
-  std::string follow_live(LineBuffer& lines) {
+  Sentence follow_live(LineBuffer& lines) {
     std::string header;
     std::istream text(&lines);
     LogStream log{text, name(), state_ ? state_->state() : "", {}, {}, {}};
@@ -207,12 +207,12 @@ class Watch {
       });
     } catch (const InputError&) {
       // A log without a header, or without rows, is none where it was to end, or where a line was lost.
-      if (stop_.is_requested() || (is_serial_ && lines.is_over())) return "";
+      if (stop_.is_requested() || (is_serial_ && lines.is_over())) return {};
       throw;
     }
   }
 
-  std::string follow(LogStream log, const RowVisitor& visit) {
+  Sentence follow(LogStream log, const RowVisitor& visit) {
     if (follower_) return follower_->go_on(std::move(log), visit);
     follower_ = std::make_unique<LogFollower>(run_, std::move(log));
     return follower_->follow(visit);
@@ -254,7 +254,7 @@ class Watch {
       if (!result.plan.status || !result.plan.outcome.whole) {
         std::cerr << options_.scene << ": "
                   << (result.plan.status ? "the plan comes to no end"
-                                         : failure_text(result.plan.status, scene_))
+                                         : failure_text(result.plan.status, scene_).english())
                   << '\n';
         return false;
       }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/files/sentence.hpp"
 #include "taut/scene/sample.hpp"
 
 namespace taut::host {
@@ -30,7 +31,7 @@ struct Answer {
   std::string alarms;                    ///< in words, separated by blanks
   std::map<std::string, double> peaks;   ///< by the word of an alarm: how far a force went beyond a limit [N]
   std::string notices;                   ///< of those, what needs no action: they are not among the alarms
-  std::string verdict;                   ///< whether the numbers are to be trusted
+  Sentence verdict;                      ///< whether the numbers are to be trusted
 };
 
 }  // namespace taut::host

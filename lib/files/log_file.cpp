@@ -371,16 +371,22 @@ void LogReader::take_factor(std::size_t i, double& factor) {
     factor = given;
     return;
   }
-  const std::string problem = "the factor " + plain(given) + " is more than the cables can carry";
   if (!rules_.are_readings)
-    refuse_field(i, problem,
+    refuse_field(i, "the factor " + plain(given) + " is more than the cables can carry",
                  "write one of a size below " + plain(rules_.most_factor[load]) + ": is the unit wrong?");
   constexpr std::size_t most_remarks = 20;
+  const std::vector<Sentence> parts = {file_, std::to_string(line_), std::to_string(i + 1), names_[i],
+                                       plain(given)};
   if (++left_out_ <= most_remarks)
-    remarks_.push_back(file_ + ": " + place_of(i) + ": " + problem + "; the one before is kept");
+    remarks_.push_back(
+        Sentence("{1}: line {2}, column {3} ({4}): the factor {5} is more than the cables can "
+                 "carry; the one before is kept",
+                 parts));
   else if (left_out_ == most_remarks + 1)
-    remarks_.push_back(file_ + ": " + place_of(i) + ": " + problem +
-                       ", as are perhaps more; the ones before are kept");
+    remarks_.push_back(
+        Sentence("{1}: line {2}, column {3} ({4}): the factor {5} is more than the cables can "
+                 "carry, as are perhaps more; the ones before are kept",
+                 parts));
 }
 
 double LogReader::number(std::size_t i) const {
@@ -474,7 +480,7 @@ std::ifstream open_log(const std::string& path) {
 }
 
 std::size_t check_log(const std::string& path, const SceneDescription& scene, const LogRules& rules,
-                      std::vector<std::string>* remarks, const std::function<void(const LogRow&)>& visit) {
+                      std::vector<Sentence>* remarks, const std::function<void(const LogRow&)>& visit) {
   std::ifstream stream = open_log(path);
   LogReader reader(stream, path, scene, rules);
   LogRow row = reader.first_row();

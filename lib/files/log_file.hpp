@@ -15,6 +15,7 @@
 #include "lib/files/log_columns.hpp"
 #include "lib/files/log_units.hpp"
 #include "lib/files/scene_description.hpp"
+#include "lib/files/sentence.hpp"
 
 namespace taut::host {
 
@@ -95,7 +96,7 @@ class LogReader {
   /// A place for a message: the line, and the column with this name, which the log has.
   std::string place(std::size_t line, const std::string& column) const;
   /// Where a factor was left out, of the rows until now.
-  const std::vector<std::string>& remarks() const { return remarks_; }
+  const std::vector<Sentence>& remarks() const { return remarks_; }
 
  private:
   bool read_line();
@@ -138,7 +139,7 @@ class LogReader {
   std::vector<std::string> fields_;
   std::string time_text_;  // of the present row
   std::size_t rows_ = 0;
-  std::vector<std::string> remarks_;
+  std::vector<Sentence> remarks_;
   std::size_t left_out_ = 0;  // factors
 };
 
@@ -146,7 +147,7 @@ class LogReader {
 /// of rows, and adds to `remarks`, if given, what was left out. Every row is shown to `visit`, if there is
 /// one.
 std::size_t check_log(const std::string& path, const SceneDescription& scene, const LogRules& rules,
-                      std::vector<std::string>* remarks = nullptr,
+                      std::vector<Sentence>* remarks = nullptr,
                       const std::function<void(const LogRow&)>& visit = {});
 
 /// Opens a log for reading. Throws InputError if it is not a file that can be read twice.

@@ -134,7 +134,7 @@ std::string impossible_number(const SceneDescription& scene, const Answer& answe
                          std::size_t count) {
     for (std::size_t i = 0; i < count && found.empty() && first + i < numbers.size(); ++i)
       if (const double number = numbers[first + i]; !is_possible(number))
-        found = name + std::to_string(i + 1) + " is " + plain(number);
+        found = name + std::to_string(i + 1) + " = " + plain(number);
   };
   std::size_t segment = 0, joint = 0;
   for (std::size_t c = 0; c < scene.cables.size(); ++c) {
@@ -149,7 +149,7 @@ std::string impossible_number(const SceneDescription& scene, const Answer& answe
     check(cable.name + ".mu_sd", answer.mu_deviation, joint, joints);
     for (std::size_t end = 0; end < 2; ++end)
       if (const double payout = answer.payout[c][end]; found.empty() && !is_possible(payout))
-        found = cable.name + "." + end_name(end) + ".payout is " + plain(payout);
+        found = cable.name + "." + end_name(end) + ".payout = " + plain(payout);
     segment += segments;
     joint += joints;
   }
@@ -267,7 +267,8 @@ std::string result_row(const SceneDescription& scene, double time, const Answer&
       segment += cable.segments();
       joint += cable.joints();
     }
-    for (const std::string* words : {&answer.alarms, &answer.notices, &answer.verdict}) line.field(*words);
+    for (const std::string& words : {answer.alarms, answer.notices, answer.verdict.english()})
+      line.field(words);
   }
   if (selection.is_all()) return line.finished();
   line.number(answer.friction_used, 0, answer.friction_used.size());

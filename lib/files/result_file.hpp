@@ -23,7 +23,7 @@ struct NumberFormat {
 /// Appends a number in the format; a value of a float computation is rounded to float first.
 void append_number(std::string& text, double value, const NumberFormat& format);
 
-/// The first number of an answer that no structure can have, a NaN for one, as `C.T1 is nan`; empty if there
+/// The first number of an answer that no structure can have, a NaN for one, as `C.T1 = nan`; empty if there
 /// is none.
 std::string impossible_number(const SceneDescription& scene, const Answer& answer);
 

@@ -197,14 +197,14 @@ class PlaceFinder {
   const SceneDescription& scene_;
 };
 
-std::string node_text(const SceneDescription& scene, int i) {
+Sentence node_text(const SceneDescription& scene, int i) {
   const NodeDescription* node = item_at(scene.nodes, i);
-  return node == nullptr ? "a node" : "node " + quote(node->name);
+  return node == nullptr ? Sentence("a node") : Sentence("node {1}", {quote(node->name)});
 }
 
-std::string cable_text(const SceneDescription& scene, int c) {
+Sentence cable_text(const SceneDescription& scene, int c) {
   const CableDescription* cable = item_at(scene.cables, c);
-  return cable == nullptr ? "a cable" : "cable " + quote(cable->name);
+  return cable == nullptr ? Sentence("a cable") : Sentence("cable {1}", {quote(cable->name)});
 }
 
 // The node at which a joint lies.
@@ -235,7 +235,7 @@ std::string between(const Status& status, const SceneDescription& scene) {
   } else if (const CableDescription* cable = item_at(scene.cables, status.cable)) {
     if (const int* node = item_at(cable->path, status.index)) first = *node;
   }
-  return node_text(scene, first) + " and " + node_text(scene, status.amount);
+  return node_text(scene, first).english() + " and " + node_text(scene, status.amount).english();
 }
 
 // Problem and remedy of a scene that validate() has refused.
@@ -251,13 +251,13 @@ std::pair<std::string, std::string> explain(const Status& status, const SceneDes
       return {number + " is below zero", "write zero or more"};
     case Code::repeated_node:
       if (status.place == Place::strut) {
-        return {"both ends are at " + node_text(scene, status.amount), "name two different nodes"};
+        return {"both ends are at " + node_text(scene, status.amount).english(), "name two different nodes"};
       }
       if (status.place == Place::beam) {
-        return {"the beam goes from " + node_text(scene, status.amount) + " to itself",
+        return {"the beam goes from " + node_text(scene, status.amount).english() + " to itself",
                 "name another node here"};
       }
-      return {node_text(scene, status.amount) + " comes twice", "name every node once"};
+      return {node_text(scene, status.amount).english() + " comes twice", "name every node once"};
     case Code::coincident_nodes:
       return {between(status, scene) + " are at the same point",
               "move one of them, or use one node for both"};
@@ -265,11 +265,11 @@ std::pair<std::string, std::string> explain(const Status& status, const SceneDes
       return {"the path is too short", "name at least 2 nodes, 3 for a closed cable"};
     case Code::folded_cable:
       return {"the cable folds straight back at " +
-                  node_text(scene, joint_node(scene, status.cable, status.index)),
+                  node_text(scene, joint_node(scene, status.cable, status.index)).english(),
               "move this node or a neighbour so that the cable turns by less than 180 degrees"};
     case Code::unsupported:
       return {"the supports leave the structure free to move as a rigid body, " +
-                  node_text(scene, status.index) + " with it",
+                  node_text(scene, status.index).english() + " with it",
               "add supports or a substructure that hold it"};
     case Code::not_symmetric:
       return {"the stiffness matrix is not symmetric: row " + std::to_string(status.amount + 1) +
@@ -284,8 +284,8 @@ std::pair<std::string, std::string> explain(const Status& status, const SceneDes
       }
       if (status.place == Place::beam) {
         const auto nodes = member_nodes(scene, status.index);
-        return {"up is parallel to the beam from " + node_text(scene, nodes[0]) + " to " +
-                    node_text(scene, nodes[1]),
+        return {"up is parallel to the beam from " + node_text(scene, nodes[0]).english() + " to " +
+                    node_text(scene, nodes[1]).english(),
                 "write the vector \"up\" so that it points aside; the beam's z lies in the plane of both"};
       }
       break;
@@ -296,61 +296,65 @@ std::pair<std::string, std::string> explain(const Status& status, const SceneDes
 }
 
 // Who a failure of a run is about.
-std::string subject(const Status& status, const SceneDescription& scene) {
+Sentence subject(const Status& status, const SceneDescription& scene) {
   const std::string number = std::to_string(status.index + 1);
   switch (status.place) {
     case Place::node:
       return node_text(scene, status.index);
     case Place::strut:
-      return "strut " + number;
+      return Sentence("strut {1}", {number});
     case Place::cable:
       return cable_text(scene, status.index);
     case Place::path:
-      return "path node " + number + " of " + cable_text(scene, status.cable);
+      return Sentence("path node {1} of {2}", {number, cable_text(scene, status.cable)});
     case Place::segment:
-      return "segment " + number + " of " + cable_text(scene, status.cable);
+      return Sentence("segment {1} of {2}", {number, cable_text(scene, status.cable)});
     case Place::joint:
-      return "joint " + number + " of " + cable_text(scene, status.cable) + " at " +
-             node_text(scene, joint_node(scene, status.cable, status.index));
+      return Sentence("joint {1} of {2} at {3}",
+                      {number, cable_text(scene, status.cable),
+                       node_text(scene, joint_node(scene, status.cable, status.index))});
     case Place::cable_end:
-      return std::string(end_name(status.index == 0 ? 0 : 1)) + " of " + cable_text(scene, status.cable);
+      return Sentence(status.index == 0 ? "start of {1}" : "end of {1}", {cable_text(scene, status.cable)});
     case Place::substructure:
-      return "substructure " + number;
+      return Sentence("substructure {1}", {number});
     case Place::load: {
       const LoadDescription* load = item_at(scene.loads, status.index);
-      return load == nullptr ? "a load pattern" : "load pattern " + quote(load->name);
+      return load == nullptr ? Sentence("a load pattern") : Sentence("load pattern {1}", {quote(load->name)});
     }
     default:
-      return "the scene";
+      return Sentence("the scene");
   }
 }
 
 // The struts that end at a node: `strut 3 from node "a"`.
-std::string struts_at(const SceneDescription& scene, int node) {
-  std::string text;
+Sentence struts_at(const SceneDescription& scene, int node) {
+  Sentence struts;
   for (std::size_t i = 0; i < scene.struts.size(); ++i) {
     const auto& ends = scene.struts[i].nodes;
     if (ends[0] != node && ends[1] != node) continue;
-    text += (text.empty() ? "strut " : ", strut ") + std::to_string(i + 1) + " from " +
-            node_text(scene, ends[0] == node ? ends[1] : ends[0]);
+    const Sentence strut = Sentence(
+        "strut {1} from {2}", {std::to_string(i + 1), node_text(scene, ends[0] == node ? ends[1] : ends[0])});
+    struts = struts.empty() ? strut : Sentence("{1}, {2}", {struts, strut});
   }
-  return text;
+  return struts;
 }
 
 // What is wrong, where describe() speaks of something else than the place does.
-std::string failure_problem(const Status& status, const SceneDescription& scene) {
+Sentence failure_problem(const Status& status, const SceneDescription& scene) {
   if (status.code == Code::gives_way && status.place == Place::joint) {
-    const std::string struts = struts_at(scene, joint_node(scene, status.cable, status.index));
+    const Sentence struts = struts_at(scene, joint_node(scene, status.cable, status.index));
     if (!struts.empty())
-      return "friction gives way, and what it held runs away (" + struts +
-             "): the structure would jump to a state far away";
+      return Sentence(
+          "friction gives way, and what it held runs away ({1}): the structure would jump to a state far "
+          "away",
+          {struts});
   }
   if (status.code == Code::mechanism && status.place == Place::joint)
-    return "mechanism: when the cable slides over this joint, nothing holds its node";
+    return Sentence("mechanism: when the cable slides over this joint, nothing holds its node");
   if (status.code == Code::not_finite)
-    return "condensed, it has a number that is infinite or out of all range";
-  if (status.code == Code::state_iterations) return "jammed: the joint states do not settle";
-  return describe(status.code);
+    return Sentence("condensed, it has a number that is infinite or out of all range");
+  if (status.code == Code::state_iterations) return Sentence("jammed: the joint states do not settle");
+  return Sentence(describe(status.code));
 }
 
 bool is_on_beam(const SceneDescription& scene, const Status& status) {
@@ -372,54 +376,68 @@ bool lacks_tension(const SceneDescription& scene, const Status& status) {
   return false;
 }
 
-std::string failure_remedy(const Status& status, const SceneDescription& scene) {
-  const std::string tension = lacks_tension(scene, status) ? std::string(tension_remedy) + ", or " : "";
+Sentence failure_remedy_alone(const Status& status, const SceneDescription& scene) {
   switch (status.code) {
     case Code::mechanism:
-      if (status.place == Place::joint) return tension + sliding_remedy;
-      return tension + "add a strut, a support or a substructure that holds it" +
-             (is_on_beam(scene, status) ? ", or hold the rotation of a beam that turns freely" : "");
+      if (status.place == Place::joint) return Sentence(sliding_remedy);
+      return Sentence(is_on_beam(scene, status)
+                          ? "add a strut, a support or a substructure that holds it, or hold the rotation of "
+                            "a beam that turns freely"
+                          : "add a strut, a support or a substructure that holds it");
     case Code::pulled_through:
-      return "bring the jack forces closer together, or anchor one end";
+      return Sentence("bring the jack forces closer together, or anchor one end");
     case Code::gives_way:
-      return tension +
-             "hold the node of this joint sideways (a second strut, a substructure), or stay below this load";
+      return Sentence(
+          "hold the node of this joint sideways (a second strut, a substructure), or stay below this load");
     case Code::state_iterations:
       // Events are found wherever a row ends: rows in between change nothing.
-      if (scene.second_order) return "hold the nodes of these joints sideways, or stay below this load";
-      return tension + "try taut simulate --method stepwise --substeps 100, or stay below this load";
+      return Sentence(scene.second_order
+                          ? "hold the nodes of these joints sideways, or stay below this load"
+                          : "try taut simulate --method stepwise --substeps 100, or stay below this load");
     case Code::ill_conditioned:
-      return "use --scalar double; in double, look for what nothing holds, or for stiffnesses that differ by "
-             "many powers of ten";
+      return Sentence(
+          "use --scalar double; in double, look for what nothing holds, or for stiffnesses that differ by "
+          "many powers of ten");
     case Code::not_finite:
-      return remedy_of_impossible_numbers;
+      return Sentence(remedy_of_impossible_numbers);
     case Code::bad_sample:
-      return "write finite numbers, no negative jack forces and no more than the cables can carry";
+      return Sentence("write finite numbers, no negative jack forces and no more than the cables can carry");
     default:
-      return "check the scene with: taut check";
+      return Sentence("check the scene with: taut check");
   }
 }
 
+Sentence failure_remedy(const Status& status, const SceneDescription& scene) {
+  const Sentence remedy = failure_remedy_alone(status, scene);
+  const bool may_lack_tension = status.code == Code::mechanism || status.code == Code::gives_way ||
+                                status.code == Code::state_iterations;
+  if (!may_lack_tension || !lacks_tension(scene, status)) return remedy;
+  return Sentence("{1}, or {2}", {Sentence(tension_remedy), remedy});
+}
+
 // In second-order theory: what lets a strut run away that hangs on its cable alone; empty if nothing does.
-std::string run_away_text(const Status& status, const SceneDescription& scene) {
+Sentence run_away_text(const Status& status, const SceneDescription& scene) {
   const bool has_no_answer = status.code == Code::mechanism || status.code == Code::gives_way ||
                              status.code == Code::ill_conditioned || status.code == Code::state_iterations;
-  if (!scene.second_order || !has_no_answer) return "";
+  if (!scene.second_order || !has_no_answer) return {};
   for (const HangingJoint& hanging : hanging_joints(scene)) {
     const CableDescription& cable = scene.cables[hanging.cable];
-    const std::string joint =
+    const Sentence joint =
         joint_text(scene, static_cast<int>(hanging.cable), static_cast<int>(hanging.joint));
-    const std::string struts = struts_at(scene, hanging.node);
+    const Sentence struts = struts_at(scene, hanging.node);
     if (struts.empty()) continue;
     if (cable.mu[hanging.joint] == 0 && cable.wobble == 0)
-      return joint + ": the cable alone holds this node sideways, and without friction " + struts +
-             " runs away; give the joint friction, or hold its node (" + sliding_remedy + ")";
+      return Sentence(
+          "{1}: the cable alone holds this node sideways, and without friction {2} runs away; give the joint "
+          "friction, or hold its node ({3})",
+          {joint, struts, Sentence(sliding_remedy)});
     if (status.code == Code::mechanism && cable.is_jacked(0) && cable.is_jacked(1))
-      return joint + ": between two jacks at work the cable can follow this node, and " + struts +
-             " runs away; prescribe the stroke of one jack (lock its end, or anchor it), or " +
-             sliding_remedy;
+      return Sentence(
+          "{1}: between two jacks at work the cable can follow this node, and {2} runs away; prescribe the "
+          "stroke of one jack (lock its end, or anchor it), or {3}",
+          {joint, struts, Sentence(sliding_remedy)});
   }
-  return "";
+  return {};
 }
 
 }  // namespace
@@ -430,14 +448,14 @@ InputError scene_error(const Status& status, const SceneDescription& scene) {
   return {scene.file, found.place, std::move(problem), std::move(remedy)};
 }
 
-std::string joint_text(const SceneDescription& scene, int cable, int joint) {
+Sentence joint_text(const SceneDescription& scene, int cable, int joint) {
   return subject(Status::along(Code::ok, Place::joint, cable, joint), scene);
 }
 
-std::string failure_text(const Status& status, const SceneDescription& scene, const std::string& remedy) {
-  if (const std::string text = run_away_text(status, scene); remedy.empty() && !text.empty()) return text;
-  return subject(status, scene) + ": " + failure_problem(status, scene) + "; " +
-         (remedy.empty() ? failure_remedy(status, scene) : remedy);
+Sentence failure_text(const Status& status, const SceneDescription& scene, const Sentence& remedy) {
+  if (const Sentence text = run_away_text(status, scene); remedy.empty() && !text.empty()) return text;
+  return Sentence("{1}: {2}; {3}", {subject(status, scene), failure_problem(status, scene),
+                                    remedy.empty() ? failure_remedy(status, scene) : remedy});
 }
 
 }  // namespace taut::host

@@ -5,6 +5,7 @@
 
 #include "lib/files/input_error.hpp"
 #include "lib/files/scene_description.hpp"
+#include "lib/files/sentence.hpp"
 #include "taut/status.hpp"
 
 namespace taut::host {
@@ -16,7 +17,7 @@ InputError scene_error(const Status& status, const SceneDescription& scene);
 inline constexpr const char* sliding_remedy = "add a second strut, a support or a substructure at that node";
 
 /// `joint 3 of cable "C" at node "top"`, from numbers that count from 0.
-std::string joint_text(const SceneDescription& scene, int cable, int joint);
+Sentence joint_text(const SceneDescription& scene, int cable, int joint);
 
 /// What may help a linear scene where a node hangs on its cable alone, see hanging_joints().
 inline constexpr const char* tension_remedy =
@@ -24,6 +25,6 @@ inline constexpr const char* tension_remedy =
 
 /// Why there is no answer, as `joint 3 of cable "C": problem; remedy`. `remedy` is what the caller has found
 /// to help; without it, what is known to.
-std::string failure_text(const Status& status, const SceneDescription& scene, const std::string& remedy = "");
+Sentence failure_text(const Status& status, const SceneDescription& scene, const Sentence& remedy = {});
 
 }  // namespace taut::host

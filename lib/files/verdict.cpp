@@ -18,18 +18,17 @@ struct Rule {
   const char* kind;
   std::size_t raised;
   int of_rows;
-  const char* before_place;
-  const char* after_place;
+  const char* reason;  // {1} is the place
 };
 // The worst first: what explains the others stands before them.
 constexpr std::array<Rule, 7> rules = {{
-    {"unknown-past", 1, 1, "nobody knows how ", " came under load (pull on or use --state)"},
-    {"frozen", 1, Verdict::rows, "the load cell at ", " keeps one value although the load moves"},
-    {"model-misfit", 1, Verdict::rows, "", " does not fit the model"},
-    {"sensor", 3, Verdict::rows, "the load cell at ", " contradicts the model"},
-    {"elongation", 3, Verdict::rows, "the stroke at ", " contradicts the model"},
-    {"gauge", 3, Verdict::rows, "the measured force of ", " contradicts the model"},
-    {"outlier", 6, Verdict::rows, "the load cell at ", " gives readings that do not belong together"},
+    {"unknown-past", 1, 1, "nobody knows how {1} came under load (pull on or use --state)"},
+    {"frozen", 1, Verdict::rows, "the load cell at {1} keeps one value although the load moves"},
+    {"model-misfit", 1, Verdict::rows, "{1} does not fit the model"},
+    {"sensor", 3, Verdict::rows, "the load cell at {1} contradicts the model"},
+    {"elongation", 3, Verdict::rows, "the stroke at {1} contradicts the model"},
+    {"gauge", 3, Verdict::rows, "the measured force of {1} contradicts the model"},
+    {"outlier", 6, Verdict::rows, "the load cell at {1} gives readings that do not belong together"},
 }};
 
 using Bits = std::bitset<Verdict::rows>;
@@ -43,9 +42,9 @@ std::size_t times(const Rule& rule, std::uint32_t raised) {
 
 }  // namespace
 
-bool is_trust(const std::string& verdict) { return verdict == trust; }
+bool is_trust(const Sentence& verdict) { return verdict.words() == trust; }
 
-std::string Verdict::take(const std::string& words) {
+Sentence Verdict::take(const std::string& words) {
   for (auto word = raised_.begin(); word != raised_.end();) {
     word->second = static_cast<std::uint32_t>((Bits(word->second) << 1).to_ulong());
     word = word->second == 0 ? raised_.erase(word) : std::next(word);
@@ -54,15 +53,15 @@ std::string Verdict::take(const std::string& words) {
   for (std::string word; stream >> word;)
     if (std::any_of(rules.begin(), rules.end(), [&](const Rule& rule) { return is_of(rule, word); }))
       raised_[word] |= 1;
-  std::string reasons;
+  Sentence reasons;
   std::size_t count = 0;
   for (const Rule& rule : rules)
     for (const auto& [word, raised] : raised_) {
       if (count == most_reasons || !is_of(rule, word) || times(rule, raised) < rule.raised) continue;
-      reasons += (count++ == 0 ? "do not trust: " : "; ") +
-                 (rule.before_place + word.substr(word.find(':') + 1)) + rule.after_place;
+      const Sentence reason(rule.reason, {word.substr(word.find(':') + 1)});
+      reasons = count++ == 0 ? reason : Sentence("{1}; {2}", {reasons, reason});
     }
-  return count == 0 ? trust : reasons;
+  return count == 0 ? Sentence(trust) : Sentence("do not trust: {1}", {reasons});
 }
 
 }  // namespace taut::host

@@ -6,10 +6,12 @@
 #include <string>
 #include <utility>
 
+#include "lib/files/sentence.hpp"
+
 namespace taut::host {
 
 /// Whether a verdict is `trust`, and not `do not trust: <reason>`.
-bool is_trust(const std::string& verdict);
+bool is_trust(const Sentence& verdict);
 
 /// Takes the alarms of an estimate row by row and judges them. A plain value; it does not grow with the log,
 /// only with the number of places that alarms can name.
@@ -27,8 +29,8 @@ class Verdict {
 
   /// The next row, with the words of its alarms as alarm_word() writes them, separated by blanks. Returns its
   /// verdict: `trust`, or `do not trust: ` and the one or two worst reasons, joined by `; `. There is no
-  /// comma in it. A word of no kind that makes numbers doubtful changes nothing.
-  std::string take(const std::string& words);
+  /// comma in its English. A word of no kind that makes numbers doubtful changes nothing.
+  Sentence take(const std::string& words);
 
   const Memory& memory() const { return raised_; }
 

@@ -76,7 +76,7 @@ PlanFound Planner::find(PlanRequest request) const {
   try {
     found.plan = find_rest_of_plan(scene, goal_, past, give_up);
     if (!found.plan.status)
-      found.failure = failure_text(found.plan.status, scene);
+      found.failure = failure_text(found.plan.status, scene).english();
     else if (!found.plan.outcome.whole)
       found.failure = "the structure has no answer on the way";
     else if (has_prior(scene))

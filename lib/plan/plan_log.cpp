@@ -59,7 +59,7 @@ SimulatedPlan simulate(const std::string& log, const SceneDescription& scene) {
   LogReader reader(stream, "the log of the plan", scene);
   const auto model = make_model(scene, Method::tracker, ScalarType::float64);
   const auto stop = [&](const Followed& path) {
-    simulated.stopped = path.status ? "too many events" : failure_text(path.status, scene);
+    simulated.stopped = path.status ? "too many events" : failure_text(path.status, scene).english();
     return simulated;
   };
   if (const Followed start = model->start(1); !start.whole()) return stop(start);

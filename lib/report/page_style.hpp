@@ -98,7 +98,7 @@ td.text{min-width:11rem}
 @media (max-width:40rem){th,td{padding:.3rem .4rem}
 .alarms thead{display:none}.alarms tr{display:block;padding:.4rem 0;border-bottom:1px solid var(--rule)}
 .alarms td{display:inline-block;border:0;padding:.1rem .8rem .1rem 0;white-space:normal;text-align:left}
-.alarms td.text{display:block}.alarms td:first-child::before{content:"row "}.alarms td:nth-child(2)::after{content:" s"}}
+.alarms td.text{display:block}.alarms td[data-name]::before{content:attr(data-name) " "}}
 .record{margin-bottom:2.5rem}
 .record h2{margin:1.1rem 0 .3rem;font-size:1.05rem}
 .record td,.record th{padding:.2rem .5rem}

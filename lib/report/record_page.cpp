@@ -343,14 +343,14 @@ class RecordPage {
     if (record_.rows == 0 || !view_.content.end.empty())
       return heading(say("Result")) +
              paragraph("warning", element("strong", {}, escaped(say("Not complete"))) + " " +
-                                      escaped(view_.content.end));
+                                      escaped(say(view_.content.end)));
     const bool is_trusted = is_trust(record_.end.verdict);
     std::string said = failures_ > 0 ? say("Fails")
                        : !is_trusted ? say("In doubt")
                        : judged_     ? say("Passes")
                                      : say("Nothing to judge by");
     std::string why = failures_ > 0 ? ""
-                      : !is_trusted ? say.verdict(record_.end.verdict)
+                      : !is_trusted ? say(record_.end.verdict)
                       : judged_     ? say("all that was required is within its tolerance")
                                     : say("no required force, stroke, target or limit was given");
     std::string html = element("strong", {}, escaped(said)) + (why.empty() ? "" : ": " + escaped(why));

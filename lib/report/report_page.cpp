@@ -68,7 +68,7 @@ class Page {
     if (!content_.end.empty())
       html += paragraph("warning",
                         strong(say("The answer ends before the log does.")) + " " +
-                            escaped(say("{1}. What follows shows the rows before it.", {content_.end})));
+                            escaped(say("{1}. What follows shows the rows before it.", {say(content_.end)})));
     return element("header", {{"id", "run"}}, html);
   }
 
@@ -76,8 +76,7 @@ class Page {
     if (record_.rows == 0) return "";
     const bool is_good = is_trust(record_.end.verdict);
     return paragraph(is_good ? "summary" : "warning",
-                     escaped(say("Verdict {1}:", {view_.at_end()})) + " " +
-                         strong(say.verdict(record_.end.verdict)) +
+                     escaped(say("Verdict {1}:", {view_.at_end()})) + " " + strong(say(record_.end.verdict)) +
                          escaped(say(is_good ? ", since {1} s" : " (in doubt since {1} s)",
                                      {view_.time_text(record_.verdict_since)})));
   }
@@ -160,7 +159,7 @@ class Page {
     if (content_.nominal.tension.empty())
       html +=
           paragraph("note", escaped(say("What was predicted with the friction of the scene is left out: {1}.",
-                                        {content_.nominal.reason})));
+                                        {say(content_.nominal.reason)})));
     return element("section", {}, html);
   }
   std::string cable_heading(std::size_t c) const {
@@ -202,7 +201,7 @@ class Page {
 
   std::string remarks() const {
     std::string list;
-    for (const std::string& remark : content_.remarks) list += element("li", {}, escaped(remark));
+    for (const Sentence& remark : content_.remarks) list += element("li", {}, escaped(say(remark)));
     return list.empty() ? "" : element("section", {}, heading(say("Remarks")) + element("ul", {}, list));
   }
 

@@ -27,6 +27,11 @@ class TableRow {
     return *this;
   }
   TableRow& number(const std::string& text) { return cell("number", text); }
+  /// With the name that is shown where the head of the table is not.
+  TableRow& named(const std::string& name, const std::string& text) {
+    cells_ += element(kind_, {{"class", "number"}, {"data-name", name}}, escaped(text));
+    return *this;
+  }
   TableRow& word(const std::string& text) { return cell("short", text); }
   TableRow& text(const std::string& text) { return cell("text", text); }
   std::string finished() const { return element("tr", {}, cells_); }
@@ -64,14 +69,17 @@ std::string peak_text(const ReportView& view, const AlarmRun& run) {
 // Of alarms or notices; what to do about notices is nothing.
 std::string run_table(const ReportView& view, const AlarmRecord& record, const std::string& kind,
                       bool tells_what_to_do) {
+  const std::string rows_name = view.say("Rows"),
+                    time_name = view.origin == 0 ? view.say("Time [s]")
+                                                 : view.say("Since {1} [s]", {view.time_text(view.origin)});
   std::string rows;
   for (const AlarmRun& run : record.runs()) {
     const bool is_one = run.first_row == run.last_row;
     const AlarmMeaning meaning = alarm_meaning(run.word);
     TableRow row;
-    row.number(std::to_string(run.first_row) + (is_one ? "" : dash + std::to_string(run.last_row)))
-        .number(view.time_text(run.first_time - view.origin) +
-                (is_one ? "" : dash + view.time_text(run.last_time - view.origin)))
+    row.named(rows_name, std::to_string(run.first_row) + (is_one ? "" : dash + std::to_string(run.last_row)))
+        .named(time_name, view.time_text(run.first_time - view.origin) +
+                              (is_one ? "" : dash + view.time_text(run.last_time - view.origin)))
         .word(run.word.substr(0, run.word.find(':')))
         .word(alarm_place(run.word))
         .text(view.say(meaning.means) + peak_text(view, run));
@@ -79,12 +87,7 @@ std::string run_table(const ReportView& view, const AlarmRecord& record, const s
     rows += row.finished();
   }
   TableRow head("th");
-  head.number(view.say("Rows"))
-      .number(view.origin == 0 ? view.say("Time [s]")
-                               : view.say("Since {1} [s]", {view.time_text(view.origin)}))
-      .word(kind)
-      .word(view.say("Where"))
-      .text(view.say("What it means"));
+  head.number(rows_name).number(time_name).word(kind).word(view.say("Where")).text(view.say("What it means"));
   if (tells_what_to_do) head.text(view.say("What to do"));
   return element("div", {{"class", "alarms"}}, table(kind, head, rows)) + further_runs(view, record);
 }

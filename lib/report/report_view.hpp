@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lib/files/learned_friction.hpp"
+#include "lib/files/sentence.hpp"
 #include "lib/report/axis.hpp"
 #include "lib/report/number_text.hpp"
 #include "lib/report/run_record.hpp"
@@ -17,7 +18,7 @@ namespace taut::host {
 /// What was to be expected with the friction of the scene: forces of the segments after the last row.
 struct NominalRun {
   std::vector<double> tension;  ///< empty: no answer
-  std::string reason;           ///< why there is none
+  Sentence reason;              ///< why there is none
 };
 
 /// Everything that a report shows.
@@ -26,8 +27,8 @@ struct ReportContent {
   std::string scene_file, log_file;
   const RunRecord& record;
   NominalRun nominal;
-  std::string end;  ///< where and why the answer ends before the log does; empty if it does not
-  std::vector<std::string> remarks;
+  Sentence end;  ///< where and why the answer ends before the log does; empty if it does not
+  std::vector<Sentence> remarks;
   std::vector<LearnedFriction> learned;  ///< every mu that was not known beforehand
   StressingSheet sheet;                  ///< what is signed
   std::vector<StrutEstimate> struts;     ///< of every strut after the last row; no list: not known

@@ -51,7 +51,7 @@ constexpr Translation table[] = {
     {"Force over time", "索力时程", "Kraft über die Zeit"},
     {"Friction coefficient over time", "摩擦系数时程", "Reibbeiwert über die Zeit"},
     {"What friction was learned from", "摩擦系数的依据", "Woraus die Reibung gelernt wurde"},
-    {"States of the joints over time", "各节点状态时程", "Zustände der Knoten über die Zeit"},
+    {"States of the joints over time", "各节点状态时程", "Zustände der Umlenkungen über die Zeit"},
     {"Alarms", "报警", "Alarme"},
     {"Notices", "提示", "Hinweise"},
     {"Values {1}", "{1}的数值", "Werte {1}"},
@@ -72,7 +72,7 @@ constexpr Translation table[] = {
     {"rotation about {1}", "绕 {1} 转动", "Drehung um {1}"},
     {"substructure {1} at node {2}", "子结构 {1}，节点 {2}", "Teiltragwerk {1} am Knoten {2}"},
     {"sd", "标准差", "Std.-Abw."},
-    {"joint {1} at {2}", "{2} 处的节点 {1}", "Knoten {1} bei {2}"},
+    {"joint {1} at {2}", "{2} 处的节点 {1}", "Umlenkung {1} bei {2}"},
     {"stick", "粘着", "haftet"},
     {"forward", "向终端滑动", "vorwärts"},
     {"backward", "向始端滑动", "rückwärts"},
@@ -86,20 +86,21 @@ constexpr Translation table[] = {
     {"support", "支座", "Lager"},
     {"substructure", "子结构", "Teiltragwerk"},
     {"jack", "千斤顶", "Presse"},
-    {"joint sticks", "节点粘着", "Knoten haftet"},
+    {"joint sticks", "节点粘着", "Umlenkung haftet"},
     {"slides to the end of the cable", "向索的终端滑动", "gleitet zum Ende des Seils"},
     {"slides to its start", "向索的始端滑动", "gleitet zu seinem Anfang"},
     {"per cent at a joint: how much of friction is used there, by a strut that leans or by sliding, at the "
      "end",
      "节点旁的百分数：结束时该处因撑杆倾斜或滑动所用去的摩擦",
-     "Prozent an einem Knoten: wie viel der Reibung dort am Ende verbraucht ist, durch einen geneigten Stab "
+     "Prozent an einer Umlenkung: wie viel der Reibung dort am Ende verbraucht ist, durch einen geneigten "
+     "Stab "
      "oder durch Gleiten"},
     {"States of the joints of cable {1} over time", "索 {1} 各节点状态时程",
-     "Zustände der Knoten von Seil {1} über die Zeit"},
-    {"joint, node", "节点编号、名称", "Knoten, Name"},
-    {"joint {1} at node {2}", "节点 {1}（{2}）", "Knoten {1} an {2}"},
+     "Zustände der Umlenkungen von Seil {1} über die Zeit"},
+    {"joint, node", "节点编号、名称", "Umlenkung, Knoten"},
+    {"joint {1} at node {2}", "节点 {1}（{2}）", "Umlenkung {1} an Knoten {2}"},
     {"stick: nothing moves over the joint", "粘着：索在该处不动",
-     "haftet: nichts bewegt sich über den Knoten"},
+     "haftet: nichts bewegt sich über die Umlenkung"},
     {"forward: the cable moves towards its end", "向前：索向其终端移动",
      "vorwärts: das Seil bewegt sich zu seinem Ende"},
     {"backward: the cable moves towards its start", "向后：索向其始端移动",
@@ -122,13 +123,13 @@ constexpr Translation table[] = {
     {"limit", "限值", "Grenze"},
     {"Force in the segments of cable {1} over time", "索 {1} 各段的力时程",
      "Kraft in den Abschnitten von Seil {1} über die Zeit"},
-    {"joint {1}", "节点 {1}", "Knoten {1}"},
+    {"joint {1}", "节点 {1}", "Umlenkung {1}"},
     {"mu of the scene", "模型的 mu", "mu der Szene"},
-    {"the joint", "该节点", "der Knoten"},
-    {"all joints", "所有节点", "alle Knoten"},
-    {"joint {1} ({2})", "节点 {1}（{2}）", "Knoten {1} ({2})"},
+    {"the joint", "该节点", "die Umlenkung"},
+    {"all joints", "所有节点", "alle Umlenkungen"},
+    {"joint {1} ({2})", "节点 {1}（{2}）", "Umlenkung {1} ({2})"},
     {"{1}, with its 95 % band", "{1}，及其 95 % 区间", "{1}, mit seinem 95-%-Band"},
-    {"other joints", "其余节点", "andere Knoten"},
+    {"other joints", "其余节点", "andere Umlenkungen"},
     {"Friction coefficient of cable {1} over time", "索 {1} 的摩擦系数时程",
      "Reibbeiwert von Seil {1} über die Zeit"},
     {"less than 1 %", "不到 1 %", "unter 1 %"},
@@ -158,7 +159,7 @@ constexpr Translation table[] = {
      "davon {1} aus {2} ({3} Ablesungen)"},
     {"mu of {1}: {2} beforehand, {3} now; {4}.", "{1} 的 mu：事先 {2}，现在 {3}；{4}。",
      "mu von {1}: vorher {2}, jetzt {3}; {4}."},
-    {"mu of", "mu 属于", "mu von"},
+    {"mu of", "对象", "mu von"},
     {"Beforehand", "事先", "Vorher"},
     {"Now", "现在", "Jetzt"},
     {"Learned from", "依据", "Gelernt aus"},
@@ -167,8 +168,8 @@ constexpr Translation table[] = {
     {"Segment", "索段", "Abschnitt"},
     {"Force", "力", "Kraft"},
     {"Predicted", "预测", "Vorhergesagt"},
-    {"Joint at its start", "始端节点", "Knoten am Anfang"},
-    {"Joint at its end", "终端节点", "Knoten am Ende"},
+    {"Joint at its start", "始端节点", "Umlenkung am Anfang"},
+    {"Joint at its end", "终端节点", "Umlenkung am Ende"},
     {"State", "状态", "Zustand"},
     {"sd of mu", "mu 的标准差", "Std.-Abw. von mu"},
     {"Contact force", "接触力", "Anpresskraft"},
@@ -197,7 +198,7 @@ constexpr Translation table[] = {
     {"Contractor", "施工单位", "Ausführung"},
     {"Date", "日期", "Datum"},
     {"Crew", "班组", "Spanntrupp"},
-    {"Witness", "见证", "Zeuge"},
+    {"Witness", "见证人", "Zeuge"},
     {"SHA-256 of the files; taut {1}", "文件的 SHA-256；taut {1}", "SHA-256 der Dateien; taut {1}"},
     {"exact", "精确", "exakt"},
     {"by table", "按标定表", "nach Tabelle"},
@@ -205,12 +206,12 @@ constexpr Translation table[] = {
     {"Column", "列", "Spalte"},
     {"Identity", "编号", "Nummer"},
     {"Calibrated", "标定日期", "Kalibriert"},
-    {"Certificate", "证书", "Schein"},
+    {"Certificate", "证书", "Kalibrierschein"},
     {"Gain ±", "增益 ±", "Faktor ±"},
     {"Zero ±", "零点 ±", "Nullpunkt ±"},
     {"Calibration", "标定", "Kalibrierung"},
     {"on the way", "途中", "unterwegs"},
-    {"hold", "持荷", "Halt"},
+    {"hold", "持荷", "Haltepunkt"},
     {"turn", "转折", "Umkehr"},
     {"locked off", "锚固", "verankert"},
     {"end", "结束", "Ende"},
@@ -223,7 +224,7 @@ constexpr Translation table[] = {
     {"Measured", "实测值", "Gemessen"},
     {"Difference", "偏差", "Abweichung"},
     {"Expected [mm]", "理论伸长 [mm]", "Erwartet [mm]"},
-    {"Stroke [mm]", "油缸行程 [mm]", "Weg [mm]"},
+    {"Stroke [mm]", "油缸行程 [mm]", "Pressenweg [mm]"},
     {"Net [mm]", "净伸长 [mm]", "Netto [mm]"},
     {"Result", "结论", "Ergebnis"},
     {"Forces may differ by {1} %.", "力的允许偏差 {1} %。", "Kräfte dürfen um {1} % abweichen."},
@@ -236,16 +237,16 @@ constexpr Translation table[] = {
      "Erwartet: mit Reibung und Steifigkeit der Szene, für die gemessene Kraft. Netto: was der Weg seit der "
      "ersten Stufe gewachsen ist, und was dort erwartet war. Ab der halben größten Kraft darf er um {1} % "
      "abweichen."},
-    {"Wedge set: {1} mm measured", "锚具回缩：实测 {1} mm", "Keilschlupf: {1} mm gemessen"},
+    {"Wedge set: {1} mm measured", "锚固回缩：实测 {1} mm", "Keilschlupf: {1} mm gemessen"},
     {", {1} mm expected", "，理论 {1} mm", ", {1} mm erwartet"},
     {"{1}: the force at {2} is {3} off the required one", "{1}：{2} 处的力偏离规定值 {3}",
      "{1}: die Kraft bei {2} weicht um {3} von der geforderten ab"},
     {"{1}: the elongation at {2} is {3} off the expected one", "{1}：{2} 处的伸长偏离理论值 {3}",
-     "{1}: die Dehnung bei {2} weicht um {3} von der erwarteten ab"},
+     "{1}: der Dehnweg bei {2} weicht um {3} vom erwarteten ab"},
     {"reference", "基准", "Bezug"},
-    {"fails", "不合格", "nein"},
-    {"passes", "合格", "ja"},
-    {"Losses", "预应力损失", "Verluste"},
+    {"fails", "不合格", "n. i. O."},
+    {"passes", "合格", "i. O."},
+    {"Losses", "预应力损失", "Spannkraftverluste"},
     {"Largest force", "最大张拉力", "Größte Kraft"},
     {"By friction then", "当时摩擦损失", "Durch Reibung"},
     {"At the jack since", "此后张拉端损失", "Seither an der Presse"},
@@ -287,18 +288,20 @@ constexpr Translation table[] = {
     {"Check the cell (zero, range, seat), then the scene: angles at the joints, mu and its sd, forgotten "
      "joints.",
      "检查测力计（零点、量程、安放），再检查模型：节点处角度、mu 及其 sd、遗漏的节点。",
-     "Messdose prüfen (Nullpunkt, Bereich, Sitz), dann die Szene: Winkel an den Knoten, mu und sein sd, "
-     "vergessene Knoten."},
+     "Messdose prüfen (Nullpunkt, Bereich, Sitz), dann die Szene: Winkel an den Umlenkungen, mu und sein "
+     "sd, vergessene Umlenkungen."},
     {"Friction is surely outside of what the scene says was known of it.", "摩擦显然超出模型所给的范围。",
      "Die Reibung liegt sicher außerhalb dessen, was die Szene von ihr weiß."},
     {"Look at the joints: dirt, damage, missing grease or liner. If all is well, correct mu and mu_sd in the "
      "scene.",
      "查看节点：污物、损伤、缺润滑或衬垫。若一切正常，修正模型中的 mu 和 mu_sd。",
-     "Die Knoten ansehen: Schmutz, Schaden, fehlendes Fett oder Futter. Ist alles gut, mu und mu_sd in der "
+     "Die Umlenkungen ansehen: Schmutz, Schaden, fehlendes Fett oder Futter. Ist alles gut, mu und mu_sd in "
+     "der "
      "Szene berichtigen."},
     {"The joint holds back more than its friction allows: it does not slide though it should.",
      "该节点的阻力大于摩擦所允许：本应滑动而未滑动。",
-     "Der Knoten hält mehr zurück, als seine Reibung erlaubt: er gleitet nicht, obwohl er müsste."},
+     "Die Umlenkung hält mehr zurück, als ihre Reibung erlaubt: das Seil gleitet dort nicht, obwohl es "
+     "müsste."},
     {"Look whether the cable is caught or clamped there before pulling on.",
      "继续张拉之前查看索是否在此处被卡住或夹住。",
      "Vor dem Weiterziehen nachsehen, ob das Seil dort hängt oder klemmt."},
@@ -322,12 +325,14 @@ constexpr Translation table[] = {
      "Die Kraft in diesem Abschnitt liegt unter ihrer Grenze oder ist noch nicht um 1 % zurück."},
     {"Pull on, or release and pull again to bring the force over the joints; look for a slack cable.",
      "继续张拉，或放松后再张拉使力越过节点；检查索是否松弛。",
-     "Weiter ziehen, oder nachlassen und wieder ziehen, damit die Kraft über die Knoten kommt; nach einem "
+     "Weiter ziehen, oder nachlassen und wieder ziehen, damit die Kraft über die Umlenkungen kommt; nach "
+     "einem "
      "schlaffen Seil sehen."},
     {"The load cell at this anchored end was read, but joints between it and the jack stick: the reading "
      "says nothing about mu. Readings taken while the cable slides over all joints are worth more.",
      "读取了该锚固端测力计，但其与千斤顶之间有节点粘着：读数不能说明 mu。索在所有节点滑动时的读数更有价值。",
-     "Die Messdose an diesem verankerten Ende wurde gelesen, aber Knoten zwischen ihr und der Presse haften: "
+     "Die Messdose an diesem verankerten Ende wurde gelesen, aber Umlenkungen zwischen ihr und der Presse "
+     "haften: "
      "die Ablesung sagt nichts über mu. Ablesungen, während das Seil überall gleitet, sind mehr wert."},
     {"Nothing.", "无须处理。", "Nichts."},
     {"The measured force of this strut or segment contradicts the model by more than five standard "
@@ -349,7 +354,7 @@ constexpr Translation table[] = {
      "joints, loads, mu and its sd.",
      "在同一荷载下比较两个测力计（增益、零点），再检查模型：节点处角度、遗漏的节点、荷载、mu 及其 sd。",
      "Beide Messdosen unter derselben Last vergleichen (Faktor, Nullpunkt), dann die Szene prüfen: Winkel an "
-     "den Knoten, vergessene Knoten, Lasten, mu und sein sd."},
+     "den Umlenkungen, vergessene Umlenkungen, Lasten, mu und sein sd."},
     {"The load cell keeps one value although the load moves. What it shows since then is no measurement.",
      "荷载在变而测力计读数不变。此后的显示不是测量值。",
      "Die Messdose zeigt einen festen Wert, obwohl die Last sich ändert. Was sie seither zeigt, ist keine "
@@ -373,7 +378,7 @@ constexpr Translation table[] = {
     {"Pull on until the cable has slid over all joints, or give the state that the last visit left "
      "(--state).",
      "继续张拉至索在所有节点滑动，或给出上次留下的状态（--state）。",
-     "Weiter ziehen, bis das Seil über alle Knoten geglitten ist, oder den Zustand des letzten Besuchs "
+     "Weiter ziehen, bis das Seil über alle Umlenkungen geglitten ist, oder den Zustand des letzten Besuchs "
      "angeben (--state)."},
     {"The jack pulls what this locked end holds: its wedge comes free.",
      "千斤顶拉起了已锚固端所承受的力：其夹片松脱。",
@@ -392,6 +397,194 @@ constexpr Translation table[] = {
     {"Nothing, if it is rare. If it comes again and again, check baud, plugs and the logger.",
      "偶尔出现无须处理。若反复出现，检查波特率、插头和采集仪。",
      "Nichts, wenn es selten ist. Kommt es immer wieder: Baudrate, Stecker und Messgerät prüfen."},
+    {"{1}; {2}", "{1}；{2}", "{1}; {2}"},
+    {"{1}, {2}", "{1}、{2}", "{1}, {2}"},
+    {"{1}, or {2}", "{1}，或{2}", "{1}, oder {2}"},
+    {"{1}: {2}; {3}", "{1}：{2}；{3}", "{1}: {2}; {3}"},
+    {"{1}: {2}: {3}", "{1}：{2}：{3}", "{1}: {2}: {3}"},
+    {"{1}{2}: {3}", "{1}{2}：{3}", "{1}{2}: {3}"},
+    {"a node", "某节点", "ein Knoten"},
+    {"node {1}", "节点 {1}", "Knoten {1}"},
+    {"a cable", "某索", "ein Seil"},
+    {"cable {1}", "索 {1}", "Seil {1}"},
+    {"strut {1}", "撑杆 {1}", "Stab {1}"},
+    {"path node {1} of {2}", "{2} 路径上的第 {1} 个节点", "Wegknoten {1} von {2}"},
+    {"segment {1} of {2}", "{2} 的第 {1} 索段", "Abschnitt {1} von {2}"},
+    {"joint {1} of {2} at {3}", "{2} 的第 {1} 个节点（{3}）", "Umlenkung {1} von {2} an {3}"},
+    {"start of {1}", "{1} 的始端", "Anfang von {1}"},
+    {"end of {1}", "{1} 的终端", "Ende von {1}"},
+    {"substructure {1}", "子结构 {1}", "Teiltragwerk {1}"},
+    {"a load pattern", "某荷载模式", "ein Lastfall"},
+    {"load pattern {1}", "荷载模式 {1}", "Lastfall {1}"},
+    {"the scene", "模型", "die Szene"},
+    {"strut {1} from {2}", "连接{2}的撑杆 {1}", "Stab {1} von {2}"},
+    {"friction gives way, and what it held runs away ({1}): the structure would jump to a state far away",
+     "摩擦不再能维持平衡，其所约束的构件失稳（{1}）：结构将突跳到相距很远的状态",
+     "die Reibung gibt nach, und was sie hielt, weicht aus ({1}): das Tragwerk spränge in einen weit "
+     "entfernten Zustand"},
+    {"mechanism: when the cable slides over this joint, nothing holds its node",
+     "机构：索在该处滑动时，该节点没有任何约束",
+     "Mechanismus: wenn das Seil über diese Umlenkung gleitet, hält nichts ihren Knoten"},
+    {"condensed, it has a number that is infinite or out of all range", "凝聚后出现无穷大或超出合理范围的数",
+     "kondensiert enthält sie eine Zahl, die unendlich oder außerhalb jedes Bereichs ist"},
+    {"jammed: the joint states do not settle", "卡死：节点状态无法确定",
+     "verklemmt: die Zustände der Umlenkungen finden sich nicht"},
+    {"all is well", "一切正常", "alles ist in Ordnung"},
+    {"the scene holds more than its capacity", "模型超出容量", "die Szene enthält mehr als vorgesehen"},
+    {"a number is not finite", "有一个数不是有限值", "eine Zahl ist nicht endlich"},
+    {"a number must be greater than zero", "该数必须大于零", "eine Zahl muss größer als null sein"},
+    {"a number must not be negative", "该数不得为负", "eine Zahl darf nicht negativ sein"},
+    {"there is no such node", "没有这个节点", "diesen Knoten gibt es nicht"},
+    {"a node is used twice", "同一节点用了两次", "ein Knoten kommt zweimal vor"},
+    {"neighbouring nodes are at the same point", "相邻节点位于同一点",
+     "benachbarte Knoten liegen am selben Punkt"},
+    {"a cable needs 2 nodes, a closed one 3", "索至少需要 2 个节点，闭合索至少 3 个",
+     "ein Seil braucht 2 Knoten, ein geschlossenes 3"},
+    {"the cable folds straight back", "索原路折回", "das Seil läuft in sich selbst zurück"},
+    {"the supports leave the structure free to move as a rigid body", "支座不足，结构可作刚体运动",
+     "die Lager lassen dem Tragwerk eine Starrkörperbewegung"},
+    {"the stiffness matrix is not symmetric", "刚度矩阵不对称",
+     "die Steifigkeitsmatrix ist nicht symmetrisch"},
+    {"the stiffness matrix is not positive semidefinite", "刚度矩阵不是半正定的",
+     "die Steifigkeitsmatrix ist nicht positiv semidefinit"},
+    {"a value or a reference is out of range", "数值或引用超出范围",
+     "ein Wert oder ein Verweis liegt außerhalb des Bereichs"},
+    {"the sample holds a number that cannot be used", "该行含有不能使用的数",
+     "die Zeile enthält eine Zahl, die nicht brauchbar ist"},
+    {"mechanism: nothing holds this node", "机构：该节点没有任何约束",
+     "Mechanismus: nichts hält diesen Knoten"},
+    {"the cable is pulled through: the jack forces differ by more than all friction",
+     "索被整体拉过：两端张拉力之差大于全部摩擦",
+     "das Seil wird durchgezogen: die Pressenkräfte unterscheiden sich um mehr als alle Reibung"},
+    {"friction gives way: the structure would jump to a state far away",
+     "摩擦不再能维持平衡：结构将突跳到相距很远的状态",
+     "die Reibung gibt nach: das Tragwerk spränge in einen weit entfernten Zustand"},
+    {"the joint states do not settle", "节点状态无法确定", "die Zustände der Umlenkungen finden sich nicht"},
+    {"equilibrium is not reached in this precision", "以此精度达不到平衡",
+     "in dieser Genauigkeit wird kein Gleichgewicht erreicht"},
+    {"start() comes first", "必须先调用 start()", "zuerst kommt start()"},
+    {"unknown status", "未知状态", "unbekannter Zustand"},
+    {"add a second strut, a support or a substructure at that node", "在该节点增设第二根撑杆、支座或子结构",
+     "an diesem Knoten einen zweiten Stab, ein Lager oder ein Teiltragwerk ergänzen"},
+    {"add a strut, a support or a substructure that holds it", "增设撑杆、支座或子结构将其约束",
+     "einen Stab, ein Lager oder ein Teiltragwerk ergänzen, das ihn hält"},
+    {"add a strut, a support or a substructure that holds it, or hold the rotation of a beam that turns "
+     "freely",
+     "增设撑杆、支座或子结构将其约束，或约束自由转动的梁的转角",
+     "einen Stab, ein Lager oder ein Teiltragwerk ergänzen, das ihn hält, oder die Drehung eines frei "
+     "drehenden Balkens halten"},
+    {"bring the jack forces closer together, or anchor one end", "减小两端张拉力之差，或锚固一端",
+     "die Pressenkräfte einander annähern oder ein Ende verankern"},
+    {"hold the node of this joint sideways (a second strut, a substructure), or stay below this load",
+     "侧向约束该节点（第二根撑杆、子结构），或不超过此荷载",
+     "den Knoten dieser Umlenkung seitlich halten (zweiter Stab, Teiltragwerk) oder unter dieser Last "
+     "bleiben"},
+    {"hold the nodes of these joints sideways, or stay below this load", "侧向约束这些节点，或不超过此荷载",
+     "die Knoten dieser Umlenkungen seitlich halten oder unter dieser Last bleiben"},
+    {"try taut simulate --method stepwise --substeps 100, or stay below this load",
+     "尝试 taut simulate --method stepwise --substeps 100，或不超过此荷载",
+     "taut simulate --method stepwise --substeps 100 versuchen oder unter dieser Last bleiben"},
+    {"use --scalar double; in double, look for what nothing holds, or for stiffnesses that differ by many "
+     "powers of ten",
+     "使用 --scalar double；若已是 double，检查没有约束的部分或相差许多数量级的刚度",
+     "--scalar double verwenden; in double nach dem suchen, was nichts hält, oder nach Steifigkeiten, die um "
+     "viele Zehnerpotenzen auseinanderliegen"},
+    {"look for stiffnesses, lengths and forces that differ by very many powers of ten",
+     "检查相差极多数量级的刚度、长度和力",
+     "nach Steifigkeiten, Längen und Kräften suchen, die um sehr viele Zehnerpotenzen auseinanderliegen"},
+    {"write finite numbers, no negative jack forces and no more than the cables can carry",
+     "应为有限值，张拉力不得为负，也不得超过索的承载能力",
+     "endliche Zahlen schreiben, keine negativen Pressenkräfte und nicht mehr, als die Seile tragen"},
+    {"check the scene with: taut check", "用 taut check 检查模型", "die Szene prüfen mit: taut check"},
+    {"\"second_order\" in the scene makes the cable's tension count, which may hold it",
+     "在模型中加入 \"second_order\" 可计入索的张力，或能将其约束",
+     "mit \"second_order\" in der Szene zählt die Zugkraft des Seils, die ihn halten kann"},
+    {"{1}: the cable alone holds this node sideways, and without friction {2} runs away; give the joint "
+     "friction, or hold its node ({3})",
+     "{1}：该节点仅由索侧向约束，无摩擦时{2}失稳；给该处以摩擦，或约束该节点（{3}）",
+     "{1}: nur das Seil hält diesen Knoten seitlich, und ohne Reibung weicht {2} aus; der Umlenkung Reibung "
+     "geben oder ihren Knoten halten ({3})"},
+    {"{1}: between two jacks at work the cable can follow this node, and {2} runs away; prescribe the stroke "
+     "of one jack (lock its end, or anchor it), or {3}",
+     "{1}：两端千斤顶同时工作时索可随该节点移动，{2}失稳；固定一端的行程（锚固该端），或{3}",
+     "{1}: zwischen zwei arbeitenden Pressen kann das Seil diesem Knoten folgen, und {2} weicht aus; den Weg "
+     "einer Presse festhalten (ihr Ende verankern) oder {3}"},
+    {"the event budget is spent: too many changes between sticking and sliding; add rows in between",
+     "事件数超限：粘着与滑动之间转换过多；请在其间增加行",
+     "das Ereigniskontingent ist erschöpft: zu viele Wechsel zwischen Haften und Gleiten; Zeilen dazwischen "
+     "einfügen"},
+    {"with --substeps {1} it goes on", "用 --substeps {1} 可以继续", "mit --substeps {1} geht es weiter"},
+    {"smaller load steps do not help: try --method tracker", "减小荷载步无效：请用 --method tracker",
+     "kleinere Lastschritte helfen nicht: --method tracker versuchen"},
+    {"{1}: line {2} (row {3}, time {4} s)", "{1}：第 {2} 行（数据第 {3} 行，时间 {4} s）",
+     "{1}: Textzeile {2} (Zeile {3}, Zeit {4} s)"},
+    {"{1}, after {2} % of the path to it", "{1}，至该行路径的 {2} % 处", "{1}, nach {2} % des Weges dorthin"},
+    {"before the first row", "在第一行之前", "vor der ersten Zeile"},
+    {"in row {1}", "在第 {1} 行", "in Zeile {1}"},
+    {"it has no answer {1}: {2}", "{1}无解：{2}", "sie hat {1} kein Ergebnis: {2}"},
+    {"it has no answer at the end: {1}", "结束时无解：{1}", "sie hat am Ende kein Ergebnis: {1}"},
+    {"the log begins under load: until the cables have slid over all joints their forces are those of any "
+     "past; --state FILE goes on from the log before",
+     "记录开始时已有荷载：在索滑过所有节点之前，其力可为任何经过所致；--state FILE 可接续上一份记录",
+     "das Protokoll beginnt unter Last: bis die Seile über alle Umlenkungen geglitten sind, gelten ihre "
+     "Kräfte für jede Vergangenheit; --state FILE setzt das vorige Protokoll fort"},
+    {"{1}: {2}: {3}; second-order theory is made for a tenth: beyond it compare with a program for large "
+     "displacements",
+     "{1}：{2}：{3}；二阶理论适用于十分之一以内：超出时请与大位移程序比较",
+     "{1}: {2}: {3}; Theorie zweiter Ordnung ist für ein Zehntel gemacht: darüber mit einem Programm für "
+     "große Verschiebungen vergleichen"},
+    {"the cable is bent by {1} less than in the scene", "索的转角比模型中小 {1}",
+     "das Seil ist um {1} weniger umgelenkt als in der Szene"},
+    {"the cable is bent by {1} more than in the scene", "索的转角比模型中大 {1}",
+     "das Seil ist um {1} stärker umgelenkt als in der Szene"},
+    {"column {1} is not used: the state began without it", "未使用列 {1}：状态开始时没有该列",
+     "Spalte {1} wird nicht benutzt: der Zustand begann ohne sie"},
+    {"the log has no column {1}: the factor of this load stays 0", "记录中没有列 {1}：该荷载系数保持为 0",
+     "das Protokoll hat keine Spalte {1}: der Faktor dieser Last bleibt 0"},
+    {"the log has no column {1}: this jack force stays 0", "记录中没有列 {1}：该张拉力保持为 0",
+     "das Protokoll hat keine Spalte {1}: diese Pressenkraft bleibt 0"},
+    {"column {1} is a measurement: simulate does not use it", "列 {1} 是测量值：simulate 不使用",
+     "Spalte {1} ist eine Messung: simulate benutzt sie nicht"},
+    {"column {1} is a measurement at an anchored end: simulate does not use it",
+     "列 {1} 是锚固端的测量值：simulate 不使用",
+     "Spalte {1} ist eine Messung an einem verankerten Ende: simulate benutzt sie nicht"},
+    {"--substeps has no effect: the method tracker follows a row from event to event, not in steps",
+     "--substeps 不起作用：tracker 方法按事件而非按步推进",
+     "--substeps hat keine Wirkung: das Verfahren tracker folgt einer Zeile von Ereignis zu Ereignis, nicht "
+     "in Schritten"},
+    {"{1}: line {2}, column {3} ({4}): the factor {5} is more than the cables can carry; the one before is "
+     "kept",
+     "{1}：第 {2} 行第 {3} 列（{4}）：系数 {5} 超过索的承载能力；沿用前一个值",
+     "{1}: Textzeile {2}, Spalte {3} ({4}): der Faktor {5} ist mehr, als die Seile tragen; der vorige "
+     "bleibt"},
+    {"{1}: line {2}, column {3} ({4}): the factor {5} is more than the cables can carry, as are perhaps "
+     "more; the ones before are kept",
+     "{1}：第 {2} 行第 {3} 列（{4}）：系数 {5} 超过索的承载能力，其后可能还有；均沿用前一个值",
+     "{1}: Textzeile {2}, Spalte {3} ({4}): der Faktor {5} ist mehr, als die Seile tragen, vielleicht auch "
+     "weitere; die vorigen bleiben"},
+    {"cable {1} has no \"mu_sd\": half of mu, {2}, is taken for its standard deviation",
+     "索 {1} 没有 \"mu_sd\"：以 mu 的一半 {2} 作为其标准差",
+     "Seil {1} hat kein \"mu_sd\": die Hälfte von mu, {2}, gilt als Standardabweichung"},
+    {"the scene does not say all of the gauge {1} in \"sensors\": \"sd\" {2} N, \"gain_sd\" {3} and "
+     "\"zero_sd\" {4} N are taken",
+     "模型的 \"sensors\" 对测力仪 {1} 说明不全：取 \"sd\" {2} N、\"gain_sd\" {3}、\"zero_sd\" {4} N",
+     "die Szene sagt in \"sensors\" nicht alles über die Messstelle {1}: \"sd\" {2} N, \"gain_sd\" {3} und "
+     "\"zero_sd\" {4} N werden angenommen"},
+    {"the stroke {1} is not in \"sensors\": \"sd\" 0.001 m and a free zero are taken",
+     "\"sensors\" 中没有行程 {1}：取 \"sd\" 0.001 m，零点自由",
+     "der Weg {1} steht nicht in \"sensors\": \"sd\" 0.001 m und ein freier Nullpunkt werden angenommen"},
+    {"more than {1} load cells: gain and zero that the scene does not say are taken for exact",
+     "测力计超过 {1} 个：模型未说明的增益和零点视为精确",
+     "mehr als {1} Messdosen: Faktor und Nullpunkt, die die Szene nicht sagt, gelten als exakt"},
+    {"the load cell {1} is taken for an ordinary one in what \"sensors\" does not say of it: {2}",
+     "\"sensors\" 未说明之处，测力计 {1} 按普通测力计处理：{2}",
+     "die Messdose {1} gilt, wo \"sensors\" nichts von ihr sagt, als gewöhnliche: {2}"},
+    {"sd {1} N as its readings scatter", "sd {1} N（按其读数的离散）",
+     "sd {1} N, wie ihre Ablesungen streuen"},
+    {"sd {1} N", "sd {1} N", "sd {1} N"},
+    {"gain_sd {1}", "gain_sd {1}", "gain_sd {1}"},
+    {"zero_sd {1} N", "zero_sd {1} N", "zero_sd {1} N"},
+    {"hysteresis sd {1}", "滞回 sd {1}", "Hysterese sd {1}"},
     {"An alarm that this report has no words for.", "本报告没有说明的报警。",
      "Ein Alarm, für den dieser Bericht keine Worte hat."},
     {"See the description of the alarms.", "见报警说明。", "Siehe die Beschreibung der Alarme."},
@@ -415,26 +608,6 @@ const Translation* found(std::string_view english) {
   return row == end_of_words() ? nullptr : row;
 }
 
-// What stands in a text for {1} of this pattern; nothing if the text is not one of it.
-bool fits(std::string_view text, std::string_view pattern, std::string_view& inner) {
-  const std::size_t at = pattern.find("{1}");
-  if (at == std::string_view::npos || text.size() + 3 <= pattern.size()) return false;
-  const std::string_view before = pattern.substr(0, at), after = pattern.substr(at + 3);
-  if (text.substr(0, before.size()) != before || text.substr(text.size() - after.size()) != after)
-    return false;
-  inner = text.substr(before.size(), text.size() - before.size() - after.size());
-  return true;
-}
-
-// The reasons of a verdict as Verdict writes them.
-constexpr const char* reasons[] = {"nobody knows how {1} came under load (pull on or use --state)",
-                                   "the load cell at {1} keeps one value although the load moves",
-                                   "the load cell at {1} contradicts the model",
-                                   "the stroke at {1} contradicts the model",
-                                   "the measured force of {1} contradicts the model",
-                                   "the load cell at {1} gives readings that do not belong together",
-                                   "{1} does not fit the model"};
-
 }  // namespace
 
 const Translation* begin_of_words() { return std::begin(table); }
@@ -446,39 +619,11 @@ std::string Words::operator()(std::string_view english) const {
 }
 
 std::string Words::operator()(std::string_view english, std::initializer_list<std::string> texts) const {
-  const std::string pattern = (*this)(english);
-  std::string text;
-  for (std::size_t i = 0; i < pattern.size(); ++i) {
-    const std::size_t number =
-        i + 2 < pattern.size() && pattern[i] == '{' && pattern[i + 2] == '}' && pattern[i + 1] > '0'
-            ? static_cast<std::size_t>(pattern[i + 1] - '0')
-            : 0;
-    if (number == 0 || number > texts.size()) {
-      text += pattern[i];
-      continue;
-    }
-    text += *(texts.begin() + number - 1);
-    i += 2;
-  }
-  return text;
+  return filled((*this)(english), texts);
 }
 
-std::string Words::verdict(const std::string& english) const {
-  std::string_view rest;
-  if (!fits(english, "do not trust: {1}", rest)) return (*this)(english);
-  std::string said;
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find("; "), rest.size());
-    std::string reason(rest.substr(0, end)), translated = reason;
-    for (const char* pattern : reasons)
-      if (std::string_view inner; fits(reason, pattern, inner)) {
-        translated = (*this)(pattern, {std::string(inner)});
-        break;
-      }
-    said += (said.empty() ? "" : "; ") + translated;
-    rest.remove_prefix(std::min(end + 2, rest.size()));
-  }
-  return (*this)("do not trust: {1}", {said});
+std::string Words::operator()(const Sentence& sentence) const {
+  return sentence.said([this](std::string_view english) { return (*this)(english); });
 }
 
 const char* Words::code() const {

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "lib/files/sentence.hpp"
+
 namespace taut::host {
 
 enum class Language { english, chinese, german };
@@ -26,8 +28,8 @@ class Words {
   std::string operator()(std::string_view english) const;
   /// {1}, {2}, .. are replaced by these texts, which are not translated.
   std::string operator()(std::string_view english, std::initializer_list<std::string> texts) const;
-  /// A verdict on a run, see verdict.hpp: its reasons have names of columns in them.
-  std::string verdict(const std::string& english) const;
+  /// With the words of the table for every part of it.
+  std::string operator()(const Sentence& sentence) const;
 
   /// `en`, `zh`, `de`: for the attribute lang of a page.
   const char* code() const;
