@@ -250,14 +250,14 @@ TEST_CASE("a list of mu with one unknown is a common factor") {
   for (int i = 1; i <= 50; ++i)
     log += std::to_string(i) + ',' + std::to_string(3600 * i) + ',' + std::to_string(4000 * i) + '\n';
   write(scratch, "log.csv", log);
-  const Outcome outcome = estimate(scratch);
+  const Outcome outcome = estimate(scratch, " --hex");
   REQUIRE(outcome.status == 0);
   const Table table(outcome.out);
-  const double first = table.number(49, "C.mu1");
+  const double first = table.bits(49, "C.mu1");
   CHECK(first > 0);
   CHECK(first != 0.1);
-  CHECK(std::fabs(table.number(49, "C.mu2") - 2 * first) < 1e-9);
-  CHECK(std::fabs(table.number(49, "C.mu3") - 3 * first) < 1e-9);
+  CHECK(std::fabs(table.bits(49, "C.mu2") - 2 * first) < 1e-9);
+  CHECK(std::fabs(table.bits(49, "C.mu3") - 3 * first) < 1e-9);
 }
 
 TEST_CASE("a force beyond a limit given on the command line raises an alarm that names its segment") {

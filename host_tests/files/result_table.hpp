@@ -4,7 +4,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -36,6 +38,13 @@ struct Table {
   }
   double number(std::size_t row, const std::string& column) const {
     return std::strtod(at(row, column).c_str(), nullptr);
+  }
+  /// The same of a result with `--hex`: decimals have only the digits that they deserve.
+  double bits(std::size_t row, const std::string& column) const {
+    const std::uint64_t digits = std::strtoull(at(row, column).c_str(), nullptr, 16);
+    double number = 0;
+    std::memcpy(&number, &digits, sizeof number);
+    return number;
   }
   /// A column, row by row.
   std::vector<std::string> column(const std::string& name) const {

@@ -11,6 +11,7 @@
 #include "lib/commands/plausible_log.hpp"
 #include "lib/commands/progress_line.hpp"
 #include "lib/commands/usual_deviations.hpp"
+#include "lib/files/deserved_digits.hpp"
 #include "lib/files/file_text.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/number_range.hpp"
@@ -454,7 +455,7 @@ void LogFollower::remark_on_substeps() {
 Sentence LogFollower::place(const LogRow& row) const {
   return Sentence("{1}: line {2} (row {3}, time {4} s)",
                   {is_stream() ? source_->name : options_.log, std::to_string(row.line),
-                   std::to_string(row.row), plain(row.time)});
+                   std::to_string(row.row), plain(rounded(row.time, time_digits))});
 }
 
 }  // namespace taut::host

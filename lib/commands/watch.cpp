@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "lib/commands/log_follower.hpp"
+#include "lib/files/deserved_digits.hpp"
 #include "lib/files/file_text.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/output_file.hpp"
@@ -308,9 +309,9 @@ class Watch {
     const std::lock_guard<std::mutex> lock(showing_);
     LiveAnswer live;
     live.row = ++rows_;
-    live.time = row.time;
-    live.answer = answer;
-    live.jacks = jacks_of(scene_, row, answer, has_stroke);
+    live.time = rounded(row.time, time_digits);
+    live.answer = with_deserved_digits(answer);
+    live.jacks = jacks_of(scene_, row, live.answer, has_stroke);
     live.alarms = words_of(answer.alarms);
     live.notices = words_of(answer.notices);
     if (unreadable_rows_ > 0) {

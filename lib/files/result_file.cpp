@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "lib/files/deserved_digits.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/number_range.hpp"
 #include "lib/files/text.hpp"
@@ -238,10 +239,11 @@ std::string result_header(const SceneDescription& scene, ResultColumns columns,
   return line.finished();
 }
 
-std::string result_row(const SceneDescription& scene, double time, const Answer& answer,
+std::string result_row(const SceneDescription& scene, double time, const Answer& found,
                        const NumberFormat& format, ResultColumns columns, const ResultSelection& selection) {
+  const Answer answer = format.hex ? found : with_deserved_digits(found);
   Line line(format, selection);
-  line.number(time);
+  line.number(format.hex ? time : rounded(time, time_digits));
   std::size_t segment = 0, joint = 0;
   for (std::size_t c = 0; c < scene.cables.size(); ++c) {
     const CableDescription& cable = scene.cables[c];

@@ -16,11 +16,11 @@ enum class ScalarType { float32, float64 };
 /// How the numbers of a result are written.
 struct NumberFormat {
   ScalarType scalar = ScalarType::float64;
-  bool hex =
-      false;  ///< the bits of the IEEE value, 8 or 16 lower-case digits, in place of the shortest decimal
+  bool hex = false;  ///< the bits of the IEEE value, 8 or 16 lower-case digits, in place of decimals
 };
 
-/// Appends a number in the format; a value of a float computation is rounded to float first.
+/// Appends a number in the format, as the shortest decimal that reads back the same; a value of a float
+/// computation is rounded to float first.
 void append_number(std::string& text, double value, const NumberFormat& format);
 
 /// The first number of an answer that no structure can have, a NaN for one, as `C.T1 = nan`; empty if there
@@ -54,7 +54,8 @@ ResultSelection select_columns(const std::vector<std::string>& names, const Scen
 std::string result_header(const SceneDescription& scene, ResultColumns columns = ResultColumns::state,
                           const ResultSelection& selection = {});
 
-/// Line of a result: the time [s] and the answer, in the columns of result_header().
+/// Line of a result: the time [s] and the answer, in the columns of result_header(). Decimals have the digits
+/// that they deserve, see with_deserved_digits().
 std::string result_row(const SceneDescription& scene, double time, const Answer& answer,
                        const NumberFormat& format, ResultColumns columns = ResultColumns::state,
                        const ResultSelection& selection = {});

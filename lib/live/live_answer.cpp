@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "lib/files/deserved_digits.hpp"
 #include "lib/files/result_file.hpp"
 #include "lib/live/plan_json.hpp"
 #include "lib/report/run_record.hpp"
@@ -15,6 +16,10 @@ using Json = nlohmann::ordered_json;
 
 Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
+std::optional<double> as_read(const std::optional<double>& value) {
+  return value ? std::optional<double>(rounded(*value, computed_digits)) : value;
+}
+
 Json segments(const SceneDescription& scene, const Answer& answer) {
   Json all = Json::object();
   for (std::size_t c = 0; c < scene.cables.size(); ++c) {
@@ -22,8 +27,11 @@ Json segments(const SceneDescription& scene, const Answer& answer) {
     Json list = Json::array();
     for (std::size_t i = first; i < first + scene.cables[c].segments(); ++i) {
       const auto [low, high] = force_band(answer.tension[i], answer.deviation[i]);
-      list.push_back(
-          {{"force", answer.tension[i]}, {"sd", answer.deviation[i]}, {"low", low}, {"high", high}});
+      const double sd = answer.deviation[i];
+      list.push_back({{"force", answer.tension[i]},
+                      {"sd", sd},
+                      {"low", rounded(low, computed_digits)},
+                      {"high", rounded(high, computed_digits)}});
     }
     all[scene.cables[c].name] = std::move(list);
   }
@@ -53,9 +61,10 @@ std::vector<JackNow> jacks_of(const SceneDescription& scene, const LogRow& row, 
       if (!scene.cables[c].is_jacked(end)) continue;
       const std::size_t first = start_of(scene, c).segment;
       const EndRow& read = row.cables[c][end];
-      jacks.push_back({c, end, answer.tension[end == 0 ? first : first + scene.cables[c].segments() - 1],
-                       read.reading,
-                       has_stroke[c][end] ? read.stroke : std::optional<double>(answer.payout[c][end])});
+      jacks.push_back(
+          {c, end, answer.tension[end == 0 ? first : first + scene.cables[c].segments() - 1],
+           as_read(read.reading),
+           has_stroke[c][end] ? as_read(read.stroke) : std::optional<double>(answer.payout[c][end])});
     }
   return jacks;
 }

@@ -2,12 +2,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "lib/files/deserved_digits.hpp"
+
 namespace taut::host {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+Json number(double value) { return rounded(value, computed_digits); }
+Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 
 }  // namespace
 
@@ -18,8 +21,8 @@ Json plan_json(const PlanNow& now) {
     const PlanStageNow& stage = now.stages[s];
     Json jacks = Json::object();
     for (const std::size_t k : stage.jacks)
-      jacks[now.jacks[k]] = {{"force", stage.locks ? Json(nullptr) : Json(stage.force[k])},
-                             {"stroke", stage.stroke[k]}};
+      jacks[now.jacks[k]] = {{"force", stage.locks ? Json(nullptr) : number(stage.force[k])},
+                             {"stroke", number(stage.stroke[k])}};
     json["stages"].push_back({{"name", stage.name},
                               {"say", stage_text(now, s)},
                               {"jacks", std::move(jacks)},
@@ -35,17 +38,17 @@ Json plan_json(const PlanNow& now) {
   for (const PlanOrder& each : now.orders)
     json["jacks"][now.jacks[each.jack]] = {
         {"order", order_word(each.order)},
-        {"to", each.order == JackOrder::lock ? Json(nullptr) : Json(each.to)},
-        {"to_go", each.order == JackOrder::lock ? Json(nullptr) : Json(each.to_go)},
+        {"to", each.order == JackOrder::lock ? Json(nullptr) : number(each.to)},
+        {"to_go", each.order == JackOrder::lock ? Json(nullptr) : number(each.to_go)},
         {"gauge_to", number(each.gauge_to)},
         {"gauge_to_go", number(each.gauge_to_go)}};
-  json["error"] = now.error;
+  json["error"] = number(now.error);
   json["expected"] = number(now.expected);
   json["at_95"] = number(now.at_95);
   json["planning"] = now.is_planning;
   json["anew"] = Json::array();
   for (const PlanAnew& anew : now.anew)
-    json["anew"].push_back({{"time", anew.time}, {"say", anew_text(anew)}});
+    json["anew"].push_back({{"time", rounded(anew.time, time_digits)}, {"say", anew_text(anew)}});
   return json;
 }
 
