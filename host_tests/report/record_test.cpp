@@ -53,6 +53,7 @@ struct Jacking {
   RunRecord record{scene};
   LogRow row;
   double off = 0;  // of the strokes, relative
+  std::string alarms;
 
   explicit Jacking(double strokes_off) : off(strokes_off) { row.cables.resize(1); }
 
@@ -71,6 +72,7 @@ struct Jacking {
     answer.mu = answer.mu_deviation = answer.slip = answer.contact = answer.friction_used = {0};
     answer.state = {taut::JointState::stick};
     answer.verdict = std::string("trust");
+    answer.alarms = alarms;
     expected.payout = {{0, 1e-7 * force - wedge}};
     record.add(row, answer, &expected);
   }
@@ -220,6 +222,60 @@ TEST_CASE("required stages are found one after the other, and one that was not r
   CHECK(*jacks[0].lines[4].required == 1e6);
   job.force_tolerance = 0.005;
   CHECK_FALSE(jacks[0].lines[1].passes_force(job));
+}
+
+TEST_CASE("a required stage that was passed without a rest is on the record where the jack passed it") {
+  Jacking jacking(0);
+  // One pull in rows of a second.
+  for (int i = 1; i <= 50; ++i) {
+    jacking.stage(2e4 * i);
+    jacking.row.time -= 599;
+  }
+  Job job;
+  for (const double force : {4.07e5, 1e6, 1.2e6}) {
+    JobStage stage;
+    stage.force = {{std::nullopt, force}};
+    job.stages.push_back(stage);
+  }
+  const auto jacks = jack_records(jacking.scene, jacking.record, job);
+  REQUIRE(jacks.size() == 1);
+  const auto& lines = jacks[0].lines;
+  REQUIRE(lines.size() == 3);  // with the reference at a tenth
+  CHECK(lines[1].stage.kind == LoadStage::Kind::passed);
+  CHECK(*lines[1].required == 4.07e5);
+  CHECK(*lines[1].force_off == doctest::Approx(4e5 / 4.07e5 - 1));
+  CHECK(*lines[2].required == 1e6);
+  CHECK(jacks[0].missed == std::vector<std::size_t>{2});
+}
+
+TEST_CASE("of stages near a required force the nearest is taken, and not one after the jack has gone on") {
+  Jacking jacking(0);
+  for (const double force : {9.6e5, 1e6, 5e5, 9.99e5}) jacking.stage(force);
+  Job job;
+  JobStage stage;
+  stage.force = {{std::nullopt, 1e6}};
+  job.stages = {stage};
+  const auto jacks = jack_records(jacking.scene, jacking.record, job);
+  REQUIRE(jacks.size() == 1);
+  std::vector<double> required;
+  for (const StageLine& line : jacks[0].lines)
+    if (line.required) required.push_back(line.stage.force);
+  CHECK(required == std::vector<double>{1e6});
+}
+
+TEST_CASE("an outlier counts as a stage if it lies between the readings about it, and not if it sticks out") {
+  for (const bool sticks_out : {false, true}) {
+    CAPTURE(sticks_out);
+    Jacking jacking(0);
+    for (const double force : {2e5, 4e5, 6e5, 8e5, 1e6}) {
+      jacking.alarms = force == 6e5 ? "outlier:C.end" : "";
+      jacking.stage(force == 6e5 && sticks_out ? 3e6 : force);
+    }
+    const auto jacks = jack_records(jacking.scene, jacking.record, Job());
+    REQUIRE(jacks.size() == 1);
+    CHECK(jacks[0].lines.size() == (sticks_out ? 4 : 5));
+    CHECK(jacks[0].largest == 1e6);
+  }
 }
 
 TEST_CASE("losses are those of friction at the largest load, and of the segment at the jack since") {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -51,6 +52,9 @@ class Pump {
     return *this;
   }
   std::vector<LoadStage> stages() const { return stages_.stages(); }
+  std::optional<LoadStage> passed(double force, std::size_t after) const {
+    return stages_.passing(force, 0.05, after);
+  }
 
  private:
   double step_;
@@ -121,6 +125,47 @@ TEST_CASE("in a log with a row a stage every row is one") {
   for (std::size_t i = 0; i < 6; ++i) CHECK(stages[i].first_row == i + 1);
 }
 
+TEST_CASE("in a log with a row a stage every row is one, too, if there are three dozen of them") {
+  Pump pump(1);
+  for (int i = 1; i <= 36; ++i) pump.row(1e6 * i / 36, 600);
+  const auto stages = pump.lock(1).stages();
+  // Below a thirtieth of the largest force there is none.
+  REQUIRE(stages.size() == 36);
+  CHECK(stages[0].first_row == 2);
+  CHECK(stages[34].first_row == 36);
+  CHECK(stages[35].kind == Kind::locked);
+  // At a row a second, it is one pull.
+  Pump fast(1);
+  for (int i = 1; i <= 36; ++i) fast.row(1e6 * i / 36, 1);
+  CHECK(fast.lock(1).stages().size() == 3);
+}
+
+TEST_CASE("a jack that waits for its turn without force has the stages of one that pulls at once") {
+  Pump at_once(1), later(1);
+  for (int i = 0; i < 50; ++i) later.row(0, 600);
+  for (const double force : {2.5e5, 5e5, 7.5e5, 1e6}) {
+    at_once.row(force, 200);
+    later.row(force, 200);
+  }
+  CHECK(at_once.stages().size() == 4);
+  CHECK(later.stages().size() == 4);
+}
+
+TEST_CASE("a force that was passed without a rest is found after the row that is given, and no other") {
+  Pump pump(1);
+  pump.pull(1e6, 100).pull(6e5, 40);
+  const auto up = pump.passed(7e5, 0), down = pump.passed(7e5, 100);
+  REQUIRE(up);
+  CHECK(up->kind == Kind::passed);
+  CHECK(up->force == doctest::Approx(7e5).epsilon(0.01));
+  CHECK(up->last_row <= 71);
+  REQUIRE(down);
+  CHECK(down->force == doctest::Approx(7e5).epsilon(0.01));
+  CHECK(down->first_row >= 129);
+  CHECK_FALSE(pump.passed(5e5, 100));
+  CHECK_FALSE(pump.passed(1.2e6, 0));
+}
+
 TEST_CASE("an overstress without a rest is a turn; a ramp in one go begins with a reference at a tenth") {
   Pump pump(1);
   pump.pull(1e6, 1000).pull(9e5, 100).lock(5);
@@ -168,7 +213,7 @@ TEST_CASE("a million rows of ripple stay within the list, and the holds are foun
 
 TEST_CASE("of more stages than there is room for the first and the last are kept") {
   Pump pump(1);
-  for (int i = 0; i < 40; ++i) pump.row(i % 2 == 0 ? 1e6 : 5e5, 600);
+  for (int i = 0; i < 60; ++i) pump.row(i % 2 == 0 ? 1e6 : 5e5, 600);
   pump.lock(1);
   const auto stages = pump.stages();
   REQUIRE(stages.size() == LoadStages::most_stages);

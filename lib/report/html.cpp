@@ -42,6 +42,21 @@ std::string escaped(std::string_view text) {
   return safe;
 }
 
+std::string css_string(std::string_view text) {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string safe;
+  for (const char c : is_utf8(text) ? text : std::string_view()) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_plain = byte >= 0x80 || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
+                          (c >= 'A' && c <= 'Z') || c == ' ' || c == '.' || c == ',';
+    if (is_plain)
+      safe += c;
+    else
+      safe += std::string("\\") + digits[byte >> 4] + digits[byte & 0xF] + ' ';
+  }
+  return safe;
+}
+
 std::string element(const char* name, const Attributes& attributes, const std::string& content) {
   return opened(name, attributes) + ">" + content + "</" + name + ">";
 }

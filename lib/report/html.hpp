@@ -19,6 +19,9 @@ std::string element(const char* name, const Attributes& attributes, const std::s
 /// An element without content or end tag, as `<meta/>`.
 std::string void_element(const char* name, const Attributes& attributes);
 
+/// Text for between the quotes of a string of a style sheet.
+std::string css_string(std::string_view text);
+
 /// `look` is the class; the content is HTML.
 std::string paragraph(const char* look, const std::string& html);
 /// Of a section.

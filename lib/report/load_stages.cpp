@@ -9,6 +9,7 @@ namespace {
 constexpr double step_part = 0.01, widest_step_part = 0.05, turn_part = 0.02, idle_part = 1.0 / 30,
                  low_part = 1.0 / 3, reference_part = 0.1;
 constexpr double steps_a_rest = 1.5, steps_a_lone_row = 4, slope_part = 0.25, slow_part = 0.25;
+constexpr double lone_time = 300;      // [s]: no ramp is logged at such a rate
 constexpr std::size_t least_rows = 3;  // for a slope
 
 }  // namespace
@@ -122,15 +123,16 @@ std::vector<LoadStages::Step> LoadStages::joined(const std::vector<Step>& steps,
 }
 
 // The speed below which the force grows by a quarter of all that it grows by.
-double LoadStages::pulling_speed(const std::vector<Step>& steps) {
+// A jack that waits for its turn without force does not pull yet.
+double LoadStages::pulling_speed(const std::vector<Step>& steps, double idle) {
   struct Way {
     double speed, length;
   };
   std::vector<Way> ways;
   double total = 0;
   for (std::size_t i = 1; i < steps.size(); ++i) {
-    const double length = steps[i].mean() - steps[i - 1].mean(),
-                 time = steps[i].middle() - steps[i - 1].middle();
+    const double begin = steps[i - 1].mean() < idle ? steps[i - 1].last_time : steps[i - 1].middle();
+    const double length = steps[i].mean() - steps[i - 1].mean(), time = steps[i].middle() - begin;
     if (steps[i].locked || steps[i - 1].locked || !(length > 0) || !(time > 0)) continue;
     ways.push_back({length / time, length});
     total += length;
@@ -143,8 +145,8 @@ double LoadStages::pulling_speed(const std::vector<Step>& steps) {
 }
 
 // A rest that noise has cut into pieces is one.
-std::vector<LoadStages::Step> LoadStages::rested(const std::vector<Step>& steps, double band) {
-  const double speed = pulling_speed(steps);
+std::vector<LoadStages::Step> LoadStages::rested(const std::vector<Step>& steps, double band, double idle) {
+  const double speed = pulling_speed(steps, idle);
 
   std::vector<Step> found;
   std::size_t last_rest = 0;  // in `found`, from which on nothing has left its band
@@ -156,7 +158,9 @@ std::vector<LoadStages::Step> LoadStages::rested(const std::vector<Step>& steps,
     const bool has_slope = step.trend.count() >= least_rows;
     const bool is_flat = !has_slope || std::fabs(step.trend.slope()) < slope_part * speed;
     const double rest = (has_slope ? steps_a_rest : steps_a_lone_row) * band;
-    step.rests = !step.locked && is_flat && (until - step.first_time) * speed >= rest;
+    const double stood = until - step.first_time;
+    const bool is_lone = step.trend.count() == 1 && stood >= lone_time;
+    step.rests = !step.locked && is_flat && (stood * speed >= rest || (is_lone && speed > 0));
     has_rest = has_rest && !step.locked && std::fabs(found[last_rest].mean() - step.mean()) <= band;
     if (step.rests && has_rest) {
       for (std::size_t k = last_rest + 1; k < found.size(); ++k) found[last_rest].join(found[k]);
@@ -201,7 +205,7 @@ void LoadStages::mark_turns(std::vector<Step>& steps, double least) {
 
 std::vector<LoadStage> LoadStages::stages() const {
   if (!(largest_ > 0)) return {};
-  std::vector<Step> steps = rested(joined(steps_, band()), band());
+  std::vector<Step> steps = rested(joined(steps_, band()), band(), idle_part * largest_);
   mark_turns(steps, std::max(turn_part * largest_, band()));
   std::vector<LoadStage> stages;
   bool has_pulled = false;
@@ -227,6 +231,18 @@ std::vector<LoadStage> LoadStages::stages() const {
   if (stages.size() > most_stages)
     stages.erase(stages.begin() + static_cast<std::ptrdiff_t>(most_stages) - 1, stages.end() - 1);
   return stages;
+}
+
+std::optional<LoadStage> LoadStages::passing(double force, double part, std::size_t after_row) const {
+  const Step* nearest = nullptr;
+  for (const Step& step : steps_) {
+    if (step.locked || step.first_row <= after_row) continue;
+    const double off = std::fabs(step.mean() - force);
+    if (off <= part * force && (nearest == nullptr || off < std::fabs(nearest->mean() - force)))
+      nearest = &step;
+  }
+  return nearest == nullptr ? std::nullopt
+                            : std::optional<LoadStage>(nearest->stage(LoadStage::Kind::passed));
 }
 
 }  // namespace taut::host

@@ -69,6 +69,7 @@ struct LoadStage {
     reference,  ///< passed on the way up: from here strokes are counted
     hold,       ///< it rested
     turn,       ///< it turned, or rested too shortly to be seen
+    passed,     ///< a force that was asked for was passed without a rest
     locked,     ///< its wedge was set; `force` is that of the segment behind it
     last        ///< the log ends
   };
@@ -86,9 +87,9 @@ struct LoadStage {
 /// largest force rests may be missed. How fast the jack pulls is the speed
 /// below which it covers a quarter of its way. It rests in a step whose slope is less than a quarter of that,
 /// and which lasts longer than pulling through one and a half; a row that stands alone is a rest if pulling
-/// through four takes less than the time to the next: no unit is in this, so a log with a row a second and
-/// one with a row a stage are treated alike. A turn is one if the force then comes back by more than a
-/// fiftieth of the largest.
+/// through four takes less than the time to the next, or if that is five minutes or more: a log with a row a
+/// second and one with a row a stage are treated alike. A turn is one if the force then comes back by more
+/// than a fiftieth of the largest.
 class LoadStages {
  public:
   void add(const JackRow& row);
@@ -98,9 +99,12 @@ class LoadStages {
   /// nothing rests below a third of the largest force, the step in which a tenth of it is passed comes first,
   /// as `reference`. Cost: linear in the steps.
   std::vector<LoadStage> stages() const;
+  /// The step after this row whose force is nearest to one that is asked for, as `passed`; nothing if no step
+  /// is within this part of it. Steps behind a wedge do not count. Cost: linear in the steps.
+  std::optional<LoadStage> passing(double force, double part, std::size_t after_row) const;
   double largest() const { return largest_; }
 
-  static constexpr std::size_t most_stages = 24;
+  static constexpr std::size_t most_stages = 48;
 
  private:
   struct Step {
@@ -116,8 +120,8 @@ class LoadStages {
     LoadStage stage(LoadStage::Kind kind) const;
   };
   static std::vector<Step> joined(const std::vector<Step>& steps, double band);
-  static double pulling_speed(const std::vector<Step>& steps);
-  static std::vector<Step> rested(const std::vector<Step>& steps, double band);
+  static double pulling_speed(const std::vector<Step>& steps, double idle);
+  static std::vector<Step> rested(const std::vector<Step>& steps, double band, double idle);
   static void mark_turns(std::vector<Step>& steps, double least);
   double band() const;
 

@@ -95,6 +95,7 @@ th{font-weight:600}
 .number{text-align:right;white-space:nowrap}
 .short{white-space:nowrap}
 td.text{min-width:11rem}
+.name{min-width:8rem;overflow-wrap:break-word}
 @media (max-width:40rem){th,td{padding:.3rem .4rem}
 .alarms thead{display:none}.alarms tr{display:block;padding:.4rem 0;border-bottom:1px solid var(--rule)}
 .alarms td{display:inline-block;border:0;padding:.1rem .8rem .1rem 0;white-space:normal;text-align:left}
@@ -108,19 +109,19 @@ td.text{min-width:11rem}
 .fails td{color:var(--alarm);font-weight:600}
 .signatures{display:grid;grid-template-columns:repeat(3,1fr);gap:1.5rem;margin-top:1.2rem;break-inside:avoid}
 .signature{border-bottom:1px solid var(--ink);min-height:4.2rem;display:flex;flex-direction:column;justify-content:space-between}
-@page{size:A4;margin:13mm 14mm 15mm;@bottom-right{content:counter(page) " / " counter(pages);font:8pt sans-serif}
-@bottom-left{content:"taut";font:8pt sans-serif}}
-@media print{.record{break-after:page;margin:0;font-size:9pt;line-height:1.3}
+@page{size:A4;margin:13mm 14mm 15mm;@bottom-right{content:counter(page) " / " counter(pages);font:8pt sans-serif}}
+@media print{.together,.run{break-inside:avoid}.record{margin:0 0 8mm;font-size:9pt;line-height:1.3}
 .record h1{font-size:16pt;margin:0 0 1mm}.record h2{font-size:10.5pt;margin:2.5mm 0 .5mm}
 .record .entries{grid-template-columns:1fr 1fr;margin:1mm 0}.record .entry{min-height:5.5mm}
 .record table{font-size:8pt}.record td,.record th{padding:.5mm 1.2mm}.record .short,.record .number{white-space:nowrap}
-.record th.number,.record th.short{white-space:normal}
+.record th.number,.record th.short{white-space:normal}.name{min-width:0}
+.record tbody tr:nth-child(-n+2),.record tbody tr:nth-last-child(2){break-after:avoid}
 .record .note,.record .files{font-size:7.5pt;line-height:1.25}.record code{font-size:7pt}.record p{margin:.5mm 0}
 .record .signature{min-height:17mm}.record ul{margin:.5mm 0 0}}
 @media print{body{max-width:none;padding:0;font-size:11pt}.player{display:none}h2,h3{break-after:avoid}tr{break-inside:avoid}
 *{print-color-adjust:exact;-webkit-print-color-adjust:exact}.wide{overflow:visible}
 table{font-size:8.5pt}th,td{padding:.15rem .3rem}td.text{min-width:0}.number,.short{white-space:normal}
-h2{margin:4mm 0 1mm}figure{margin:1mm 0 2mm}section{break-inside:auto}}
+h2{margin:4mm 0 1mm}figure{margin:1mm 0 2mm}.chart{zoom:.75}section{break-inside:auto}}
 )";
 
 /// Moves the drawing of the structure, all charts and the tables of values through time. Without `<` and `&`,

@@ -30,6 +30,24 @@ std::string table(const std::string& name, const std::string& head, const std::s
       element("table", {}, element("thead", {}, element("tr", {}, head)) + element("tbody", {}, rows)));
 }
 
+// Of a text in letters; those of Chinese count twice.
+std::size_t breadth(const std::string& text) {
+  std::size_t letters = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    letters += byte < 0x80 || (byte >= 0xC0 && byte < 0xE3) ? 1 : byte >= 0xE3 ? 2 : 0;
+  }
+  return letters;
+}
+
+// On paper on one page, if it fits on one.
+std::string together(const std::string& html) { return element("div", {{"class", "together"}}, html); }
+// A short table with its title; a long one goes on on the next page, with its head.
+std::string rows_together(std::size_t rows, const std::string& html) {
+  constexpr std::size_t few = 8;
+  return rows <= few ? together(html) : html;
+}
+
 class RecordPage {
  public:
   explicit RecordPage(const ReportView& view)
@@ -44,10 +62,11 @@ class RecordPage {
   std::string operator()() {
     std::string stages;
     for (const JackRecord& jack : jacks_) stages += stage_table(jack);
+    if (!jacks_.empty()) stages += paragraph("note", escaped(stage_note()));
     const std::string forces = force_table(), losses = loss_table();
     return element("section", {{"class", "record"}},
                    element("h1", {}, escaped(say("Stressing record"))) + head() + instruments() + stages +
-                       losses + forces + result() + signatures());
+                       losses + forces + together(result() + signatures()));
   }
 
  private:
@@ -81,6 +100,7 @@ class RecordPage {
   // Of every column that is read: what the scene says of it, and the job.
   std::string instruments() const {
     std::string rows;
+    std::size_t count = 0;
     const auto force = [](double newtons) {
       const ForceUnit unit = ForceUnit::for_largest(newtons);
       return significant(unit.of(newtons), 2) + " " + unit.name;
@@ -95,8 +115,9 @@ class RecordPage {
       };
       const std::string gain =
           known.gain_sd ? significant(100 * *known.gain_sd, 2) + " %" : std::string(dash);
+      ++count;
       rows += element("tr", {},
-                      cell("short", column) + cell("text", named.id) + cell("text", named.calibrated) +
+                      cell("name", column) + cell("text", named.id) + cell("text", named.calibrated) +
                           cell("text", named.certificate) +
                           cell("number", known.exact ? say("exact") : text(known.sd)) +
                           cell("number", known.exact ? "" : gain) +
@@ -114,20 +135,22 @@ class RecordPage {
     }
     for (std::size_t i = 0; i < scene_.struts.size(); ++i)
       add("strut" + std::to_string(i + 1), scene_.struts[i].gauge, force);
-    if (rows.empty()) return "";
-    return heading(say("Instruments")) +
-           table(say("Instruments"),
-                 head_cell("short", say("Column")) + head_cell("text", say("Identity")) +
-                     head_cell("text", say("Calibrated")) + head_cell("text", say("Certificate")) +
-                     head_cell("number", say("sd")) + head_cell("number", say("Gain \u00b1")) +
-                     head_cell("number", say("Zero \u00b1")) + head_cell("short", say("Calibration")),
-                 rows);
+    if (count == 0) return "";
+    return rows_together(
+        count, heading(say("Instruments")) +
+                   table(say("Instruments"),
+                         head_cell("name", say("Column")) + head_cell("text", say("Identity")) +
+                             head_cell("text", say("Calibrated")) + head_cell("text", say("Certificate")) +
+                             head_cell("number", say("sd")) + head_cell("number", say("Gain \u00b1")) +
+                             head_cell("number", say("Zero \u00b1")) + head_cell("short", say("Calibration")),
+                         rows));
   }
 
   std::string kind_word(const StageLine& line) const {
     if (!line.name.empty()) return line.name;
     switch (line.stage.kind) {
       case LoadStage::Kind::reference:
+      case LoadStage::Kind::passed:
         return say("on the way");
       case LoadStage::Kind::hold:
         return say("hold");
@@ -149,11 +172,8 @@ class RecordPage {
 
   std::string stage_table(const JackRecord& jack) {
     const std::string name = scene_.cables[jack.cable].name + "." + end_name(jack.end);
-    bool has_strokes = false, has_required = !jack.missed.empty();
-    for (const StageLine& line : jack.lines) {
-      has_strokes = has_strokes || line.net;
-      has_required = has_required || line.required;
-    }
+    const bool has_strokes = std::any_of(jack.lines.begin(), jack.lines.end(),
+                                         [](const StageLine& line) { return line.net.has_value(); });
     std::string rows;
     for (std::size_t i = 0; i < jack.lines.size(); ++i) rows += stage_row(jack, i, name);
     for (const std::size_t s : jack.missed) {
@@ -174,23 +194,41 @@ class RecordPage {
                   head_cell("number", say("Stroke [mm]")) + head_cell("number", say("Net [mm]")) +
                   head_cell("number", say("Difference")) + head_cell("short", say("Result")),
               rows);
-    html += paragraph("note", escaped(stage_note(jack, has_required, has_strokes)));
-    return html;
+    if (const std::string note = jack_note(jack, has_strokes); !note.empty())
+      html += paragraph("note", escaped(note));
+    return rows_together(jack.lines.size() + jack.missed.size(), html);
   }
-  std::string stage_note(const JackRecord& jack, bool has_required, bool has_strokes) const {
+  std::string jack_note(const JackRecord& jack, bool has_strokes) const {
+    if (!has_strokes)
+      return any_line([](const StageLine& line) { return line.net.has_value(); })
+                 ? say("No stroke was measured.")
+                 : "";
+    if (!jack.wedge_set) return "";
+    std::string note = say("Wedge set: {1} mm measured", {fixed(mm * *jack.wedge_set, 1)});
+    if (jack.expected_wedge_set) note += say(", {1} mm expected", {fixed(mm * *jack.expected_wedge_set, 1)});
+    return note + ".";
+  }
+  // Of all jacks.
+  std::string stage_note() const {
     std::string note;
-    if (has_required)
+    if (any_line([](const StageLine& line) { return line.required.has_value(); }) ||
+        std::any_of(jacks_.begin(), jacks_.end(),
+                    [](const JackRecord& jack) { return !jack.missed.empty(); }))
       note += say("Forces may differ by {1} %.", {significant(100 * job_.force_tolerance, 3)}) + " ";
-    if (!has_strokes) return note + say("No stroke was measured.");
-    note +=
-        say("Expected: with the friction and the stiffness of the scene, for the measured force. Net: what "
-            "the stroke has grown by since the first stage, and what was expected there. From half of the "
-            "largest force on it may differ by {1} %.",
-            {significant(100 * elongation_tolerance(job_), 3)});
-    if (jack.wedge_set) note += " " + say("Wedge set: {1} mm measured", {fixed(mm * *jack.wedge_set, 1)});
-    if (jack.wedge_set && jack.expected_wedge_set)
-      note += say(", {1} mm expected", {fixed(mm * *jack.expected_wedge_set, 1)});
-    return jack.wedge_set ? note + "." : note;
+    if (!any_line([](const StageLine& line) { return line.net.has_value(); }))
+      return note + say("No stroke was measured.");
+    return note +
+           say("Expected: with the friction and the stiffness of the scene, for the measured force. Net: "
+               "what "
+               "the stroke has grown by since the first stage, and what was expected there. From half of the "
+               "largest force on it may differ by {1} %.",
+               {significant(100 * elongation_tolerance(job_), 3)});
+  }
+  template <class Is>
+  bool any_line(const Is& is) const {
+    return std::any_of(jacks_.begin(), jacks_.end(), [&](const JackRecord& jack) {
+      return std::any_of(jack.lines.begin(), jack.lines.end(), is);
+    });
   }
   std::string stage_row(const JackRecord& jack, std::size_t i, const std::string& name) {
     const StageLine& line = jack.lines[i];
@@ -225,28 +263,31 @@ class RecordPage {
     const auto part = [](double loss, double of) {
       return of > 0 ? " (" + fixed(100 * loss / of, 1) + " %)" : "";
     };
+    std::size_t count = 0;
     for (const CableLosses& cable : cable_losses(scene_, record_)) {
+      ++count;
       const auto lost = [&](double from, double to) {
         return view_.unit.number(from - to) + part(from - to, from);
       };
       rows += element("tr", {},
-                      cell("short", scene_.cables[cable.cable].name) +
+                      cell("name", scene_.cables[cable.cable].name) +
                           cell("number", view_.unit.number(cable.jack)) +
                           cell("number", lost(cable.jack, cable.least_then)) +
                           cell("number", lost(cable.jack, cable.at_jack_now)) +
                           cell("number", view_.unit.number(cable.mean_then)) +
                           cell("number", view_.unit.number(cable.mean_now)));
     }
-    if (rows.empty()) return "";
+    if (count == 0) return "";
     const std::string unit = " [" + std::string(view_.unit.name) + "]";
-    return heading(say("Losses")) +
-           table(say("Losses"),
-                 head_cell("short", say("Cable")) + head_cell("number", say("Largest force") + unit) +
-                     head_cell("number", say("By friction then") + unit) +
-                     head_cell("number", say("At the jack since") + unit) +
-                     head_cell("number", say("Mean then") + unit) +
-                     head_cell("number", say("Mean now") + unit),
-                 rows);
+    return rows_together(
+        count, heading(say("Losses")) +
+                   table(say("Losses"),
+                         head_cell("name", say("Cable")) + head_cell("number", say("Largest force") + unit) +
+                             head_cell("number", say("By friction then") + unit) +
+                             head_cell("number", say("At the jack since") + unit) +
+                             head_cell("number", say("Mean then") + unit) +
+                             head_cell("number", say("Mean now") + unit),
+                         rows));
   }
 
   // One cell line of the table of forces: name, force, half of the band, target, difference, result.
@@ -271,18 +312,23 @@ class RecordPage {
       result = force + half > most || force - half < sheet_.least_force ? say("at its limit") : say("within");
     }
     judged_ = judged_ || has_limits;
-    return cell("short", name) + cell("number", view_.unit.number(force)) +
+    return name_cell(name) + cell("number", view_.unit.number(force)) +
            cell("number", "\u00b1 " + view_.unit.deviation(half)) +
            (has_targets() ? cell("number", target) + cell("number", difference) : "") +
            (has_some_limits() ? cell("short", result) : "");
   }
-  std::string strut_cells(std::size_t i) const {
+  // Long ones have more than one line.
+  std::string name_cell(const std::string& name) {
+    longest_ = std::max(longest_, breadth(name));
+    return cell("name", name);
+  }
+  std::string strut_cells(std::size_t i) {
     const auto& nodes = scene_.struts[i].nodes;
     const auto& known = view_.content.struts;
     const bool has_band = i < known.size();
     const double force = has_band ? known[i].force : record_.end.strut[i];
-    return cell("short", say("strut {1} ({2}\u2013{3})", {std::to_string(i + 1), node_name(scene_, nodes[0]),
-                                                          node_name(scene_, nodes[1])})) +
+    return name_cell(say("strut {1} ({2}\u2013{3})",
+                         {std::to_string(i + 1), node_name(scene_, nodes[0]), node_name(scene_, nodes[1])})) +
            cell("number", view_.unit.number(force)) +
            cell("number", has_band ? "\u00b1 " + view_.unit.deviation(band_width * known[i].deviation) : "") +
            (has_targets() ? cell("number", "") + cell("number", "") : "") +
@@ -304,14 +350,17 @@ class RecordPage {
     for (std::size_t c = 0; c < scene_.cables.size(); ++c)
       for (std::size_t i = 0; i < scene_.cables[c].segments(); ++i) lines.push_back(segment_cells(c, i, s++));
     for (std::size_t i = 0; i < record_.end.strut.size(); ++i) lines.push_back(strut_cells(i));
-    // Few have room below each other.
-    constexpr std::size_t few = 12;
-    const std::size_t abreast = lines.size() > few ? forces_abreast : 1;
+    // Few have room below each other. On half of the paper's width, names have what other columns leave of
+    // it.
+    constexpr std::size_t few = 12, letters = 44, letters_of_target = 22, letters_of_limit = 13;
+    const std::size_t room =
+        letters - (has_targets() ? letters_of_target : 0) - (has_some_limits() ? letters_of_limit : 0);
+    const std::size_t abreast = lines.size() > few && longest_ <= room ? forces_abreast : 1;
     const std::size_t height = (lines.size() + abreast - 1) / abreast;
     std::string head, rows;
     const std::string unit = " [" + std::string(view_.unit.name) + "]";
     const std::string one =
-        head_cell("short", say("Segment or strut")) + head_cell("number", say("Force") + unit) +
+        head_cell("name", say("Segment or strut")) + head_cell("number", say("Force") + unit) +
         head_cell("number", say("95 % band")) +
         (has_targets() ? head_cell("number", say("Target") + unit) + head_cell("number", say("Difference"))
                        : "") +
@@ -325,7 +374,7 @@ class RecordPage {
     }
     const std::string title =
         is_locked_off() ? say("Forces after lock-off") : say("Forces {1}", {view_.at_end()});
-    return heading(title) + table(title, head, rows);
+    return rows_together(height, heading(title) + table(title, head, rows));
   }
   bool is_locked_off() const {
     if (!view_.content.end.empty() || jacks_.empty()) return false;
@@ -353,7 +402,7 @@ class RecordPage {
                       : !is_trusted ? say(record_.end.verdict)
                       : judged_     ? say("all that was required is within its tolerance")
                                     : say("no required force, stroke, target or limit was given");
-    std::string html = element("strong", {}, escaped(said)) + (why.empty() ? "" : ": " + escaped(why));
+    std::string html = element("strong", {}, escaped(said)) + (why.empty() ? "" : escaped(say(": ") + why));
     if (!reasons_.empty()) html += element("ul", {}, reasons_);
     html = element("div", {{"class", failures_ > 0 || !is_trusted ? "warning" : "summary"}}, html);
     if (!job_.remarks.empty()) html += paragraph("note", escaped(job_.remarks));
@@ -378,6 +427,7 @@ class RecordPage {
   std::string reasons_;
   std::size_t failures_ = 0;
   bool judged_ = false;
+  std::size_t longest_ = 0;  // breadth of the names in the table of forces
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ class Page {
         unit_(view_.unit) {}
 
   std::string operator()() const {
-    std::string body = record_page(view_) + header() + structure();
+    std::string body = record_page(view_) + element("div", {{"class", "run"}}, header() + structure());
     if (record_.rows > 0)
       body += along_the_cable() + over_time() + mu_over_time() + what_taught_friction() + joint_states();
     body += element("section", {}, heading(say("Alarms")) + alarm_table(view_));
@@ -52,7 +52,21 @@ class Page {
             void_element("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}}) +
             void_element("meta", {{"name", "color-scheme"}, {"content", "light dark"}}) +
             element("title", {}, escaped(title())) + "\n" +
-            element("style", {}, page_style + force_colour_rules()));
+            element("style", {}, page_style + force_colour_rules() + foot_of_pages()));
+  }
+  // What every sheet of paper says of where it belongs.
+  std::string foot_of_pages() const {
+    const StressingSheet& sheet = content_.sheet;
+    constexpr std::size_t few = 40, digits = 12;
+    std::string foot;
+    const auto add = [&](const std::string& text) {
+      if (!text.empty()) foot += (foot.empty() ? "" : " \u00b7 ") + text;
+    };
+    add(shortened(sheet.job.project, few));
+    add(shortened(scene_.name, few));
+    if (!sheet.log_hash.empty()) add(say("Log") + " " + sheet.log_hash.substr(0, digits));
+    add("taut " + sheet.version);
+    return "@page{@bottom-left{content:\"" + css_string(foot) + "\";font:8pt sans-serif}}\n";
   }
   std::string title() const {
     return say("Cable forces: {1}", {scene_.name.empty() ? say("scene") : scene_.name});

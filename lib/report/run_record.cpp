@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "lib/files/alarm_words.hpp"
 #include "lib/files/verdict.hpp"
 
 namespace taut::host {
@@ -58,6 +59,7 @@ RunRecord::RunRecord(const SceneDescription& scene)
   cell.resize(scene.cables.size());
   stages.resize(scene.cables.size());
   peaks.resize(scene.cables.size());
+  waiting_.resize(scene.cables.size());
   read.resize(scene.cables.size());
   for (auto* curves : {&mu, &least_mu, &most_mu}) curves->assign(all.joint, curve_among(3 * all.joint));
 }
@@ -106,7 +108,7 @@ void RunRecord::add_jacks(const LogRow& row, const Answer& answer, const Answer*
       const EndRow& given = row.cables[c][e];
       const double anchored = answer.tension[first + (e == 0 ? 0 : cable.segments() - 1)];
       if (!given.locked && anchored > peaks[c][e].force) peaks[c][e] = {anchored, answer.tension};
-      if (has_word(answer.alarms, "outlier:" + cable.name + "." + end_name(e))) continue;
+      const Alarm outlier = Alarm::of(Alarm::Kind::outlier, static_cast<int>(c), static_cast<int>(e));
       JackRow jack;
       jack.row = row.row;
       jack.time = row.time;
@@ -115,10 +117,27 @@ void RunRecord::add_jacks(const LogRow& row, const Answer& answer, const Answer*
       jack.stroke = given.stroke;
       if (expected != nullptr) jack.expected = expected->payout[c][e];
       jack.anchored = anchored;
-      stages[c][e].add(jack);
+      add_stage(c, e, jack, has_word(answer.alarms, alarm_word(outlier, scene_)));
     }
     first += cable.segments();
   }
+}
+
+// A jack that goes far from one row to the next is an outlier to the estimator at first. Only what sticks out
+// is none of the jack's forces.
+void RunRecord::add_stage(std::size_t c, std::size_t e, const JackRow& jack, bool is_outlier) {
+  Waiting& waiting = waiting_[c][e];
+  if (is_outlier) {
+    waiting.outlier = jack;
+    return;
+  }
+  if (waiting.outlier) {
+    const auto [low, high] = std::minmax(waiting.before, jack.force);
+    if (waiting.outlier->force >= low && waiting.outlier->force <= high) stages[c][e].add(*waiting.outlier);
+    waiting.outlier.reset();
+  }
+  waiting.before = jack.force;
+  stages[c][e].add(jack);
 }
 
 void RunRecord::add_tensions(const LogRow& row, const Answer& answer) {

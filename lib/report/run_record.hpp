@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "lib/files/answer.hpp"
@@ -84,12 +85,21 @@ class RunRecord {
 
  private:
   void add_jacks(const LogRow& row, const Answer& answer, const Answer* expected);
+  void add_stage(std::size_t cable, std::size_t end, const JackRow& jack, bool is_outlier);
   void add_cells(const LogRow& row);
   void add_tensions(const LogRow& row, const Answer& answer);
   void add_mu(const LogRow& row, const Answer& answer);
   void add_states(const LogRow& row, const Answer& answer);
 
+  /// Of a jack: what was read last, and then what is an outlier to the estimator, as long as nobody knows
+  /// whether it lies between the readings about it.
+  struct Waiting {
+    double before = 0;
+    std::optional<JackRow> outlier;
+  };
+
   const SceneDescription& scene_;
+  std::vector<std::array<Waiting, 2>> waiting_;
 };
 
 /// Half the width of a 95 % band in standard deviations.

@@ -26,29 +26,46 @@ double mean_force(const SceneDescription& scene, std::size_t c, const std::vecto
   return length > 0 ? sum / length : 0;
 }
 
-// Stages of the job one after the other, each where the jack came nearest to it.
-void take_required(const Job& job, JackRecord& jack) {
+// Where the jack comes near to a force, from this line on: a stage, or else a step that it passed, which
+// becomes a line.
+std::optional<std::size_t> line_near(double force, std::size_t from, const LoadStages& stages,
+                                     JackRecord& jack) {
+  std::optional<std::size_t> nearest;  // of the stages that are near one after the other
+  const auto off = [&](std::size_t i) { return std::fabs(jack.lines[i].stage.force - force); };
+  for (std::size_t i = from; i < jack.lines.size(); ++i) {
+    const bool is_near = jack.lines[i].stage.kind != LoadStage::Kind::locked && off(i) <= near_part * force;
+    if (nearest && !is_near) break;
+    if (is_near && (!nearest || off(i) < off(*nearest))) nearest = i;
+  }
+  if (nearest) return nearest;
+  const auto passed = stages.passing(force, near_part, from == 0 ? 0 : jack.lines[from - 1].stage.last_row);
+  if (!passed) return std::nullopt;
+  const auto later = std::find_if(jack.lines.begin(), jack.lines.end(), [&](const StageLine& line) {
+    return line.stage.first_row > passed->first_row;
+  });
+  const auto place = later - jack.lines.begin();
+  StageLine line;
+  line.stage = *passed;
+  jack.lines.insert(later, line);
+  return static_cast<std::size_t>(place);
+}
+
+// Stages of the job one after the other.
+void take_required(const Job& job, const LoadStages& stages, JackRecord& jack) {
   std::size_t from = 0;
   for (std::size_t s = 0; s < job.stages.size(); ++s) {
     const std::optional<double>& required = job.stages[s].force[jack.cable][jack.end];
     if (!required) continue;
-    std::size_t best = jack.lines.size();
-    for (std::size_t i = from; i < jack.lines.size(); ++i) {
-      const LoadStage& stage = jack.lines[i].stage;
-      if (stage.kind == LoadStage::Kind::locked) continue;
-      if (std::fabs(stage.force - *required) > near_part * *required) continue;
-      best = i;
-      break;
-    }
-    if (best == jack.lines.size()) {
+    const std::optional<std::size_t> near = line_near(*required, from, stages, jack);
+    if (!near) {
       jack.missed.push_back(s);
       continue;
     }
-    StageLine& line = jack.lines[best];
+    StageLine& line = jack.lines[*near];
     line.name = job.stages[s].name;
     line.required = required;
     line.force_off = line.stage.force / *required - 1;
-    from = best + 1;
+    from = *near + 1;
   }
 }
 
@@ -107,7 +124,7 @@ std::vector<JackRecord> jack_records(const SceneDescription& scene, const RunRec
         jack.lines.push_back(line);
       }
       if (jack.lines.empty()) continue;
-      take_required(job, jack);
+      take_required(job, record.stages[c][end], jack);
       take_elongations(jack);
       take_wedge_set(jack);
       jacks.push_back(std::move(jack));

@@ -397,6 +397,7 @@ constexpr Translation table[] = {
     {"Nothing, if it is rare. If it comes again and again, check baud, plugs and the logger.",
      "偶尔出现无须处理。若反复出现，检查波特率、插头和采集仪。",
      "Nichts, wenn es selten ist. Kommt es immer wieder: Baudrate, Stecker und Messgerät prüfen."},
+    {": ", "：", ": "},
     {"{1}; {2}", "{1}；{2}", "{1}; {2}"},
     {"{1}, {2}", "{1}、{2}", "{1}, {2}"},
     {"{1}, or {2}", "{1}，或{2}", "{1}, oder {2}"},
