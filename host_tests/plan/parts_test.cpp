@@ -13,6 +13,7 @@
 #include "lib/plan/objective.hpp"
 #include "lib/plan/plan_log.hpp"
 #include "lib/plan/prior.hpp"
+#include "plan/brute_force.hpp"
 #include "plan/random_scene.hpp"
 
 using namespace taut::host;
@@ -306,37 +307,6 @@ TEST_CASE("cables on one node are tensioned in turn, each with what the next one
   CHECK(plan.stages[2].force[1] == doctest::Approx(k * (eB + s - u2)).epsilon(1e-6));
 }
 
-namespace {
-
-// Brute force: of where the moves of the past have led to, the best pull or release of a grid, and for two
-// moves the best pull and release.
-double best_of_rest(const SceneDescription& scene, const PlanGoal& goal, const std::vector<PlanJack>& jacks,
-                    const std::vector<PastMove>& past, int moves) {
-  Jacking jacking(scene, goal, jacks);
-  REQUIRE(jacking.begin_after(past));
-  const std::string here = jacking.state();
-  constexpr int grid = 120;
-  const double most = 2 * goal.target[0];
-  const auto error = [&] { return off_target(jacking.here().tension, goal.target); };
-  double best = error();
-  for (int i = 0; i <= grid; ++i) {
-    jacking.go_to(here);
-    PlanStage stage = jacking.beginning();
-    stage.force[0] = most * i / grid;
-    if (!jacking.jump(stage).whole) continue;
-    best = std::min(best, error());
-    const std::string turned = jacking.state();
-    for (int k = 0; k <= grid && moves > 1; ++k) {
-      jacking.go_to(turned);
-      stage.force[0] = most * k / grid;
-      if (jacking.jump(stage).whole) best = std::min(best, error());
-    }
-  }
-  return best;
-}
-
-}  // namespace
-
 TEST_CASE("the rest of a plan knows what was jacked: it goes on as planned, and brute force is no nearer") {
   const std::uint64_t seed = 31;
   CAPTURE(seed);
@@ -366,7 +336,7 @@ TEST_CASE("the rest of a plan knows what was jacked: it goes on as planned, and 
       CAPTURE(moves);
       past.moves_left = static_cast<std::size_t>(moves);
       const Plan found = find_rest_of_plan(other, site.goal, past);
-      const double brute = best_of_rest(other, site.goal, plan.jacks, past.moves, moves);
+      const double brute = plan_test::best_of_rest(other, site.goal, plan.jacks, past.moves, moves);
       // What is nearer by no more than worth_a_change is not asked of anybody.
       CHECK(found.outcome.error <= brute + worth_a_change + 1e-9);
       CHECK(found.outcome.excess == 0);

@@ -20,6 +20,7 @@
 #include "lib/plan/objective.hpp"
 #include "lib/plan/plan_log.hpp"
 #include "lib/plan/prior.hpp"
+#include "plan/core_jack.hpp"
 #include "plan/random_scene.hpp"
 
 namespace {
@@ -191,12 +192,29 @@ double error_planned_anew(const Site& site, const Plan& plan, double factor) {
   return find_rest_of_plan(with_mu(site.scene, mu, known), site.goal, past).outcome.error;
 }
 
+// The same by the planner of the core, on the device's way: from where the jack stands.
+CoreMoves core_planned_anew(const Site& site, const Plan& plan, double& took) {
+  const auto jack = make_core_jack(site.scene);
+  CoreMoves none;
+  none.error = 1;
+  if (!jack->go(site.goal.factor, 0) || !jack->go(site.goal.factor, plan.stages[0].force[0] / 2)) return none;
+  const auto begin = std::chrono::steady_clock::now();
+  const CoreMoves found = jack->plan(site.goal, {0, 40000, 40000});
+  took = seconds_since(begin);
+  // What it says comes of it.
+  for (int m = 0; m < found.count; ++m)
+    if (!jack->go(site.goal.factor, found.force[static_cast<std::size_t>(m)])) return none;
+  const double off = off_target(jack->tension(), site.goal.target);
+  return std::fabs(off - found.error) <= 5e-4 ? found : none;
+}
+
 struct Kind {
   SceneKind kind;
   int scenes = 0, unusable = 0, proved = 0, most_moves = 0;
   Column straight, rule, plan, straight_low, rule_low, plan_low, straight_high, rule_high, plan_high,
-      again_low, again_high, time;
-  double slowest = 0, excess = -1;
+      again_low, again_high, core_low, core_high, core_time, time;
+  double slowest = 0, excess = -1, core_excess = -1;
+  int core_events = 0;
 };
 
 bool compare_one(const Options& options, Kind& kind, std::uint64_t i) {
@@ -249,7 +267,7 @@ bool compare_one(const Options& options, Kind& kind, std::uint64_t i) {
   kind.rule.add(rule.outcome);
   kind.plan.add(plan.outcome.error);
   const auto other_mu = [&](double factor, Column& of_straight, Column& of_rule, Column& of_plan,
-                            Column& of_again) {
+                            Column& of_again, Column& of_core) {
     of_straight.add(error_with_mu(site, plan.jacks, straight.stages, factor));
     of_rule.add(error_with_mu(site, plan.jacks, rule.stages, factor));
     of_plan.add(error_with_mu(site, plan.jacks, plan.stages, factor));
@@ -258,11 +276,18 @@ bool compare_one(const Options& options, Kind& kind, std::uint64_t i) {
     const double from_rest = find_plan(other.scene, other.goal).outcome.error;
     const double again = error_planned_anew(site, plan, factor);
     of_again.add(again);
+    double core_took = 0;
+    const CoreMoves core = core_planned_anew(other, plan, core_took);
+    of_core.add(core.error);
+    kind.core_time.add(10 * core_took);
+    kind.core_events = std::max(kind.core_events, core.events);
+    kind.core_excess = std::max(kind.core_excess, core.error - again);
+    if (core.error > again + 1e-3) fail("planned anew in the core", core.error, again);
     // Half a pull has taken nothing away.
     if (again > from_rest + worth_a_change + 1e-9) fail("planned anew on the way", again, from_rest);
   };
-  other_mu(0.7, kind.straight_low, kind.rule_low, kind.plan_low, kind.again_low);
-  other_mu(1.3, kind.straight_high, kind.rule_high, kind.plan_high, kind.again_high);
+  other_mu(0.7, kind.straight_low, kind.rule_low, kind.plan_low, kind.again_low, kind.core_low);
+  other_mu(1.3, kind.straight_high, kind.rule_high, kind.plan_high, kind.again_high, kind.core_high);
   return good;
 }
 
@@ -352,15 +377,24 @@ int run(const Options& options) {
                 100 * kind.excess, kind.time.text().c_str());
   std::printf("\nThe same with mu 30 %% lower and higher than planned for\n\n");
   std::printf(
-      "| | mu | straight pull | 105 %% and back | plan | planned anew |\n| --- | --- | --- | --- | --- | --- "
-      "|\n");
+      "| | mu | straight pull | 105 %% and back | plan | planned anew | planned anew in the core |\n| --- | "
+      "--- "
+      "| --- | --- | --- | --- | --- |\n");
   for (Kind& kind : one) {
-    std::printf("| %s | -30 %% | %s | %s | %s | %s |\n", name_of(kind.kind), kind.straight_low.text().c_str(),
-                kind.rule_low.text().c_str(), kind.plan_low.text().c_str(), kind.again_low.text().c_str());
-    std::printf("| %s | +30 %% | %s | %s | %s | %s |\n", name_of(kind.kind),
+    std::printf("| %s | -30 %% | %s | %s | %s | %s | %s |\n", name_of(kind.kind),
+                kind.straight_low.text().c_str(), kind.rule_low.text().c_str(), kind.plan_low.text().c_str(),
+                kind.again_low.text().c_str(), kind.core_low.text().c_str());
+    std::printf("| %s | +30 %% | %s | %s | %s | %s | %s |\n", name_of(kind.kind),
                 kind.straight_high.text().c_str(), kind.rule_high.text().c_str(),
-                kind.plan_high.text().c_str(), kind.again_high.text().c_str());
+                kind.plan_high.text().c_str(), kind.again_high.text().c_str(), kind.core_high.text().c_str());
   }
+  std::printf(
+      "\n| in the core | core less host, at most [%%] | events, at most | time [ms], mean / median / 95 %% "
+      "|\n"
+      "| --- | --- | --- | --- |\n");
+  for (Kind& kind : one)
+    std::printf("| %s | %.4f | %d | %s |\n", name_of(kind.kind), 100 * kind.core_excess, kind.core_events,
+                kind.core_time.text().c_str());
   std::printf("\nOne jack, up, back and up again\n\n");
   std::printf(
       "| | scenes | plan | plan less brute force, at most [%%] | moves tried, at most | time [ms], mean / "

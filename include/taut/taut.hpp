@@ -128,6 +128,15 @@
 // load cell was read or the cable is a closed hoop: then they are 0 to infinity. An empty range says that
 // readings and band contradict each other. Costs the segments of the cable, twice.
 //
+// JackPlanner<Tracker>: the next moves of one jack, none to two, that bring forces nearest to the targets of
+// a JackGoal, from where an Estimator, or any tracker of this type, says that the cables are; other jacks and
+// loads stay. begin(), then step() with a few events at a time until it is true; best() at any time.
+//
+//   begin() fails with `bad_sample` if the end has no jack at work, or the state is none of the scene; from
+//   an Estimator, with `mechanism` where Tracker::adjust() does. What has no answer on the way is not looked
+//   at any further. Looks end after `most_events` at the latest, by default 128 (n + 32), eight times that in
+//   second-order theory. step(k) costs k events of the tracker and, for each, n numbers.
+//
 // Stepwise<Scalar, Scene>: the procedure of Yan et al. (2015), for the host: the reference that all else is
 // compared with. The scene must outlive it. Its error is that of its load steps.
 //
@@ -144,6 +153,7 @@
 #include "taut/estimation/estimator.hpp"
 #include "taut/estimation/find_knowledge.hpp"
 #include "taut/estimation/unknown_past.hpp"
+#include "taut/planning/jack_planner.hpp"
 #include "taut/scene/capacity.hpp"
 #include "taut/scene/friction.hpp"
 #include "taut/scene/sample.hpp"

@@ -125,11 +125,18 @@ class Belief {
   Values linearize_at(const Values& values) {
     Values change;
     for (int p = 0; p < carried(); ++p) {
-      if (p >= friction_ && p < loads_) continue;
+      if (!is_linearized(p)) continue;
       change[p] = values[p] - state_.linearized_at[p];
       state_.linearized_at[p] = values[p];
     }
     return change;
+  }
+  /// By how much each unknown in use is off where the model is linearized.
+  Values off_line() const {
+    Values off;
+    for (int p = 0; p < carried(); ++p)
+      if (is_linearized(p)) off[p] = state_.mean[p] - state_.linearized_at[p];
+    return off;
   }
   const State& save() const { return state_; }
   void restore(const State& state) {
@@ -298,6 +305,7 @@ class Belief {
   }
 
  private:
+  bool is_linearized(int p) const { return p < friction_ || p >= loads_; }
   /// Of a reading, and what would follow from it.
   struct Innovation {
     Values with_unknown, updated_mean;     // P H^T; the mean after an update

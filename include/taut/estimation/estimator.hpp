@@ -331,6 +331,19 @@ class Estimator : private CondensedType::Capacity::Account {
     return k < 0 ? ConditionedLoad<Scalar>() : jacks_[k].at;
   }
   const TrackerType& tracker() const { return tracker_; }
+  /// Brings another tracker to where the cables are by the best estimate of friction, for who tries what
+  /// would follow, as JackPlanner does. Loads are those that the tracker was driven to: gain and zero of the
+  /// jacks' load cells are left as they are read. After an advance() that came to its end. Fails as
+  /// Tracker::adjust() does; then only start() or restore() of that tracker may follow. Cost: those of
+  /// Tracker::save(), restore() and adjust().
+  Status bring(TrackerType& other) const {
+    const auto& condensed = tracker_.condensed();
+    const Status there =
+        other.restore(condensed, filter_.friction(linear_part(condensed)), tracker_.save(), load_errors());
+    return there ? filter_.bring(other) : there;
+  }
+  /// The friction that bring() gives it, as a function of the joint that Tracker::restore() takes.
+  auto best_friction() const { return filter_.best_friction(linear_part(tracker_.condensed())); }
   /// What was told of every update since start() or restore(); see Capacity::Account.
   const Account& account() const { return *this; }
   int unknowns() const { return filter_.belief().size(); }

@@ -116,7 +116,16 @@ class FrictionFilter {
   /// The friction at which the filter is linearized, for Tracker::start() and Tracker::restore(): a function
   /// of the joint.
   auto friction(const Linear& model) const {
-    return [this, &model](int joint) { return friction_of(model, joint); };
+    return [this, &model](int joint) { return friction_of(model, joint, belief_.save().linearized_at); };
+  }
+  /// The friction at the best estimate, in the same way.
+  auto best_friction(const Linear& model) const {
+    return [this, &model](int joint) { return friction_of(model, joint, belief_.mean()); };
+  }
+  /// Brings a copy of the tracker to the best estimate of the unknowns. Fails as Tracker::adjust() does.
+  /// Cost: that.
+  Status bring(TrackerType& copy) const {
+    return copy.adjust(best_friction(linear_part(copy.condensed())), belief_.off_line());
   }
 
   const BeliefType& belief() const { return belief_; }
@@ -318,12 +327,12 @@ class FrictionFilter {
         cable, parameter, [&](int j) { return grip(j) * weight_[j]; },
         [&](int j) { return grip(j) * prior_->scatter[c] * static_cast<Scalar>(prior_->mu[j]); });
   }
-  JointFriction<Real> friction_of(const Linear& model, int j) const {
+  JointFriction<Real> friction_of(const Linear& model, int j, const Values& unknowns) const {
     const int p = unknown_of_[j];
     if (p < 0 || !(weight_[j] > 0)) return {};
     int c = 0;
     while (j >= model.cables[c].first_joint + model.cables[c].joints()) ++c;
-    const Scalar at = belief_.linearized_at(p);
+    const Scalar at = unknowns[p];
     const auto weight = static_cast<Real>(weight_[j]);
     const auto limit = prior_->limit(c, j, prior_->mu[j] + weight * static_cast<Real>(at));
     return {at == 0 ? model.rho[j] : limit.rho, p, weight * limit.slope};
