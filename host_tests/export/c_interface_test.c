@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include C_HEADER
+#include "put_bits.h"
 
 #define JOIN_(a, b) a##_##b
 #define JOIN(a, b) JOIN_(a, b)
@@ -25,15 +26,6 @@ static int column_of(const char* name, const char* ending) {
   for (i = 0; i < column_count; ++i)
     if (strcmp(columns[i], wanted) == 0) return i;
   return -1;
-}
-
-static void put_bits(float value) {
-  unsigned char bytes[sizeof value];
-  unsigned long bits = 0;
-  int i;
-  memcpy(bytes, &value, sizeof value);
-  for (i = 3; i >= 0; --i) bits = bits << 8 | bytes[i];
-  printf("%08lx", bits);
 }
 
 static int split(char* line, char** fields) {

@@ -163,6 +163,32 @@ size_t @name@_save(void* buffer, size_t size);
 /* A status in words. */
 const char* @name@_describe(@name@_status status);
 
+/* The next moves of one jack, from what is known of friction by now: there if @NAME@_PLAN is defined wherever this is included,
+ * @name@.cpp too. They take a tracker more in RAM. See taut::JackPlanner. */
+#ifdef @NAME@_PLAN
+/* What the forces are to be; all zero is nothing. */
+typedef struct {
+  float target[@NAME@_SEGMENTS]; /* of every segment; 0: does not matter */
+  float most_force;              /* of the jack; 0: what the cable can carry */
+  float most_tension;            /* of every segment; 0: no limit */
+  float most_stroke;             /* of the jack; 0: no limit */
+  int lock;                      /* what counts is after lock-off */
+  float worth_a_move;            /* a move more is asked for where it brings so much of the error */
+} @name@_goal;
+typedef struct {
+  int count;      /* of moves: 0 to 2 */
+  float force[2]; /* of the jack at the end of each */
+  float error;    /* largest |force - target| / target then */
+} @name@_moves;
+/* Begins to look for the moves of the jack at an end of a cable, from where it stands. */
+@name@_status @name@_plan(const @name@_goal* goal, int cable, int end);
+/* Looks on for so many events; rows may come in between. Not zero once there is nothing left to look for. */
+int @name@_plan_on(int events);
+/* The best until now, and the force of a segment then; NaN if there is no such segment, or before @name@_plan(). */
+@name@_moves @name@_plan_moves(void);
+float @name@_plan_force(int segment);
+#endif
+
 #ifdef __cplusplus
 }
 #endif
@@ -204,6 +230,11 @@ taut::Readings<float, scene::Capacity> readings;
 taut::Response<float, scene::Capacity> response;
 State state;
 bool is_started = false;
+#ifdef @NAME@_PLAN
+using Planner = taut::JackPlanner<Estimator::TrackerType>;
+Planner planner;
+bool is_planned = false;
+#endif
 
 const auto& layout() { return taut::linear_part(scene::condensed<float>); }
 bool is_segment(int segment) { return is_started && segment >= 0 && segment < layout().segments; }
@@ -307,6 +338,33 @@ size_t @name@_save(void* buffer, size_t size) {
 const char* @name@_describe(@name@_status status) {
   return taut::describe(static_cast<taut::Code>(status.code));
 }
+
+#ifdef @NAME@_PLAN
+@name@_status @name@_plan(const @name@_goal* given, int cable, int end) {
+  is_planned = false;
+  if (!is_started || given == nullptr || cable < 0 || cable >= layout().cables.size() || end < 0 || end > 1)
+    return wrong_call();
+  Planner::Goal goal;
+  for (int i = 0; i < layout().segments; ++i) goal.target[i] = given->target[i];
+  goal.most_force = given->most_force;
+  goal.most_tension = given->most_tension;
+  goal.most_stroke = given->most_stroke;
+  goal.lock = given->lock != 0;
+  goal.worth_a_move = given->worth_a_move;
+  const taut::Status status = planner.begin(estimator, goal, cable, static_cast<std::size_t>(end));
+  is_planned = status.ok();
+  return answer(status);
+}
+int @name@_plan_on(int events) { return !is_planned || planner.step(events) ? 1 : 0; }
+@name@_moves @name@_plan_moves(void) {
+  if (!is_planned) return {0, {0, 0}, none};
+  const auto& best = planner.best();
+  return {best.count, {best.force[0], best.force[1]}, best.error};
+}
+float @name@_plan_force(int segment) {
+  return is_planned && is_segment(segment) ? planner.best().tension[segment] : none;
+}
+#endif
 
 }  // extern "C"
 )";
