@@ -2,9 +2,10 @@
 //
 // BENCH_TRACK: the tracker follows the exported scene; BENCH_VERIFY: verify() after every sample;
 // BENCH_ESTIMATE: the estimator follows it from readings with noise, the far end's cell in one sample of
-// three; BENCH_RAMP: both follow the log of host_tests/benchmark instead; BENCH_CONDENSE: a scene of
-// BENCH_JOINTS joints in BENCH_DIMENSION dimensions is condensed, with struts if BENCH_STRUTS. With none of
-// them what is left is the program that the sizes are compared with.
+// three; BENCH_PLAN: the next moves of its jack are looked for then, event by event; BENCH_RAMP: both follow
+// the log of host_tests/benchmark instead; BENCH_CONDENSE: a scene of BENCH_JOINTS joints in BENCH_DIMENSION
+// dimensions is condensed, with struts if BENCH_STRUTS. With none of them what is left is the program that
+// the sizes are compared with.
 #include <cstdint>
 
 #include "board.hpp"
@@ -20,6 +21,9 @@
 #include "flash_scene.hpp"
 #include "taut/condensation/second_order.hpp"
 #include "taut/estimation/estimator.hpp"
+#endif
+#if BENCH_PLAN
+#include "taut/planning/jack_planner.hpp"
 #endif
 #if BENCH_CONDENSE
 #include "taut/condensation/condense.hpp"
@@ -205,6 +209,29 @@ void estimate() {
 }
 #endif
 
+#if BENCH_PLAN
+taut::JackPlanner<decltype(estimator)::TrackerType> planner;
+
+/// After estimate(): the jack stands at 120 kN and has been further; mu is a fifth less than was known.
+void plan() {
+  decltype(planner)::Goal goal;
+  goal.target.fill(110000);
+  std::uint32_t all = count([&] {
+    if (!planner.begin(estimator, goal, 0, 1)) say("refused", 0);
+  });
+  std::uint32_t worst = 0;
+  while (!planner.is_done()) {
+    const std::uint32_t used = count([] { planner.step(1); });
+    all += used;
+    if (used > worst) worst = used;
+  }
+  say("plan_events", static_cast<std::uint32_t>(planner.events()));
+  say("plan_all", all);
+  say("plan_most", worst);
+  say("plan_error", static_cast<std::uint32_t>(1e4F * planner.best().error));
+}
+#endif
+
 #if BENCH_CONDENSE
 struct Whole : taut::Capacity {
   static constexpr int nodes = 2 * BENCH_JOINTS + 3, struts = BENCH_STRUTS ? 2 * BENCH_JOINTS : 0,
@@ -280,6 +307,9 @@ void run() {
 #endif
 #if BENCH_ESTIMATE
   estimate();
+#endif
+#if BENCH_PLAN
+  plan();
 #endif
 #if BENCH_CONDENSE
   condense();
