@@ -54,7 +54,7 @@ std::string numbered(const std::string& what, const std::vector<std::string>& na
   return text;
 }
 
-std::vector<Word> words_of(const ExportedScene& scene, const std::string& name) {
+std::vector<Word> pattern_words(const ExportedScene& scene, const std::string& name) {
   const SceneDescription& described = scene.description;
   std::vector<std::string> loads, cables;
   std::size_t segments = 0, joints = 0;
@@ -372,12 +372,12 @@ float @name@_plan_force(int segment) {
 }  // namespace
 
 std::string c_header(const ExportedScene& scene, const std::string& name) {
-  return filled_in(header_pattern, words_of(scene, name));
+  return filled_in(header_pattern, pattern_words(scene, name));
 }
 
 std::string c_source(const ExportedScene& scene, const std::string& name, const std::string& header) {
   const bool has_strokes = !scene.in_float.knowledge.stroke.empty();
-  std::vector<Word> words = words_of(scene, name);
+  std::vector<Word> words = pattern_words(scene, name);
   words.push_back({"@file@", header});
   words.push_back({"@cells@", has_strokes ? ", scene::strokes<float>.items" : ""});
   words.push_back({"@limits@", has_strokes ? "  for (const auto& stroke : scene::strokes<float>.items)\n"

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <memory>
 #include <utility>
 
+#include "lib/files/deserved_digits.hpp"
 #include "lib/files/log_file.hpp"
 #include "lib/files/status_text.hpp"
 #include "lib/files/text.hpp"
@@ -20,7 +20,7 @@ namespace taut::host {
 namespace {
 
 // A row, and what it is called.
-using RowVisitor = std::function<bool(const LogRow&, const std::string& place)>;
+using StepVisitor = std::function<bool(const LogRow&, const std::string& place)>;
 
 // The largest difference of one kind of values, and their largest size.
 struct Gap {
@@ -55,7 +55,7 @@ LogRules rules_for(const SceneDescription& linear) {
 }
 
 void each_row(const std::string& log_path, const SceneDescription& scene, const LogRules& rules,
-              const RowVisitor& visit) {
+              const StepVisitor& visit) {
   std::ifstream stream = open_log(log_path);
   LogReader log(stream, log_path, scene, rules);
   LogRow row = log.first_row();
@@ -69,7 +69,7 @@ void each_row(const std::string& log_path, const SceneDescription& scene, const 
 }
 
 // The way to the target in steps in which a difference shows.
-void each_step(const SceneDescription& scene, const TargetDescription& target, const RowVisitor& visit) {
+void each_step(const SceneDescription& scene, const TargetDescription& target, const StepVisitor& visit) {
   constexpr int steps = 20;
   LogRow row;
   row.factor.resize(scene.loads.size());
@@ -272,27 +272,18 @@ ComparedTheories compare_theories(const SceneDescription& scene, const std::stri
   return compared;
 }
 
-namespace {
-
-// More digits say nothing of a target.
-std::string rounded(double number) {
-  std::array<char, 32> digits{};
-  std::snprintf(digits.data(), digits.size(), "%.5g", number);
-  return plain(std::strtod(digits.data(), nullptr));
-}
-
-}  // namespace
-
 std::string second_order_key(const SceneDescription& scene, const TargetDescription& target) {
+  constexpr int target_digits = 5;  // more say nothing
   std::string loads, forces;
   for (std::size_t i = 0; i < scene.loads.size(); ++i)
     if (target.factor[i] != 0)
-      loads += (loads.empty() ? " " : ", ") + quote(scene.loads[i].name) + ": " + rounded(target.factor[i]);
+      loads += (loads.empty() ? " " : ", ") + quote(scene.loads[i].name) + ": " +
+               plain(rounded(target.factor[i], target_digits));
   for (std::size_t c = 0; c < scene.cables.size(); ++c)
     for (std::size_t end = 0; end < 2; ++end)
       if (target.force[c][end] > 0)
         forces += (forces.empty() ? " " : ", ") + quote(scene.cables[c].name + "." + end_name(end)) + ": " +
-                  rounded(target.force[c][end]);
+                  plain(rounded(target.force[c][end], target_digits));
   const auto object = [](const std::string& entries) {
     return entries.empty() ? "{}" : "{" + entries + " }";
   };

@@ -26,7 +26,6 @@
 namespace taut::host {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{1} << 28;
 constexpr const char* standard_input = "standard input";
 constexpr double most_bend_change = 0.1;
 constexpr int most_tried = 1000000;  // load steps a row
@@ -356,13 +355,13 @@ void LogFollower::keep_state() const {
     return;
   }
   OutputFile file(options_.state);
-  file.write(state_text(present_state(), read_text(options_.scene, most_bytes)));
+  file.write(state_text(present_state(), read_text(options_.scene, largest_text_file)));
   file.finish();
 }
 
 std::optional<std::string> LogFollower::state() const {
   if (model_->has_unknown_past()) return std::nullopt;
-  return state_text(present_state(), read_text(options_.scene, most_bytes));
+  return state_text(present_state(), read_text(options_.scene, largest_text_file));
 }
 
 SavedState LogFollower::present_state() const {
@@ -380,11 +379,11 @@ SavedState LogFollower::present_state() const {
 
 void LogFollower::read_state() {
   if (options_.state.empty() || !std::filesystem::exists(options_.state)) return;
-  take_state(options_.state, read_text(options_.state, most_bytes));
+  take_state(options_.state, read_text(options_.state, largest_text_file));
 }
 
 void LogFollower::take_state(const std::string& path, const std::string& text) {
-  begun_ = taut::host::read_state(path, text, read_text(options_.scene, most_bytes),
+  begun_ = taut::host::read_state(path, text, read_text(options_.scene, largest_text_file),
                                   name_of(options_.numbers.scalar));
   assume(begun_->assumed, scene_);
 }

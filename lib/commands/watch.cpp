@@ -45,7 +45,6 @@
 namespace taut::host {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{1} << 28;
 constexpr const char* silent = "silent:line";
 constexpr const char* unreadable = "unreadable:line";
 
@@ -82,7 +81,7 @@ class Watch {
       goal_ = std::make_unique<PlanGoal>(read_goal_file(options.goal, scene_));
     }
     if (!options.state.empty())
-      state_ = std::make_unique<WatchState>(options.state, read_text(options.scene, most_bytes));
+      state_ = std::make_unique<WatchState>(options.state, read_text(options.scene, largest_text_file));
     if (!options.record.empty())
       record_ = std::make_unique<RecordFile>(options.record, result_header(scene_, ResultColumns::estimate));
   }
@@ -266,8 +265,8 @@ class Watch {
     }
     for (const std::string& said : plan_sentences(scene_, *goal_, result))
       std::cerr << "plan: " << said << '\n';
-    guide_ = std::make_unique<PlanGuide>(scene_, *goal_, read_text(options_.goal, most_bytes), result.plan,
-                                         result.prior);
+    guide_ = std::make_unique<PlanGuide>(scene_, *goal_, read_text(options_.goal, largest_text_file),
+                                         result.plan, result.prior);
     if (state_ && !state_->plan().empty() && !guide_->go_on(state_->plan()))
       std::cerr << "remark: " << options_.state
                 << " has a plan to another goal: its stages are found anew from the rows\n";

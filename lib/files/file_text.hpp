@@ -6,6 +6,9 @@
 
 namespace taut::host {
 
+/// What a scene, a goal or a state may have at most [byte].
+inline constexpr std::size_t largest_text_file = std::size_t{1} << 28;
+
 /// The whole file. Throws InputError if it cannot be read or is larger than `most` bytes.
 std::string read_text(const std::string& path, std::size_t most);
 

@@ -10,7 +10,6 @@
 namespace taut::host {
 namespace {
 
-constexpr std::size_t largest_file = std::size_t{16} << 20;
 constexpr std::size_t most_stages = 100;
 constexpr double largest_tolerance = 1;
 
@@ -134,7 +133,7 @@ class JobReader {
 }  // namespace
 
 Job read_job_file(const std::string& path, const SceneDescription& scene) {
-  const JsonValue tree = parse_json(read_text(path, largest_file), path);
+  const JsonValue tree = parse_json(read_text(path, largest_json_file), path);
   return JobReader(Field(tree, "", path), scene).read();
 }
 

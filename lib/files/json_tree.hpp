@@ -1,11 +1,15 @@
 // A JSON file as a tree that keeps the order of its keys.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace taut::host {
+
+/// What a file of JSON may have [byte].
+inline constexpr std::size_t largest_json_file = std::size_t{16} << 20;
 
 /// A value of a JSON file with everything below it.
 struct JsonValue {

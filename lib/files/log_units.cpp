@@ -9,31 +9,31 @@ namespace taut::host {
 namespace {
 
 // The first of each is that of SI.
-const std::vector<LogUnit> times = {
+const std::vector<LogUnit> units_of_times = {
     {"s", 0, 1}, {"ms", -3, 1}, {"min", 0, 60}, {"h", 0, 3600}, {"d", 0, 86400.0}};
-const std::vector<LogUnit> forces = {
+const std::vector<LogUnit> units_of_forces = {
     {"N", 0, 1}, {"kN", 3, 1}, {"MN", 6, 1}, {"lbf", 0, 4.4482216152605}, {"kip", 3, 4.4482216152605}};
-const std::vector<LogUnit> lengths = {
+const std::vector<LogUnit> units_of_lengths = {
     {"m", 0, 1}, {"mm", -3, 1}, {"cm", -2, 1}, {"in", 0, 0.0254}, {"ft", 0, 0.3048}};
-const std::vector<LogUnit> factors = {{"1", 0, 1}, {"-", 0, 1}, {"%", -2, 1}};
-const std::vector<LogUnit> switches = {{"1", 0, 1}, {"-", 0, 1}};
+const std::vector<LogUnit> units_of_factors = {{"1", 0, 1}, {"-", 0, 1}, {"%", -2, 1}};
+const std::vector<LogUnit> units_of_switches = {{"1", 0, 1}, {"-", 0, 1}};
 
 const std::vector<LogUnit>& units_of(Quantity quantity) {
   switch (quantity) {
     case Quantity::time:
-      return times;
+      return units_of_times;
     case Quantity::factor:
-      return factors;
+      return units_of_factors;
     case Quantity::locked:
-      return switches;
+      return units_of_switches;
     case Quantity::stroke:
-      return lengths;
+      return units_of_lengths;
     case Quantity::force:
     case Quantity::segment_force:
     case Quantity::strut_force:
-      return forces;
+      return units_of_forces;
   }
-  return switches;
+  return units_of_switches;
 }
 
 std::string without_blanks_around(std::string text) {

@@ -145,6 +145,19 @@ struct SceneDescription {
   std::vector<LoadDescription> loads;
   std::optional<TargetDescription> second_order;   ///< absent: linear theory
   std::vector<DisplacementDescription> displaced;  ///< not in the file: whose displacements are asked for
+
+  /// Numbers of the first segment and joint of a cable, counted over all cables; of the cable after the last:
+  /// how many there are.
+  std::size_t first_segment(std::size_t cable) const {
+    std::size_t first = 0;
+    for (std::size_t c = 0; c < cable; ++c) first += cables[c].segments();
+    return first;
+  }
+  std::size_t first_joint(std::size_t cable) const {
+    std::size_t first = 0;
+    for (std::size_t c = 0; c < cable; ++c) first += cables[c].joints();
+    return first;
+  }
 };
 
 /// `start` or `end`.

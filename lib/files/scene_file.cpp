@@ -16,8 +16,6 @@
 namespace taut::host {
 namespace {
 
-constexpr std::size_t largest_file = std::size_t{16} << 20;
-
 const Keys scene_keys = {
     {"taut", true, "1, the version of the format"},
     {"name", true, "a title for the scene"},
@@ -582,7 +580,7 @@ SceneDescription read_scene(std::string_view text, const std::string& file) {
 }
 
 SceneDescription read_scene_file(const std::string& path) {
-  return read_scene(read_text(path, largest_file), path);
+  return read_scene(read_text(path, largest_json_file), path);
 }
 
 }  // namespace taut::host

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 std::optional<double> as_read(const std::optional<double>& value) {
   return value ? std::optional<double>(rounded(*value, computed_digits)) : value;
@@ -89,7 +89,7 @@ std::string answer_json(const SceneDescription& scene, const LiveAnswer& live) {
   json["jack"] = Json::object();
   for (const JackNow& jack : live.jacks)
     json["jack"][scene.cables[jack.cable].name + "." + end_name(jack.end)] = {
-        {"force", jack.force}, {"reading", number(jack.reading)}, {"stroke", number(jack.stroke)}};
+        {"force", jack.force}, {"reading", or_null(jack.reading)}, {"stroke", or_null(jack.stroke)}};
   json["alarms"] = live.alarms;
   json["notices"] = live.notices;
   if (live.plan) json["plan"] = plan_json(*live.plan);

@@ -11,7 +11,7 @@
 namespace taut::host {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 // A jack is there when it is so near, of the largest force that it is to have; or as near as its gauge shows.
 constexpr double near = 0.001;

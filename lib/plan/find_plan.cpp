@@ -20,22 +20,11 @@ constexpr std::size_t samples = 48, most_descents = 8, most_built_up = 6;
 // As equal as makes no difference on a gauge.
 constexpr double as_good = 1e-9;
 
-std::size_t first_segment(const SceneDescription& scene, std::size_t of) {
-  std::size_t first = 0;
-  for (std::size_t c = 0; c < of; ++c) first += scene.cables[c].segments();
-  return first;
-}
-std::size_t first_joint(const SceneDescription& scene, std::size_t of) {
-  std::size_t first = 0;
-  for (std::size_t c = 0; c < of; ++c) first += scene.cables[c].joints();
-  return first;
-}
-
 // The segments of a cable; of a hoop, cut open where it begins.
 FrictionChain chain_of(const SceneDescription& scene, const PlanGoal& goal, const std::vector<double>& rho,
                        std::size_t c) {
   const CableDescription& cable = scene.cables[c];
-  const std::size_t segment = first_segment(scene, c), joint = first_joint(scene, c);
+  const std::size_t segment = scene.first_segment(c), joint = scene.first_joint(c);
   FrictionChain chain;
   for (std::size_t i = 0; i < cable.segments(); ++i) {
     chain.target.push_back(goal.target[segment + i]);
@@ -79,7 +68,7 @@ std::vector<Group> groups_of(const SceneDescription& scene, const PlanGoal& goal
       if (jacks[k].cable == c) group.jacks.push_back(k);
     if (group.jacks.empty()) continue;
     bool matters = false;
-    const std::size_t first = first_segment(scene, c);
+    const std::size_t first = scene.first_segment(c);
     for (std::size_t i = first; i < first + scene.cables[c].segments(); ++i)
       matters = matters || goal.matters(i);
     if (matters) with_target.push_back(group);
@@ -218,8 +207,8 @@ class PlanSearch {
   void require_reach(const LegPoint& rest) const {
     for (std::size_t c = 0; condensed_.rigid && c < scene_.cables.size(); ++c) {
       const CableDescription& cable = scene_.cables[c];
-      const std::size_t n = cable.segments(), segment = first_segment(scene_, c),
-                        joint = first_joint(scene_, c);
+      const std::size_t n = cable.segments(), segment = scene_.first_segment(c),
+                        joint = scene_.first_joint(c);
       if (cable.closed || !(cable.is_jacked(0) || cable.is_jacked(1))) continue;
       for (std::size_t i = 0; i < n; ++i) {
         if (!goal_.matters(segment + i) || rest.tension[segment + i] > 0) continue;
@@ -242,7 +231,7 @@ class PlanSearch {
   void require_limits_to_hold(const LegPoint& rest) const {
     for (std::size_t c = 0; c < scene_.cables.size(); ++c)
       for (std::size_t i = 0; i < scene_.cables[c].segments(); ++i) {
-        const std::size_t segment = first_segment(scene_, c) + i;
+        const std::size_t segment = scene_.first_segment(c) + i;
         if (rest.tension[segment] <= goal_.most_segment[segment]) continue;
         throw InputError(goal_.file, "/limits" + pointer_step(scene_.cables[c].name),
                          "segment " + std::to_string(i + 1) + " of cable " + quote(scene_.cables[c].name) +
@@ -478,7 +467,7 @@ class PlanSearch {
   }
   // The target next to a jack.
   double usual_force(std::size_t k) const {
-    const std::size_t c = jacks_[k].cable, first = first_segment(scene_, c), n = scene_.cables[c].segments();
+    const std::size_t c = jacks_[k].cable, first = scene_.first_segment(c), n = scene_.cables[c].segments();
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t segment = first + (jacks_[k].end == 0 ? i : n - 1 - i);
       if (goal_.matters(segment)) return goal_.target[segment];
@@ -677,7 +666,7 @@ UsualJacking usual_jacking(const SceneDescription& scene, const PlanGoal& goal, 
   for (const Group& group : groups)
     for (std::size_t m = 0; m < moves; ++m)
       for (const std::size_t k : group.jacks) {
-        const std::size_t first = first_segment(scene, group.cable), n = scene.cables[group.cable].segments();
+        const std::size_t first = scene.first_segment(group.cable), n = scene.cables[group.cable].segments();
         double target = 0;
         for (std::size_t i = 0; i < n && target == 0; ++i)
           target = goal.target[first + (jacks[k].end == 0 ? i : n - 1 - i)];

@@ -78,17 +78,12 @@ class GoalReader {
       field.refuse("there is no cable " + quote(name), suggestion(name, known, "the cables are"));
     return static_cast<std::size_t>(found - known.begin());
   }
-  std::size_t first_segment(std::size_t of) const {
-    std::size_t first = 0;
-    for (std::size_t c = 0; c < of; ++c) first += scene_.cables[c].segments();
-    return first;
-  }
 
   void read_targets(const Field& field) {
-    goal_.target.assign(first_segment(scene_.cables.size()), 0);
+    goal_.target.assign(scene_.first_segment(scene_.cables.size()), 0);
     for (const auto& [name, forces] :
          field.members("an object that gives cables the forces [N] of their segments")) {
-      const std::size_t c = cable(forces, name), first = first_segment(c);
+      const std::size_t c = cable(forces, name), first = scene_.first_segment(c);
       const std::size_t count = scene_.cables[c].segments();
       const std::string wanted = "one force [N], or a list of " + counted(count, "force") +
                                  ": one a segment, null where it does not matter";
@@ -124,7 +119,7 @@ class GoalReader {
           limit.refuse("there is no cable and no jack " + quote(name),
                        suggestion(name, known, "limits can be those of"));
         const std::size_t c = cable(limit, name);
-        std::fill_n(goal_.most_segment.begin() + static_cast<std::ptrdiff_t>(first_segment(c)),
+        std::fill_n(goal_.most_segment.begin() + static_cast<std::ptrdiff_t>(scene_.first_segment(c)),
                     scene_.cables[c].segments(), positive(limit, "a segment force", "[N]"));
       }
     }

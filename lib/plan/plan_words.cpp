@@ -37,12 +37,6 @@ std::string moves_text(const Plan& plan) {
   return counted(moves, "move");
 }
 
-std::size_t first_segment(const SceneDescription& scene, std::size_t of) {
-  std::size_t first = 0;
-  for (std::size_t c = 0; c < of; ++c) first += scene.cables[c].segments();
-  return first;
-}
-
 }  // namespace
 
 std::string segment_text(const SceneDescription& scene, std::size_t segment) {
@@ -100,7 +94,7 @@ std::vector<std::string> plan_sentences(const SceneDescription& scene, const Pla
                    part_text(std::fabs(plan.outcome.tension.back()[segment] / goal.target[segment] - 1)) +
                    " off");
   if (plan.bound.error > 1e-9 && plan.certainty != Certainty::best_of_all) {
-    const std::size_t first = first_segment(scene, plan.bound_cable);
+    const std::size_t first = scene.first_segment(plan.bound_cable);
     const std::string low = segment_text(scene, first + plan.bound.low);
     said.push_back("by friction alone no jacking whatever comes nearer than " + part_text(plan.bound.error) +
                    ": " + low +

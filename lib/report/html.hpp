@@ -10,6 +10,8 @@ namespace taut::host {
 
 using Attributes = std::initializer_list<std::pair<const char*, std::string>>;
 
+inline constexpr const char* en_dash = "\u2013";
+
 /// Text with everything replaced that HTML would not take for text; broken UTF-8 and control characters too.
 std::string escaped(std::string_view text);
 

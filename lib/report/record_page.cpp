@@ -15,7 +15,6 @@ namespace taut::host {
 namespace {
 
 constexpr double mm = 1000;
-constexpr const char* dash = "\u2013";
 constexpr std::size_t forces_abreast = 2;  // columns of the table of forces
 
 std::string cell(const char* look, const std::string& text) {
@@ -111,10 +110,10 @@ class RecordPage {
       if (!known.is_given && !known.is_assumed && found == job_.instruments.end()) return;
       const JobInstrument named = found == job_.instruments.end() ? JobInstrument() : found->second;
       const auto text = [&](const std::optional<double>& value) {
-        return value ? amount(*value) : std::string(dash);
+        return value ? amount(*value) : std::string(en_dash);
       };
       const std::string gain =
-          known.gain_sd ? significant(100 * *known.gain_sd, 2) + " %" : std::string(dash);
+          known.gain_sd ? significant(100 * *known.gain_sd, 2) + " %" : std::string(en_dash);
       ++count;
       rows += element("tr", {},
                       cell("name", column) + cell("text", named.id) + cell("text", named.calibrated) +
@@ -248,7 +247,7 @@ class RecordPage {
                                                                  : std::string();
     const std::string time =
         view_.time_text(stage.first_time - view_.origin) +
-        (stage.first_row == stage.last_row ? "" : dash + view_.time_text(stage.last_time - view_.origin));
+        (stage.first_row == stage.last_row ? "" : en_dash + view_.time_text(stage.last_time - view_.origin));
     return element("tr", {{"class", is_good_force && is_good_net ? "" : "fails"}},
                    cell("short", kind_word(line)) + cell("number", time) +
                        cell("number", line.required ? view_.unit.number(*line.required) : "") +

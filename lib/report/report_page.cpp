@@ -16,8 +16,6 @@
 namespace taut::host {
 namespace {
 
-constexpr const char* dash = "\u2013";
-
 std::string strong(const std::string& text) { return element("strong", {}, escaped(text)); }
 
 class Page {
@@ -143,7 +141,7 @@ class Page {
     }
     const std::string low = significant(mu.low(), 3), high = significant(mu.high(), 3);
     if (low == high) return strong(low) + " " + escaped(say("(sd {1})", {significant(sd.high(), 2)}));
-    return strong(low + dash + high) + " " + escaped(say("(sd up to {1})", {significant(sd.high(), 2)}));
+    return strong(low + en_dash + high) + " " + escaped(say("(sd up to {1})", {significant(sd.high(), 2)}));
   }
 
   std::string structure() const {

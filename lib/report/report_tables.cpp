@@ -10,7 +10,6 @@ namespace taut::host {
 namespace {
 
 constexpr int mu_digits = 4;  // decimals
-constexpr const char* dash = "\u2013";
 
 // A part that is there is never shown as none.
 std::string percent(const Words& say, double part) {
@@ -77,9 +76,10 @@ std::string run_table(const ReportView& view, const AlarmRecord& record, const s
     const bool is_one = run.first_row == run.last_row;
     const AlarmMeaning meaning = alarm_meaning(run.word);
     TableRow row;
-    row.named(rows_name, std::to_string(run.first_row) + (is_one ? "" : dash + std::to_string(run.last_row)))
+    row.named(rows_name,
+              std::to_string(run.first_row) + (is_one ? "" : en_dash + std::to_string(run.last_row)))
         .named(time_name, view.time_text(run.first_time - view.origin) +
-                              (is_one ? "" : dash + view.time_text(run.last_time - view.origin)))
+                              (is_one ? "" : en_dash + view.time_text(run.last_time - view.origin)))
         .word(run.word.substr(0, run.word.find(':')))
         .word(alarm_place(run.word))
         .text(view.say(meaning.means) + peak_text(view, run));
@@ -168,7 +168,7 @@ std::string final_table(const ReportView& view, std::size_t c) {
     const std::size_t s = first.segment + i, j = first.joint + i;
     const auto nodes = segment_nodes(cable, i);
     TableRow row;
-    row.word(std::to_string(i + 1) + " (" + node_name(view.scene, nodes[0]) + dash +
+    row.word(std::to_string(i + 1) + " (" + node_name(view.scene, nodes[0]) + en_dash +
              node_name(view.scene, nodes[1]) + ")");
     row.cell("number force", view.unit.number(end.tension[s]));
     row.cell("number sd", view.unit.deviation(end.deviation[s]));

@@ -6,7 +6,7 @@
 namespace taut::host {
 namespace {
 
-constexpr Translation table[] = {
+constexpr Translation translations[] = {
     {"Cable forces: {1}", "索力：{1}", "Seilkräfte: {1}"},
     {"scene", "模型", "Szene"},
     {"Scene", "模型", "Szene"},
@@ -611,8 +611,8 @@ const Translation* found(std::string_view english) {
 
 }  // namespace
 
-const Translation* begin_of_words() { return std::begin(table); }
-const Translation* end_of_words() { return std::end(table); }
+const Translation* begin_of_words() { return std::begin(translations); }
+const Translation* end_of_words() { return std::end(translations); }
 
 std::string Words::operator()(std::string_view english) const {
   const Translation* row = found(english);
