@@ -18,6 +18,7 @@ namespace linear {
 using Model = taut::Condensed<float, arch::Capacity>;
 taut::Tracker<Model> tracker;
 taut::Estimator<Model, arch::unknowns, arch::reading_unknowns> estimator;
+taut::JackPlanner<decltype(estimator)::TrackerType> planner;
 
 bool follow(const decltype(estimator)::ReadingsType& readings) {
   if (!estimator.start(arch::condensed<float>, arch::knowledge<float>, {}, arch::strokes<float>.items).status)
@@ -31,6 +32,10 @@ bool follow(const decltype(estimator)::ReadingsType& readings) {
          taut::verify(tracker).worst() < 1;
 }
 
+bool plan(const decltype(planner)::Goal& goal) {
+  return planner.begin(estimator, goal, 0, 1) && planner.find().count > 0;
+}
+
 }  // namespace linear
 
 namespace second_order {
@@ -38,12 +43,17 @@ namespace second_order {
 using Model = taut::SecondOrder<float, beam_string::Capacity>;
 taut::Tracker<Model> tracker;
 taut::Estimator<Model, beam_string::unknowns, beam_string::reading_unknowns> estimator;
+taut::JackPlanner<decltype(estimator)::TrackerType> planner;
 
 bool follow(const decltype(estimator)::ReadingsType& readings, taut::Response<float, Model::Capacity>& all) {
   if (!estimator.start(beam_string::condensed<float>, beam_string::knowledge<float>).status) return false;
   estimator.respond(all, &beam_string::struts<float>);
   return tracker.start(beam_string::condensed<float>).status && tracker.advance(readings.sample).status &&
          estimator.advance(readings).status && taut::verify(tracker).worst() < 1;
+}
+
+bool plan(const decltype(planner)::Goal& goal) {
+  return planner.begin(estimator, goal, 0, 1) && planner.step(10) && planner.best().error < 1;
 }
 
 }  // namespace second_order
