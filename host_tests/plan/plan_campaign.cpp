@@ -282,7 +282,7 @@ bool compare_one(const Options& options, Kind& kind, std::uint64_t i) {
     kind.core_time.add(10 * core_took);
     kind.core_events = std::max(kind.core_events, core.events);
     kind.core_excess = std::max(kind.core_excess, core.error - again);
-    if (core.error > again + 1e-3) fail("planned anew in the core", core.error, again);
+    if (core.error > again + 5e-4) fail("planned anew in the core", core.error, again);
     // Half a pull has taken nothing away.
     if (again > from_rest + worth_a_change + 1e-9) fail("planned anew on the way", again, from_rest);
   };

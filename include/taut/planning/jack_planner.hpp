@@ -1,6 +1,8 @@
 // Planning anew beside the jack: the next moves of one jack, from what is known of friction by now.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -17,8 +19,8 @@
 
 namespace taut {
 
-/// The moves of one jack that bring the forces nearest to their targets from where the cables are: none, one,
-/// or two that turn. All other jacks and loads stay as they are.
+/// The moves of one jack that bring the forces nearest to their targets, Eq. (48), from where the cables are:
+/// none, one, or two that turn. All other jacks and loads stay as they are.
 ///
 /// Friction remembers the turning points of the jack alone, and between two events of the tracker all is
 /// linear. So one release, followed from event to event, shows everything that can follow a pull, and the
