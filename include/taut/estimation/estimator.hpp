@@ -447,7 +447,8 @@ class Estimator : private CondensedType::Capacity::Account {
     change_branch(k);
     const bool loads_change = jack.frozen >= 0;
     forget_other_loads(k);
-    if (!jack.locked && far_ends_.ends().size() > 0) filter_.come_to_what_is_known(tracker_);
+    if (!jack.locked && (far_ends_.ends().size() > 0 || gauges_.size() > 0))
+      filter_.come_to_what_is_known(tracker_);
     const int p = next_memory(k);
     if (p < 0) return;
     filter_.remember_reversal(tracker_, p, jacks_.end(k).cable(), jacks_.end(k).end, jack.sd_before);
