@@ -457,11 +457,26 @@ class Estimator : private CondensedType::Capacity::Account {
     jack.frozen = static_cast<std::int16_t>(p);
     tracker_.change_load_error(frozen_error(k));
   }
+  /// The memory that matters least to forces, of several the oldest.
   int next_memory(int k) {
     auto& jack = jacks_[k];
-    const int p = jack.memory[static_cast<std::size_t>(jack.oldest)];
-    if (p >= 0) jack.oldest = (jack.oldest + 1) % remembered_corners(load_patterns(model()));
-    return p;
+    const int corners = remembered_corners(load_patterns(model()));
+    int found = jack.oldest;
+    Scalar smallest = -1;
+    for (int i = 0; i < corners; ++i) {
+      const int slot = (jack.oldest + i) % corners, p = jack.memory[static_cast<std::size_t>(slot)];
+      if (p < 0) return p;
+      Scalar matters = 0;
+      for (int s = 0; s < model().segments; ++s) {
+        const Scalar S = tracker_.sensitivity(p, s);
+        matters += S * S * filter_.belief().variance(p);
+      }
+      if (smallest >= 0 && !(matters < smallest)) continue;
+      smallest = matters;
+      found = slot;
+    }
+    jack.oldest = (found + 1) % corners;
+    return jack.memory[static_cast<std::size_t>(found)];
   }
   bool changes_factors(const Sample<Scalar, Cap>& sample) const {
     for (int i = 0; i < jacks_.patterns(); ++i)

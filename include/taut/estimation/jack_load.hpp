@@ -58,8 +58,8 @@ struct JackLoad {
   bool locks_now = false, locked = false;
   ElongationCheck<Scalar> elongation;  ///< of the leg that it is on
   std::uint8_t below = 0;  ///< locked: readings in a row that were confirmed to be below what the wedge holds
-  /// Unknown errors of its load where it last reversed, was locked or rested, or -1; the oldest is forgotten
-  /// next.
+  /// Unknown errors of its load where it reversed, was locked or rested, or -1. What matters least is
+  /// forgotten next.
   std::array<std::int16_t, static_cast<std::size_t>(Reversals)> memory{};
   int oldest = 0;
   std::int16_t seating = 0;  ///< the unknown of its wedge's draw-in, or -1
@@ -168,8 +168,10 @@ struct JackLoad {
     // A released end keeps its wedge until a load is read.
     const bool is_released = locked;
     if (locked) {
-      // Readings of a jack that pulls are those of its upper branch.
-      filter.start_at(filter.sd(), cell.up * held.force, cell.up * held.deviation);
+      // The jack pulls: what slid back as the wedge was drawn in sticks, which shows a little further on.
+      // Its readings are those of the upper branch.
+      const Scalar taken = held.force + Scalar(1e-3) * cell.sd;
+      filter.start_at(filter.sd(), cell.up * taken, cell.up * held.deviation);
       at = {};
       turned = 0;
       pulls = true;
