@@ -19,7 +19,8 @@ struct CellWatch {
   static constexpr std::uint8_t often = 3;
 
   NoiseLevel<Scalar> noise;
-  Scalar sd = 0;  ///< that readings are taken to scatter by [N]
+  Scalar sd = 0;     ///< that readings are taken to scatter by [N]
+  Scalar lasts = 0;  ///< what they are off by together, NoiseLevel::Found::lasting [N]
   Consistency<Scalar> fit;
   Scalar last = 0;         ///< reading [N]
   Scalar expected = 0;     ///< of the force when it was first read [N]
@@ -36,9 +37,11 @@ struct CellWatch {
   /// times their variance is larger than it was taken to be, or one.
   Scalar follow_noise(Scalar reading, Scalar dt) {
     if (!noise.take(reading, dt)) return 1;
-    const Scalar found = noise.sd(), times = found / sd;
+    const auto found = noise.found();
+    lasts = found.lasting;
+    const Scalar times = found.sd / sd;
     if (times <= NoiseLevel<Scalar>::worth_it && times * NoiseLevel<Scalar>::worth_it >= 1) return 1;
-    sd = found;
+    sd = found.sd;
     return larger(times * times, Scalar(1));
   }
   /// Whether it goes on being frozen with this reading [N].

@@ -90,11 +90,12 @@ class FarEnds {
     const auto predict = [&](auto& prediction) { predict_at(end, tracker, filter, jacks, prediction); };
     predict(filter.prediction());
     if (!filter.is_informative(tracker, end.cable(), sd)) return compare(e, reading, tracker, filter, jacks);
+    const Scalar lasting = variance_that_lasts(e, filter, jacks);
+    if (is_known(lasting, filter)) return look(e, reading, tracker, filter, jacks);
     count_learned(1);
-    const Update update =
-        filter.update(tracker, predict, jacks.readings(filter.prior()), {reading, sd, Scalar(0)});
-    const auto& belief = filter.belief();
-    state_.watch[e].take(reading, reading - belief.innovation(), belief.innovation_variance(), sd * sd);
+    const Update update = filter.update(tracker, predict, jacks.readings(filter.prior()),
+                                        {reading, std::sqrt(sd * sd + lasting), Scalar(0)});
+    note(e, reading, lasting, filter);
     return update;
   }
   /// Compares a reading [N] of cell `e` with what is expected, and learns nothing from it: joints of its
@@ -110,7 +111,8 @@ class FarEnds {
     predict_at(end, tracker, filter, jacks, filter.prediction());
     const Expected<Scalar> force =
         filter.belief().expect(filter.prediction(), jacks.readings(filter.prior()), Scalar(0));
-    state_.watch[e].take(reading, force.value, force.variance + in_doubt * in_doubt, sd * sd);
+    const Scalar lasting = variance_that_lasts(e, filter, jacks);
+    state_.watch[e].take(reading, force.value, force.variance + in_doubt * in_doubt + lasting, sd * sd);
     return Update::no_information;
   }
   /// A reading [N] of cell `e` of a cable that is locked corrects what drifts there, the unknowns with
@@ -121,10 +123,11 @@ class FarEnds {
                                const Jacks& jacks, const IsOf& is_of) {
     const Scalar sd = state_.watch[e].sd;
     predict_at(ends_[e], tracker, filter, jacks, filter.prediction());
-    const Update update =
-        filter.update_alone(is_of, jacks.readings(filter.prior()), {reading, sd, Scalar(0)});
-    const auto& belief = filter.belief();
-    state_.watch[e].take(reading, reading - belief.innovation(), belief.innovation_variance(), sd * sd);
+    const Scalar lasting = variance_that_lasts(e, filter, jacks);
+    if (is_known(lasting, filter)) return look(e, reading, tracker, filter, jacks);
+    const Update update = filter.update_alone(is_of, jacks.readings(filter.prior()),
+                                              {reading, std::sqrt(sd * sd + lasting), Scalar(0)});
+    note(e, reading, lasting, filter);
     return update;
   }
   /// Where gathers(): gathers a reading [N] of the only cell. Cost: a few operations; that of update() with
@@ -132,10 +135,15 @@ class FarEnds {
   [[nodiscard]] Update gather(Scalar reading, TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
     Gathered<Scalar>& gathered = state_.gathered;
     const Scalar driven = jacks[0].driven.force, load = jacks[0].seen(jacks.in(filter.prior().cell, 0));
-    if (gathered.size == 0 && !begin_gathering(driven, tracker, filter, jacks))
-      return compare(0, reading, tracker, filter, jacks);
-    const Scalar off = gathered.off_line(load, reading);
-    state_.watch[0].take(reading, reading - off, gathered.of_model, gathered.spread - gathered.of_model);
+    if (gathered.size == 0) {
+      if (!begin_gathering(driven, tracker, filter, jacks))
+        return compare(0, reading, tracker, filter, jacks);
+      if (is_known(variance_that_lasts(0, filter, jacks), filter))
+        return look(0, reading, tracker, filter, jacks);
+    }
+    const Scalar off = gathered.off_line(load, reading), lasting = variance_that_lasts(0, filter, jacks);
+    state_.watch[0].take(reading, reading - off, gathered.of_model + lasting,
+                         gathered.spread - gathered.of_model);
     if (!(off * off <= FilterType::BeliefType::gate * gathered.spread)) return Update::contradiction;
     gathered.add(load, driven, off);
     has_gathered_ = true;
@@ -157,14 +165,42 @@ class FarEnds {
       if (gain >= 0) prediction.H[gain] += back * prediction.by_jack[0];
     };
     predict(filter.prediction());
+    const Scalar sd = state_.watch[0].sd, lasting = variance_that_lasts(0, filter, jacks);
+    if (is_known(lasting, filter)) return Update::waits;
     typename FilterType::JackReadings readings;
     readings.add({all.jack() - driven, all.jack_variance * all.share()});
-    const Scalar sd = state_.watch[0].sd;
     return filter.update(tracker, predict, readings,
-                         {all.reading(), sd * std::sqrt(all.share()), all.spread});
+                         {all.reading(), std::sqrt(sd * sd * all.share() + lasting), all.spread});
   }
 
  private:
+  /// After predict_at(): the variance of what readings of cell `e`, and of the jacks at the same time, have
+  /// in common from row to row, c of Eq. (53).
+  Scalar variance_that_lasts(int e, const FilterType& filter, const Jacks& jacks) const {
+    const Scalar own = state_.watch[e].lasts;
+    Scalar variance = own * own;
+    for (int k = 0; k < jacks.size(); ++k) {
+      const Scalar part = filter.prediction().by_jack[k] * jacks[k].lasting(jacks.in(filter.prior().cell, k));
+      variance += part * part;
+    }
+    return variance;
+  }
+  /// Whether what is predicted is known as well as any number of such readings tell.
+  static bool is_known(Scalar lasting, const FilterType& filter) {
+    return lasting > 0 && filter.belief().variance_of_reading(filter.prediction().H) <= lasting;
+  }
+  /// A reading that tells nothing new is compared all the same.
+  Update look(int e, Scalar reading, const TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
+    static_cast<void>(compare(e, reading, tracker, filter, jacks));
+    return Update::waits;
+  }
+  /// After an update: the innovation of cell `e`.
+  void note(int e, Scalar reading, Scalar lasting, const FilterType& filter) {
+    const auto& belief = filter.belief();
+    const Scalar sd = state_.watch[e].sd;
+    state_.watch[e].take(reading, reading - belief.innovation(), belief.innovation_variance() + lasting,
+                         sd * sd);
+  }
   static int segment_at(const EndType& end, const TrackerType& tracker) {
     return tracker.model().cables[end.cable()].end_segment(end.end);
   }

@@ -64,6 +64,7 @@ struct JackLoad {
   int oldest = 0;
   std::int16_t seating = 0;  ///< the unknown of its wedge's draw-in, or -1
   Scalar come_sd = 0;        ///< standard deviation of the load where come_to_best() was [N]
+  Scalar lasts = 0;          ///< what its readings are off by together, NoiseLevel::Found::lasting [N]
   std::int16_t frozen = 0;   ///< the one of `memory` that its error is while other loads change, or -1
 
   /// A reading, or none if it is more than the cable can carry, `most` [N].
@@ -120,7 +121,9 @@ struct JackLoad {
   /// variance is larger than it was taken to be, or one.
   Scalar follow_noise(Scalar reading, const LoadCell<Scalar>& cell) {
     if (!(cell.sd > 0) || at.refused || !noise.take(reading, since)) return 1;
-    const Scalar sd = noise.sd(), times = sd / filter.sd(), worth_it = NoiseLevel<Scalar>::worth_it;
+    const auto found = noise.found();
+    lasts = found.lasting;
+    const Scalar sd = found.sd, times = sd / filter.sd(), worth_it = NoiseLevel<Scalar>::worth_it;
     if ((times <= worth_it && times * worth_it >= 1) || filter.has_waiting()) return 1;
     filter.change_sd(sd);
     return larger(times * times, Scalar(1));
@@ -192,6 +195,7 @@ struct JackLoad {
       corners.bends = true;
     }
     corners.times_noise = larger(corners.times_noise, follow_noise(given.force, cell));
+    at.sd = larger(at.sd, lasts);
     raw = given.force;
     if (cell.has_branches()) {
       at = behind_branches(at, cell);
@@ -234,6 +238,8 @@ struct JackLoad {
     const Scalar sd = says_load(cell) ? filter.sd() / branch(cell) : at.sd;
     return {seen(cell) - driven.force, sd * sd};
   }
+  /// The part of its standard deviation that readings of several rows have in common [N].
+  Scalar lasting(const LoadCell<Scalar>& cell) const { return locked ? Scalar(0) : lasts / branch(cell); }
   /// The same load itself [N].
   Scalar seen(const LoadCell<Scalar>& cell) const {
     return locked ? driven.force : says_load(cell) ? raw : at.load;
