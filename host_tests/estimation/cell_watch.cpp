@@ -87,7 +87,7 @@ TEST_CASE("a cell that rests because the force rests is not frozen") {
   for (const double reading : {0.0, 900.0}) {
     CAPTURE(reading);
     auto off = watch_of<double>(1);
-    for (int i = 0; i < 100; ++i) take(off, reading, 1000);
+    for (int i = 0; i < 300; ++i) take(off, reading, 1000);
     CHECK_FALSE(off.is_frozen);
     CHECK(off.fit.misfit() == doctest::Approx(1000 - reading));
   }
@@ -141,8 +141,26 @@ TEST_CASE("a new value ends it, and what it read while it was frozen is no misfi
 
 TEST_CASE("a misfit of a cell that lives is not forgotten with its next value") {
   auto watch = watch_of<double>(1);
-  for (int i = 0; i < 40; ++i) take(watch, 1010 + i, 1000 + i);
+  for (int i = 0; i < 300; ++i) take(watch, 1010 + i, 1000 + i);
   CHECK(watch.fit.misfit() == doctest::Approx(10));
+}
+
+TEST_CASE("a single reading, however absurd, is no misfit; a second one to the same side is") {
+  for (const double absurd : {1e3, 1e9, -1e30}) {
+    CAPTURE(absurd);
+    auto watch = watch_of<double>(1);
+    for (int i = 0; i < 40; ++i) take(watch, 1000, 1000);
+    take(watch, 1000 + absurd, 1000);
+    CHECK(watch.fit.misfit() == 0);
+    for (int i = 0; i < 40; ++i) {
+      take(watch, 1000 + (i % 2 == 0 ? -absurd : absurd), 1000);
+      take(watch, 1000, 1000);
+    }
+    CHECK(watch.fit.misfit() == 0);
+    take(watch, 1000 + absurd, 1000);
+    take(watch, 1000 + absurd, 1000);
+    CHECK(watch.fit.misfit() > std::fabs(absurd) / 32);
+  }
 }
 
 TEST_CASE("a display in coarse steps is not frozen where its noise level knows of them, and else is") {

@@ -163,9 +163,43 @@ TEST_CASE("an absurd reading is refused in its row, and the rest is as without i
       CHECK(force.at(29, "alarms").find("outlier:C.end") != std::string::npos);
       check_rest(Table(run(log("", odd, "")).out));
     }
+    // Nobody becomes less certain by it, nor by one that a cable could carry.
+    for (const std::string odd : {"9.9e37", "2e8", "1e7"}) {
+      CAPTURE(odd);
+      const Table start(run(log("", odd, "")).out);
+      CHECK(start.at(29, "alarms").find("sensor:C.start") != std::string::npos);
+      for (std::size_t i = 0; i < 60; ++i) {
+        CAPTURE(i);
+        for (const std::string column : {"C.sd1", "C.sd2", "C.sd3", "C.sd4"})
+          CHECK(start.number(i, column) < 2 * without.number(i, column) + 1);
+      }
+    }
     const Outcome factor = run(log("", "", "9.9e37"));
     check_rest(Table(factor.out));
     CHECK(factor.err.find("line 31, column 2 (q): the factor 9.9e+37") != std::string::npos);
+  }
+}
+
+TEST_CASE(
+    "a jack that has long rested and then pulls a stage a row is known within its interval in every row") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0)", R"("C.end": { "sd": 500 })"));
+  for (const double apart : {30.0, 600.0}) {
+    CAPTURE(apart);
+    std::string log = "time,C.end\n";
+    constexpr int rests = 40, stages = 6;
+    const auto force = [](int row) { return row < rests ? 0.0 : 2e5 * (row - rests + 1); };
+    for (int i = 0; i < rests + stages; ++i)
+      log += std::to_string(apart * i) + ',' + std::to_string(force(i) + (i % 2 == 0 ? 300 : -300)) + '\n';
+    write(scratch, "log.csv", log);
+    const Outcome outcome = estimate(scratch);
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const Table table(outcome.out);
+    for (int i = rests; i < rests + stages; ++i) {
+      CAPTURE(i);
+      const auto row = static_cast<std::size_t>(i);
+      CHECK(std::fabs(table.number(row, "C.T4") - force(i)) < 1.96 * table.number(row, "C.sd4"));
+    }
   }
 }
 

@@ -199,7 +199,7 @@ class Estimator : private CondensedType::Capacity::Account {
     }
     for (int e = 0; e < far_ends_.ends().size(); ++e) {
       const EndReading<Scalar>& given = far_ends_.ends()[e].in(readings.ends);
-      if (given.has_force)
+      if (can_be(given, far_ends_.ends()[e].cable()))
         corners.times_noise =
             larger(corners.times_noise, far_ends_.watch(e).follow_noise(given.force, readings.dt));
     }
@@ -636,12 +636,19 @@ class Estimator : private CondensedType::Capacity::Account {
     for (int e = 0; e < far_ends_.ends().size(); ++e) {
       const EndType& end = far_ends_.ends()[e];
       const EndReading<Scalar>& given = end.in(readings.ends);
-      if (given.has_force) learns |= measure_far_end(e, given.force, gathers);
+      if (can_be(given, end.cable()))
+        learns |= measure_far_end(e, given.force, gathers);
+      else if (given.has_force)
+        alarms_.add(alarm_at(Alarm::Kind::sensor, end));
       if (!(far_ends_.watch(e).fit.misfit() > 0)) continue;
       misfits_ = true;
       if (given.has_force && !far_ends_.watch(e).is_frozen) alarms_.add(alarm_at(Alarm::Kind::misfit, end));
     }
     return learns;
+  }
+  /// Whether an end was read, and no more than its cable can carry.
+  bool can_be(const EndReading<Scalar>& given, int cable) const {
+    return given.has_force && std::fabs(given.force) <= model().most_force[cable];
   }
   bool measure_far_end(int e, Scalar reading, bool gathers) {
     const EndType& end = far_ends_.ends()[e];

@@ -196,6 +196,9 @@ struct JackLoad {
     }
     corners.times_noise = larger(corners.times_noise, follow_noise(given.force, cell));
     at.sd = larger(at.sd, lasts);
+    // In a row a load stage the jack may well have gone where it was read, or as far again.
+    if (at.refused && since > JumpGuard<Scalar>::far_apart && std::isfinite(reading))
+      at.sd = larger(at.sd, std::fabs(reading - at.load));
     raw = given.force;
     if (cell.has_branches()) {
       at = behind_branches(at, cell);

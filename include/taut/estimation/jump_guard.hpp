@@ -15,6 +15,8 @@ template <class Scalar>
 class JumpGuard {
  public:
   static constexpr std::uint8_t most_held = 15;
+  /// Rows are load stages, or pauses lie between them [s].
+  static constexpr Scalar far_apart = 5;
 
   /// Begins at a load that is known [N].
   void start(Scalar load) {
@@ -41,7 +43,7 @@ class JumpGuard {
 
  private:
   static constexpr std::uint8_t enough = 8;
-  static constexpr Scalar far = 4, at_most = 3, far_apart = 5, pause = 4;
+  static constexpr Scalar far = 4, at_most = 3, pause = 4;
 
   Scalar last_ = 0, step_ = 0;  // the last reading that was believed; time between the last two [s]
   Scalar farthest_ = 0;         // that readings have gone in a row [N], less their scatter
