@@ -113,6 +113,13 @@ SOLVER_TEST_CASE("two jacks that differ by more than all friction pull the cable
   CHECK(bench.jack(0, 0, 1.001 * held).jack(0, 1, F).go().ok());
 }
 
+SOLVER_TEST_CASE("without friction two jacks that differ at all pull the cable through", solver) {
+  rigid_saddles(scene, steel_cable(0, two_jacks), chain_points(4));
+  PlaneBench bench(scene, solver);
+  CHECK(bench.jack(0, 0, 1e5).jack(0, 1, 1e5).go().ok());
+  CHECK_STATUS(bench.jack(0, 0, 0.99e5).go(), Code::pulled_through, Place::cable, 0);
+}
+
 SOLVER_TEST_CASE("two different jacks on a cable of one segment pull it through", solver) {
   rigid_saddles(scene, steel_cable(0, two_jacks), chain_points(1));
   PlaneBench bench(scene, solver);

@@ -79,8 +79,12 @@ class ModeDecision {
       const Status status = try_further_on(why);
       if (status || least) Cap::Watch::took(status ? Route::further_on : Route::refused);
       stride_ = status ? stride_ * Real(8) : larger(Real(1), stride_ / Real(8));
-      if (status || least) return status;
+      if (status) return status;
+      if (least) break;
     }
+    // Without friction, two jacks that differ leave a singular map, and no problem that has no answer.
+    const Status pulled = events_.pulled_through();
+    return pulled ? why : pulled;
   }
   /// After the model has changed under the same loads, with all moves frozen: finds all forces anew, near
   /// those of before.
