@@ -183,6 +183,29 @@ TEST_CASE(
   CHECK(run_taut(scratch, simulate).status == 0);
 }
 
+TEST_CASE(
+    "a second-order target at which no cable has tension is refused by its place, with nothing written") {
+  const Scratch scratch;
+  write(scratch, "log.csv", "time,C.end\n1,500000\n");
+  const std::string expected =
+      "/second_order/target: no cable has tension at the target; write the jack forces (\"forces\") and "
+      "loads "
+      "(\"loads\") under which the cables are taut\n";
+  for (const char* target : {"{}", R"({ "loads": {}, "forces": {} })", R"({ "forces": { "C.end": 0 } })"}) {
+    std::string scene = one_strut("0.1");
+    scene.replace(scene.rfind('}'), 1, std::string(R"(, "second_order": { "target": )") + target + " } }");
+    write(scratch, "scene.json", scene);
+    for (const std::string command : {"simulate", "estimate", "check", "export"}) {
+      const std::string log = command == "export" ? "" : " " + scratch.quoted("log.csv");
+      const std::string output = command == "check" ? "" : " -o " + scratch.quoted("result");
+      const Outcome outcome = run_taut(scratch, command + " " + scratch.quoted("scene.json") + log + output);
+      CHECK(outcome.status == 2);
+      CHECK(has(outcome.err, expected));
+      CHECK_FALSE(std::filesystem::exists(scratch.path / "result"));
+    }
+  }
+}
+
 TEST_CASE("noise of readings is no load that struts run away from") {
   const Scratch scratch;
   std::string scene = text_of(root + "/firmware_example/data/beam_string_radial.json");
