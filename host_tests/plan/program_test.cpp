@@ -151,6 +151,21 @@ TEST_CASE("friction that leaves no way near ends with 0 and names the segments t
   CHECK(has(run.outcome.out, "differ by more than the joints between them hold"));
 }
 
+TEST_CASE("a factor of a load that is more than the cables can carry is refused by its place in the goal") {
+  std::string warm = two_bays;
+  warm.replace(warm.find("\"seating\""), 0, "\"alpha\": 1.2e-5, ");
+  warm.replace(warm.find("\"dead\""), 0, "\"warm\": { \"temperature\": { \"C\": 10 } }, ");
+  for (const char* factor : {"1e6", "-1e30"}) {
+    const Run run = plan(
+        warm, std::string(R"({ "taut": 1, "target": { "C": 5e5 }, "loads": { "warm": )") + factor + " } }");
+    CHECK(run.outcome.status == 2);
+    CHECK(has(run.outcome.err, "goal.json: /loads/warm: the factor "));
+    CHECK(has(run.outcome.err, "is more than the cables can carry; write one of a size below "));
+    CHECK_FALSE(run.has_log);
+  }
+  CHECK(plan(warm, R"({ "taut": 1, "target": { "C": 5e5 }, "loads": { "warm": 2 } })").outcome.status == 0);
+}
+
 TEST_CASE("a goal that cannot be used is refused with its place and a remedy, and nothing is written") {
   struct Bad {
     std::string goal, place, says;

@@ -7,6 +7,7 @@
 #include "lib/files/file_text.hpp"
 #include "lib/files/json_field.hpp"
 #include "lib/files/text.hpp"
+#include "lib/kinds/condensed_arrays.hpp"
 
 namespace taut::host {
 namespace {
@@ -59,8 +60,18 @@ class GoalReader {
       if (found == known.end())
         factor.refuse("there is no load pattern " + quote(name),
                       suggestion(name, known, "the load patterns are"));
-      goal_.factor[static_cast<std::size_t>(found - known.begin())] = factor.number("a factor as a number");
+      goal_.factor[static_cast<std::size_t>(found - known.begin())] = possible(
+          factor, factor.number("a factor as a number"), static_cast<std::size_t>(found - known.begin()));
     }
+  }
+
+  // As in a log: more than the cables can carry is a mistake of the unit.
+  double possible(const Field& field, double factor, std::size_t load) const {
+    const std::vector<double> most = condense(scene_, ScalarType::float64).most_factor;
+    if (load < most.size() && std::fabs(factor) > most[load])
+      field.refuse("the factor " + plain(factor) + " is more than the cables can carry",
+                   "write one of a size below " + plain(most[load]) + ": is the unit wrong?");
+    return factor;
   }
 
   // A force that a plan can be measured by.
