@@ -203,6 +203,34 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("two jacks over next to no friction are followed to the end of their ramp") {
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 20);
+  for (const double mu : {0.0, 0.001, 0.02, 0.1})
+    for (const std::string scalar : {"double", "float"}) {
+      CAPTURE(mu);
+      CAPTURE(scalar);
+      const Scratch scratch;
+      std::string text = scene(R"("mu": )" + std::to_string(mu) + R"(, "mu_sd": 0.001)",
+                               R"("C.start": { "sd": 20, "gain_sd": 0, "zero_sd": 0 },
+    "C.end": { "sd": 20, "gain_sd": 0, "zero_sd": 0 })");
+      const std::string anchored = R"("start": "anchored")";
+      text.replace(text.find(anchored), anchored.size(), R"("start": "jacked")");
+      write(scratch, "scene.json", text);
+      std::string log = "time,C.start,C.end\n";
+      for (int i = 1; i <= 60; ++i)
+        log += std::to_string(i) + ',' + std::to_string(2000.0 * i + noise(random)) + ',' +
+               std::to_string(2000.0 * i + noise(random)) + '\n';
+      write(scratch, "log.csv", log);
+      const Outcome outcome = estimate(scratch, " --scalar " + scalar);
+      REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+      const Table table(outcome.out);
+      REQUIRE(table.rows.size() == 60);
+      CHECK(std::fabs(table.number(59, "C.T1") - 120000) < 200);
+      CHECK(std::fabs(table.number(59, "C.T4") - 120000) < 200);
+    }
+}
+
 TEST_CASE("the paper's experiment: mu from both forces, and from one force and that mu the other") {
   // Table 4 of Yan et al. (2015), original state: 40.00 kN at the jack, 33.35 kN at the other end, mu =
   // 0.2189.

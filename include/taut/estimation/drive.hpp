@@ -1,6 +1,7 @@
 // How a tracker is driven along with conditioned loads: straight on, or through corners.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 #include "taut/estimation/jack_loads.hpp"
@@ -41,10 +42,11 @@ template <class TrackerType, class Jacks, class SampleType>
   const auto& cable = tracker.model().cables[c];
   auto& jack = to.jack[c];
   const std::size_t more = jack[0].force < jack[1].force ? 1 : 0, less = 1 - more;
-  // Well inside, but two jacks on one segment pull alike.
-  Scalar carried = cable.joints() == 0 ? Scalar(1) : Scalar(1.02);
+  Scalar held = 1;
   for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
-    carried *= static_cast<Scalar>(tracker.rho(j));
+    held *= static_cast<Scalar>(tracker.rho(j));
+  // Well inside; but where friction holds next to nothing, or the cable is one segment, jacks pull alike.
+  const Scalar carried = -larger(-Scalar(1.02) * held, -std::sqrt(held));
   // Farthest toward the other one that a load can be; where one ramp has been noticed and the other not yet,
   // they are off by their noise too.
   const auto at_best = [&](std::size_t end, int way) {
