@@ -273,9 +273,7 @@ class PlanSearch {
     }
   }
 
-  bool is_one_jack() const {
-    return groups_.size() == 1 && groups_[0].jacks.size() == 1 && jacking_->loads_come_first();
-  }
+  bool is_one_jack() const { return groups_.size() == 1 && groups_[0].jacks.size() == 1; }
 
   // Pulls and releases of one jack on a grid, each pair with the best pull that can follow: one leg shows all
   // of those. The best few are where more moves begin.
@@ -384,7 +382,7 @@ class PlanSearch {
       other.is_closed = found.is_closed() && std::fabs(other.plan.outcome.merit() - found.error) <= as_good;
       take_better(best, std::move(other));
     };
-    if (!goal_.lock) {
+    if (!goal_.lock && jacking_->loads_are_on()) {
       const UpAndBack pull = best_pull(*jacking_, goal_, jack, start_);
       take(pull, {pull.up});
     }

@@ -51,6 +51,7 @@ bool Jacking::begin() {
   const std::string before = state();
   const Followed loaded = model_->advance(row_of(at_rest(), goal_.factor), 1);
   loads_come_first_ = loaded.whole() && !hangs_too_low();
+  loads_are_on_ = loads_come_first_;
   if (!loads_come_first_) go_to(before);
   return true;
 }
@@ -74,10 +75,12 @@ bool Jacking::begin_after(const std::vector<PastMove>& past) {
     const Followed path = model_->advance(row_of(past[i].stage, past[i].factor), 1);
     whole = path.whole();
     why_ = path.status;
-    if (whole)
-      beginning_ = past[i].stage;
-    else
+    if (!whole) {
       go_to(before);
+      continue;
+    }
+    beginning_ = past[i].stage;
+    loads_are_on_ = past[i].factor == goal_.factor;
   }
   return whole;
 }

@@ -78,6 +78,8 @@ class Jacking {
   [[nodiscard]] bool begin_after(const std::vector<PastMove>& past);
   const Status& why() const { return why_; }
   bool loads_come_first() const { return loads_come_first_; }
+  /// Whether all loads are on where plans begin; else they grow with the first move.
+  bool loads_are_on() const { return loads_are_on_; }
 
   const std::vector<PlanJack>& jacks() const { return jacks_; }
   PlanStage at_rest() const {
@@ -107,7 +109,7 @@ class Jacking {
   GiveUp give_up_;
   std::unique_ptr<LegModel> model_;
   PlanStage beginning_;
-  bool loads_come_first_ = true;
+  bool loads_come_first_ = true, loads_are_on_ = true;
   Status why_ = Status::success();
   std::size_t legs_ = 0;
 };

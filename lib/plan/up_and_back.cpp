@@ -43,14 +43,16 @@ class Pull {
     while (i + 1 < force_.size() && force_[i + 1] <= force) ++i;
     return i;
   }
-  /// The model is brought there.
-  void go_to(double force) {
-    const std::size_t i = below(force);
+  /// Brings the model there, if it has an answer. Loads that come with a pull grow as it does: then every
+  /// pull is a way of its own.
+  [[nodiscard]] bool go_to(double force) {
+    const bool is_one_way = jacking_.loads_are_on();
+    const std::size_t i = is_one_way ? below(force) : 0;
     jacking_.go_to(state_[i]);
-    if (force <= force_[i]) return;
+    if (is_one_way && force <= force_[i]) return true;
     PlanStage stage = jacking_.beginning();
     stage.force[jack_] = force;
-    jacking_.jump(stage);
+    return jacking_.jump(stage).whole;
   }
   // How fast the segments that matter change on the way up at most, relative to their targets [1/N].
   double steepest() const {
@@ -181,7 +183,7 @@ class Search {
     if (known != releases_.end()) return known->second;
     Release release;
     release.up = up;
-    pull_.go_to(up);
+    if (!pull_.go_to(up)) return releases_.emplace(up, std::move(release)).first->second;
     PlanStage let_out = jacking_.beginning();
     let_out.force[jack_] = 0;
     const Leg leg = jacking_.follow(let_out);
