@@ -134,7 +134,7 @@ TEST_CASE(
   CHECK(in_float.status == 1);
   CHECK(std::count(in_float.out.begin(), in_float.out.end(), '\n') == 2);
   CHECK(in_float.err == (scratch.path / "log.csv").string() +
-                            ": line 3 (row 2, time 2 s): strut1 is -inf; look for stiffnesses, lengths and "
+                            ": line 3 (row 2, time 2 s): strut1 = -inf; look for stiffnesses, lengths and "
                             "forces that differ by very many powers of ten; the result ends before it\n");
   CHECK(run_taut(scratch, "simulate " + arguments).status == 0);
 }
