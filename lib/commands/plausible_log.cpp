@@ -11,7 +11,7 @@
 namespace taut::host {
 namespace {
 
-constexpr double least_strain = 1e-5, part_of_length = 0.1, part_of_largest = 0.1, clear_of_noise = 20;
+constexpr double least_strain = 1e-5, part_of_length = 0.1, part_of_largest = 0.5, clear_of_noise = 20;
 constexpr double least_growth = 0.005, most_times_stretch = 100;  // [m], [-]
 constexpr std::size_t most_strokes = 4096, least_strokes = 3, least_readings = 3;
 
