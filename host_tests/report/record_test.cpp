@@ -171,6 +171,17 @@ std::set<std::string> places_in(const std::string& pattern) {
   return places;
 }
 
+/// With these required forces of the only jack, a stage each [N].
+Job job_of(const std::vector<double>& forces) {
+  Job job;
+  for (const double force : forces) {
+    JobStage stage;
+    stage.force = {{std::nullopt, force}};
+    job.stages.push_back(stage);
+  }
+  return job;
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -207,12 +218,7 @@ TEST_CASE(
 TEST_CASE("required stages are found one after the other, and one that was not reached is said") {
   Jacking jacking(0);
   jacking.whole();
-  Job job;
-  for (const double force : {4.04e5, 7.5e5, 1e6}) {
-    JobStage stage;
-    stage.force = {{std::nullopt, force}};
-    job.stages.push_back(stage);
-  }
+  Job job = job_of({4.04e5, 7.5e5, 1e6});
   const auto jacks = jack_records(jacking.scene, jacking.record, job);
   REQUIRE(jacks.size() == 1);
   CHECK(*jacks[0].lines[1].required == 4.04e5);
@@ -231,12 +237,7 @@ TEST_CASE("a required stage that was passed without a rest is on the record wher
     jacking.stage(2e4 * i);
     jacking.row.time -= 599;
   }
-  Job job;
-  for (const double force : {4.07e5, 1e6, 1.2e6}) {
-    JobStage stage;
-    stage.force = {{std::nullopt, force}};
-    job.stages.push_back(stage);
-  }
+  const Job job = job_of({4.07e5, 1e6, 1.2e6});
   const auto jacks = jack_records(jacking.scene, jacking.record, job);
   REQUIRE(jacks.size() == 1);
   const auto& lines = jacks[0].lines;
@@ -251,10 +252,7 @@ TEST_CASE("a required stage that was passed without a rest is on the record wher
 TEST_CASE("of stages near a required force the nearest is taken, and not one after the jack has gone on") {
   Jacking jacking(0);
   for (const double force : {9.6e5, 1e6, 5e5, 9.99e5}) jacking.stage(force);
-  Job job;
-  JobStage stage;
-  stage.force = {{std::nullopt, 1e6}};
-  job.stages = {stage};
+  const Job job = job_of({1e6});
   const auto jacks = jack_records(jacking.scene, jacking.record, job);
   REQUIRE(jacks.size() == 1);
   std::vector<double> required;

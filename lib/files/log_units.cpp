@@ -9,31 +9,31 @@ namespace taut::host {
 namespace {
 
 // The first of each is that of SI.
-const std::vector<LogUnit> units_of_times = {
+const std::vector<LogUnit> time_units = {
     {"s", 0, 1}, {"ms", -3, 1}, {"min", 0, 60}, {"h", 0, 3600}, {"d", 0, 86400.0}};
-const std::vector<LogUnit> units_of_forces = {
+const std::vector<LogUnit> force_units = {
     {"N", 0, 1}, {"kN", 3, 1}, {"MN", 6, 1}, {"lbf", 0, 4.4482216152605}, {"kip", 3, 4.4482216152605}};
-const std::vector<LogUnit> units_of_lengths = {
+const std::vector<LogUnit> length_units = {
     {"m", 0, 1}, {"mm", -3, 1}, {"cm", -2, 1}, {"in", 0, 0.0254}, {"ft", 0, 0.3048}};
-const std::vector<LogUnit> units_of_factors = {{"1", 0, 1}, {"-", 0, 1}, {"%", -2, 1}};
-const std::vector<LogUnit> units_of_switches = {{"1", 0, 1}, {"-", 0, 1}};
+const std::vector<LogUnit> factor_units = {{"1", 0, 1}, {"-", 0, 1}, {"%", -2, 1}};
+const std::vector<LogUnit> switch_units = {{"1", 0, 1}, {"-", 0, 1}};
 
 const std::vector<LogUnit>& units_of(Quantity quantity) {
   switch (quantity) {
     case Quantity::time:
-      return units_of_times;
+      return time_units;
     case Quantity::factor:
-      return units_of_factors;
+      return factor_units;
     case Quantity::locked:
-      return units_of_switches;
+      return switch_units;
     case Quantity::stroke:
-      return units_of_lengths;
+      return length_units;
     case Quantity::force:
     case Quantity::segment_force:
     case Quantity::strut_force:
-      return units_of_forces;
+      return force_units;
   }
-  return units_of_switches;
+  return switch_units;
 }
 
 std::string without_blanks_around(std::string text) {

@@ -43,7 +43,7 @@ struct CellWatch {
     const auto found = noise.found();
     lasts = found.lasting;
     const Scalar times = found.sd / sd;
-    if (times <= NoiseLevel<Scalar>::worth_it && times * NoiseLevel<Scalar>::worth_it >= 1) return 1;
+    if (!NoiseLevel<Scalar>::is_worth_it(times)) return 1;
     sd = found.sd;
     return larger(times * times, Scalar(1));
   }

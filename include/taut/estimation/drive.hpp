@@ -30,6 +30,18 @@ template <class TrackerType, class Jacks, class SampleType>
   return true;
 }
 
+/// The least part of its force that a cable has at one end where it is pulled at the other and slides over
+/// all joints: the product of rho. Cost: one product a joint.
+template <class TrackerType>
+typename TrackerType::Scalar held_over(const TrackerType& tracker, int c) {
+  using Scalar = typename TrackerType::Scalar;
+  const auto& cable = tracker.model().cables[c];
+  Scalar held = 1;
+  for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
+    held *= static_cast<Scalar>(tracker.rho(j));
+  return held;
+}
+
 /// What two jacks were confirmed to pull may differ by more than friction holds in the model, although it
 /// holds their loads: lets the one of cable `c` that pulls more pull only as much as friction holds. Returns
 /// false if and only if the loads themselves differ, by five sigma, by more than friction holds that is five
@@ -39,12 +51,9 @@ template <class TrackerType, class Jacks, class SampleType>
 [[nodiscard]] bool reconcile(const TrackerType& tracker, const Jacks& jacks, int c,
                              typename TrackerType::Scalar mu_sd, SampleType& to) {
   using Scalar = typename TrackerType::Scalar;
-  const auto& cable = tracker.model().cables[c];
   auto& jack = to.jack[c];
   const std::size_t more = jack[0].force < jack[1].force ? 1 : 0, less = 1 - more;
-  Scalar held = 1;
-  for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
-    held *= static_cast<Scalar>(tracker.rho(j));
+  const Scalar held = held_over(tracker, c);
   // Well inside; but where friction holds next to nothing, or the cable is one segment, jacks pull alike.
   const Scalar carried = -larger(-Scalar(1.02) * held, -std::sqrt(held));
   // Farthest toward the other one that a load can be; where one ramp has been noticed and the other not yet,

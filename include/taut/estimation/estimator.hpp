@@ -116,10 +116,7 @@ class Estimator : private CondensedType::Capacity::Account {
     }
     auto above = to;
     for (int k = 0; k < jacks_.size(); ++k) {
-      const auto& cable = model().cables[jacks_.end(k).cable()];
-      Scalar held = 1;
-      for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
-        held *= static_cast<Scalar>(tracker_.rho(j));
+      const Scalar held = held_over(tracker_, jacks_.end(k).cable());
       auto& force = jacks_.in(above.jack, k).force;
       const Scalar most = Scalar(0.99) * most_force(k), square = held * held;
       force = Scalar(1.02) * force < most * square ? Scalar(1.02) * force / square : most;

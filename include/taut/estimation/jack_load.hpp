@@ -123,9 +123,9 @@ struct JackLoad {
     if (!(cell.sd > 0) || at.refused || !noise.take(reading, since)) return 1;
     const auto found = noise.found();
     lasts = found.lasting;
-    const Scalar sd = found.sd, times = sd / filter.sd(), worth_it = NoiseLevel<Scalar>::worth_it;
-    if ((times <= worth_it && times * worth_it >= 1) || filter.has_waiting()) return 1;
-    filter.change_sd(sd);
+    const Scalar times = found.sd / filter.sd();
+    if (!NoiseLevel<Scalar>::is_worth_it(times) || filter.has_waiting()) return 1;
+    filter.change_sd(found.sd);
     return larger(times * times, Scalar(1));
   }
 

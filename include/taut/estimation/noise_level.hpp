@@ -31,8 +31,8 @@ namespace taut {
 template <class Scalar>
 class NoiseLevel {
  public:
-  /// A level that is so many times another is worth going over to.
-  static constexpr Scalar worth_it = Scalar(1.3);
+  /// Whether a level that is so many times another is worth going over to.
+  static bool is_worth_it(Scalar times) { return !(times <= worth_it && times * worth_it >= 1); }
 
   /// Readings scatter at least by `sd`.
   void start(Scalar sd) {
@@ -114,6 +114,7 @@ class NoiseLevel {
   }
 
  private:
+  static constexpr Scalar worth_it = Scalar(1.3);
   /// Every so many readings, half of a second, one is kept.
   static constexpr int fewest = 4, most = 250;
   static constexpr unsigned lag = 4;
