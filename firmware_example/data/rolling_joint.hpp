@@ -4,7 +4,7 @@
 #ifndef TAUT_DEVICE_HPP
 #if __has_include("taut/device.hpp")
 #include "taut/condensation/condensed.hpp"
-#include "taut/estimation/knowledge.hpp"
+#include "taut/estimation/friction_prior.hpp"
 #else
 #include "taut_device.hpp"  // taut in one header
 #endif
@@ -44,10 +44,10 @@ constexpr ::taut::Condensed<float, Capacity> make_condensed(float) {
             0x1.e848p+20F, 0x1.e848p+20F, 0x1.e848p+20F}}},
           /*most_factor*/ {}};
 }
-constexpr ::taut::Knowledge<float, Capacity> make_knowledge(float) {
+constexpr ::taut::FrictionPrior<float, Capacity> make_prior(float) {
   return {/*mu*/ {{{
             0x1.c04ea4a8c154dp-3, 0x1.1ba5e353f7ceep-3, 0x1.2c226809d4952p-2}}},
-          /*grip*/ {{{
+          /*contact_factor*/ {{{
             0x1.a827999fcef32p-2, 0x1.a827999fcef32p-2, 0x1.a827999fcef32p-2}}},
           /*capstan*/ {{{
             false, false, false}}},
@@ -94,10 +94,10 @@ constexpr ::taut::Condensed<double, Capacity> make_condensed(double) {
             0x1.e848p+20, 0x1.e848p+20, 0x1.e848p+20}}},
           /*most_factor*/ {}};
 }
-constexpr ::taut::Knowledge<double, Capacity> make_knowledge(double) {
+constexpr ::taut::FrictionPrior<double, Capacity> make_prior(double) {
   return {/*mu*/ {{{
             0x1.c04ea4a8c154dp-3, 0x1.1ba5e353f7ceep-3, 0x1.2c226809d4952p-2}}},
-          /*grip*/ {{{
+          /*contact_factor*/ {{{
             0x1.a827999fcef32p-2, 0x1.a827999fcef32p-2, 0x1.a827999fcef32p-2}}},
           /*capstan*/ {{{
             false, false, false}}},
@@ -128,7 +128,7 @@ inline constexpr ::taut::Condensed<Scalar, Capacity> condensed = detail::make_co
 /// What is known of friction and load cells, for Estimator. Where the scene has no mu_sd it is half of the mean mu.
 /// Of a jack that the scene does not say to be exact, an ordinary cell is taken, at an anchored end only one whose sd it says.
 template <class Scalar>
-inline constexpr ::taut::Knowledge<Scalar, Capacity> knowledge = detail::make_knowledge(Scalar());
+inline constexpr ::taut::FrictionPrior<Scalar, Capacity> prior = detail::make_prior(Scalar());
 
 /// The Parameters of an Estimator of this scene.
 constexpr int unknowns = 3;

@@ -117,8 +117,7 @@ int replay(const std::string& file, monitor::host::Link& link) {
   require_jacks(log, file);
   Device device(link);
   const auto found = device.choose(0);
-  if (!found.status ||
-      found.fingerprint != monitor::fingerprint(FlashScene::model(), FlashScene::knowledge())) {
+  if (!found.status || found.fingerprint != monitor::fingerprint(FlashScene::model(), FlashScene::prior())) {
     std::fprintf(stderr,
                  "monitor: the device does not hold the recorded experiment; build it without a scene\n");
     return no_answer;

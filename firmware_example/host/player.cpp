@@ -56,10 +56,10 @@ class AnswerReader {
     states(joints);
     reals(found_.contact, joints);
     reals(found_.friction, joints);
-    found_.payout.resize(scene.cables.size());
+    found_.extension.resize(scene.cables.size());
     for (std::size_t c = 0; c < scene.cables.size(); ++c)
       for (std::size_t end = 0; end < 2; ++end)
-        if (scene.cables[c].is_jacked(end)) found_.payout[c][end] = real();
+        if (scene.cables[c].is_jacked(end)) found_.extension[c][end] = real();
     reals(found_.strut, scene.struts.size());
     reals(found_.deviation, segments);
     reals(found_.mu, joints);

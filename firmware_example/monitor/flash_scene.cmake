@@ -26,7 +26,7 @@ foreach(name IN LISTS names)
   if(NOT held_by_${name} MATCHES "make_condensed\\(float\\)")
     message(FATAL_ERROR "The scene ${name} in ${HEADER} cannot be condensed in float; `taut check` says what is stiff and soft")
   endif()
-  if(NOT held_by_${name} MATCHES "make_knowledge\\(float\\)")
+  if(NOT held_by_${name} MATCHES "make_prior\\(float\\)")
     message(FATAL_ERROR "${HEADER} is of an older `taut export`; export the scene again")
   endif()
   set(rows "nullptr")
@@ -58,7 +58,7 @@ foreach(name IN LISTS names)
   static constexpr const Model& model() { return ::@name@::condensed<float>; }
   static constexpr const Model::Struts* struts() { return @rows@; }
   static constexpr int strut_count = @strut_count@;
-  static constexpr const ::taut::Knowledge<float, Capacity>& knowledge() { return ::@name@::knowledge<float>; }
+  static constexpr const ::taut::FrictionPrior<float, Capacity>& prior() { return ::@name@::prior<float>; }
   static constexpr auto strokes() { return @strokes@; }
   static constexpr int stroke_count = @stroke_count@;
   static constexpr int unknowns = ::@name@::unknowns, reading_unknowns = ::@name@::reading_unknowns;

@@ -24,7 +24,7 @@ namespace modbus {
 // Input registers.
 constexpr int status = 0, findings = 100;
 constexpr int tension = 1000, deviation = 2000, mu = 3000, mu_deviation = 4000, slip = 5000, contact = 6000,
-              friction = 7000, payout = 8000, strut = 9000, state = 10000;
+              friction = 7000, extension = 8000, strut = 9000, state = 10000;
 constexpr int block = 1000;
 
 // Holding registers.
@@ -398,11 +398,11 @@ class ModbusMap {
         return give(joints, [&](int k) { return response.contact[k]; });
       case modbus::friction:
         return give(joints, [&](int k) { return response.friction[k]; });
-      case modbus::payout: {
+      case modbus::extension: {
         int jacks = 0;
         float extension = 0;
         taut::for_each_jacked_end(session.model().cables, [&](int c, std::size_t end) {
-          if (jacks++ == i) extension = response.payout[c][end];
+          if (jacks++ == i) extension = response.extension[c][end];
         });
         return give(jacks, [&](int) { return extension; });
       }

@@ -10,7 +10,7 @@
 #include "taut/condensation/condense.hpp"
 #include "taut/condensation/second_order.hpp"
 #include "taut/estimation/estimator.hpp"
-#include "taut/estimation/find_knowledge.hpp"
+#include "taut/estimation/find_friction_prior.hpp"
 #include "taut/estimation/gauges.hpp"
 #include "taut/status.hpp"
 
@@ -30,7 +30,7 @@ struct Strokes {
 };
 
 /// Scenes that `taut export` has condensed, of one capacity and in one theory: constants in flash. Each has
-/// Model, model(), knowledge(), struts(), strut_count, strokes(), stroke_count and, the same for all,
+/// Model, model(), prior(), struts(), strut_count, strokes(), stroke_count and, the same for all,
 /// unknowns and reading_unknowns.
 template <class First, class... Others>
 class FromFlash {
@@ -46,7 +46,7 @@ class FromFlash {
     return taut::Status::success();
   }
   const Model& model() const { return *present().model; }
-  const taut::Knowledge<float, Capacity>& knowledge() const { return *present().knowledge; }
+  const taut::FrictionPrior<float, Capacity>& prior() const { return *present().prior; }
   const typename Model::Struts* struts() const { return present().struts; }
   int strut_count() const { return present().strut_count; }
   using StrokesType = Strokes<std::max({First::stroke_count, Others::stroke_count...})>;
@@ -55,7 +55,7 @@ class FromFlash {
  private:
   struct Parts {
     const Model* model;
-    const taut::Knowledge<float, Capacity>* knowledge;
+    const taut::FrictionPrior<float, Capacity>* prior;
     const typename Model::Struts* struts;
     int strut_count;
     const taut::StrokeGauge<float>* strokes;
@@ -66,8 +66,8 @@ class FromFlash {
     static_assert(std::is_same_v<typename Exported::Model, Model> && Exported::unknowns == unknowns &&
                       Exported::reading_unknowns == reading_unknowns,
                   "scenes that share their memory are exported together");
-    return {&Exported::model(),    &Exported::knowledge(), Exported::struts(),
-            Exported::strut_count, Exported::strokes(),    Exported::stroke_count};
+    return {&Exported::model(),    &Exported::prior(),  Exported::struts(),
+            Exported::strut_count, Exported::strokes(), Exported::stroke_count};
   }
   static constexpr Parts parts[scenes] = {parts_of<First>(), parts_of<Others>()...};
 
@@ -76,12 +76,12 @@ class FromFlash {
   int number_ = 0;
 };
 
-/// Room for what an Estimator of the scene does not know; locked joints have some too, for only condensation
-/// tells which they are.
+/// Room for what an Estimator of the scene does not know; self-locking joints have some too, for only
+/// condensation tells which they are.
 template <class SceneType>
 constexpr taut::UnknownCounts most_unknowns(const SceneType& scene) {
   using Model = taut::Condensed<float, typename SceneType::Capacity>;
-  taut::Knowledge<float, typename SceneType::Capacity> known{};
+  taut::FrictionPrior<float, typename SceneType::Capacity> known{};
   for (int c = 0; c < scene.cables.size(); ++c) {
     known.mu_sd[c] = static_cast<float>(scene.cables[c].mu_sd);
     known.shared[c] = scene.cables[c].shared_mu;
@@ -111,11 +111,11 @@ class CondensedAtStartUp {
 
   taut::Status prepare(int) {
     const taut::Status status = condensation_.run(scene, condensed_, &struts_);
-    if (status) taut::find_knowledge(scene, knowledge_);
+    if (status) taut::find_friction_prior(scene, prior_);
     return status;
   }
   const Model& model() const { return condensed_; }
-  const taut::Knowledge<float, Capacity>& knowledge() const { return knowledge_; }
+  const taut::FrictionPrior<float, Capacity>& prior() const { return prior_; }
   const typename Model::Struts* struts() const { return &struts_; }
   static constexpr int strut_count() { return scene.struts.size(); }
   using StrokesType = Strokes<0>;
@@ -124,7 +124,7 @@ class CondensedAtStartUp {
  private:
   taut::Condensation<float, SceneType> condensation_;
   Model condensed_;
-  taut::Knowledge<float, Capacity> knowledge_;
+  taut::FrictionPrior<float, Capacity> prior_;
   taut::CondensedStruts<float, Capacity> struts_;
 };
 
@@ -163,7 +163,7 @@ void add_scene(Crc32& crc, const taut::SecondOrder<float, Capacity>& model) {
   };
   if constexpr (Capacity::joints > 0) {
     add_rows(model.lean.bends);
-    add(model.lean.grip_by_bend);
+    add(model.lean.kappa_by_bend);
   }
   add_rows(model.lean.aside);
   if constexpr (Capacity::struts + Capacity::beams > 0) add(model.lean.tension_by_bar);
@@ -172,26 +172,25 @@ void add_scene(Crc32& crc, const taut::SecondOrder<float, Capacity>& model) {
 }
 
 /// A number that changes with everything that the scene's answers depend on.
-template <class Model, class KnowledgeType, class StrokesType = Strokes<0>>
-std::uint32_t fingerprint(const Model& model, const KnowledgeType& knowledge,
-                          const StrokesType& strokes = {}) {
+template <class Model, class PriorType, class StrokesType = Strokes<0>>
+std::uint32_t fingerprint(const Model& model, const PriorType& prior, const StrokesType& strokes = {}) {
   Crc32 crc;
   const auto add = [&crc](const auto& value) { crc.add(&value, sizeof value); };
   add_scene(crc, model);
   if constexpr (Model::Capacity::joints > 0) {
-    add(knowledge.mu);
-    add(knowledge.grip);
-    add(knowledge.length);
+    add(prior.mu);
+    add(prior.contact_factor);
+    add(prior.length);
   }
   const int cables = taut::linear_part(model).cables.size();
   for (int c = 0; c < cables; ++c) {
-    add(knowledge.capstan[c]);
-    add(knowledge.mu_sd[c]);
-    add(knowledge.shared[c]);
-    add(knowledge.scatter[c]);
-    add(knowledge.seating_sd[c]);
-    add(knowledge.drift_sd[c]);
-    add(knowledge.cell[c]);
+    add(prior.capstan[c]);
+    add(prior.mu_sd[c]);
+    add(prior.shared[c]);
+    add(prior.scatter[c]);
+    add(prior.seating_sd[c]);
+    add(prior.drift_sd[c]);
+    add(prior.cell[c]);
   }
   for (const auto& stroke : strokes) add(stroke);
   return crc.value();

@@ -99,8 +99,7 @@ class Session {
     outcome_ = {};
     outcome_.status = source_.prepare(number);
     if (outcome_.status)
-      outcome_.status =
-          estimator_.start(source_.model(), knowledge(), alarm_limits(), source_.strokes()).status;
+      outcome_.status = estimator_.start(source_.model(), prior(), alarm_limits(), source_.strokes()).status;
     outcome_.quality = outcome_.status ? Quality::held : Quality::none;
     usable_ = outcome_.status.ok();
     return outcome_.status;
@@ -108,12 +107,12 @@ class Session {
   bool usable() const { return usable_; }
   /// The counts and the layout of its cables: what it says in whichever theory.
   const taut::Condensed<float, Cap>& model() const { return taut::linear_part(source_.model()); }
-  const taut::Knowledge<float, Cap>& knowledge() const { return source_.knowledge(); }
+  const taut::FrictionPrior<float, Cap>& prior() const { return source_.prior(); }
   const Outcome& outcome() const { return outcome_; }
 
   /// What must be the same for a record to be read back.
   std::uint32_t maker() const {
-    return usable_ ? fingerprint(source_.model(), knowledge(), source_.strokes()) : 0;
+    return usable_ ? fingerprint(source_.model(), prior(), source_.strokes()) : 0;
   }
   /// The state, until the next call; above_size() says whether there is more.
   const State& save() {
@@ -142,14 +141,13 @@ class Session {
     outcome_ = kept_.outcome;
     waited_ = kept_.waited;
     findings_ = kept_.findings;
-    return estimator_
-        .restore(source_.model(), knowledge(), kept_.estimator, alarm_limits(), source_.strokes())
+    return estimator_.restore(source_.model(), prior(), kept_.estimator, alarm_limits(), source_.strokes())
         .ok();
   }
   /// After restore(), whether there is a second estimator or not.
   bool restore_past() {
     if constexpr (Settings::doubts_past) {
-      const taut::Status status = past_.restore(kept_.past, kept_.estimator, source_.model(), knowledge(),
+      const taut::Status status = past_.restore(kept_.past, kept_.estimator, source_.model(), prior(),
                                                 alarm_limits(), source_.strokes());
       return status.ok();
     }
@@ -213,7 +211,7 @@ class Session {
     }
     readings_.dt += waited_;
     waited_ = 0;
-    past_.look(source_.model(), knowledge(), readings_);
+    past_.look(source_.model(), prior(), readings_);
     keep_strokes();
     past_.withhold(source_.model(), readings_);
     Way below, above;
@@ -227,8 +225,8 @@ class Session {
       }
       if (call == 0) findings_ = estimator_.alarms();
       if (!above.is_over()) {
-        above.add(past_.advance(source_.model(), knowledge(), alarm_limits(), source_.strokes(), readings_,
-                                budget));
+        above.add(
+            past_.advance(source_.model(), prior(), alarm_limits(), source_.strokes(), readings_, budget));
         feed();
       }
       // They are taken; what follows is the rest of the path.
@@ -261,7 +259,7 @@ class Session {
     for (int j = 0; j < joints; ++j) frame.real(response_.contact[j]);
     for (int j = 0; j < joints; ++j) frame.real(response_.friction[j]);
     taut::for_each_jacked_end(model().cables,
-                              [&](int c, std::size_t end) { frame.real(response_.payout[c][end]); });
+                              [&](int c, std::size_t end) { frame.real(response_.extension[c][end]); });
     for (int i = 0; i < source_.strut_count(); ++i) frame.real(response_.strut[i]);
     for (int i = 0; i < segments; ++i) frame.real(deviation(i));
     for (int j = 0; j < joints; ++j) frame.real(estimator_.mu(j));

@@ -175,9 +175,9 @@ float far_end(const Model& model, float force) {
 /// The cable is jacked at its end.
 void estimate() {
   const Model& model = taut::linear_part(monitor::FlashScene::model());
-  const auto& knowledge = monitor::FlashScene::knowledge();
-  const auto& cell = knowledge.cell[0];
-  estimator.start(monitor::FlashScene::model(), knowledge).status.ok();
+  const auto& prior = monitor::FlashScene::prior();
+  const auto& cell = prior.cell[0];
+  estimator.start(monitor::FlashScene::model(), prior).status.ok();
   float force = 0;
   for (int step = 0; step < steps; ++step) {
     force = next(force, step);

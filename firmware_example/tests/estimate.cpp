@@ -41,7 +41,7 @@ struct Limited : monitor::Settings {
 };
 
 // The fields of an answer, where its values begin at 10: 3 tensions, 2 slips, one word of states, 2 contact
-// and 2 friction forces, a payout, 3 deviations, 2 mu and their deviations, alarms.
+// and 2 friction forces, an extension, 3 deviations, 2 mu and their deviations, alarms.
 float deviation(const Fields& answer, std::size_t segment) { return real(answer.at(21 + segment)); }
 float mu(const Fields& answer) { return real(answer.at(24)); }
 float mu_deviation(const Fields& answer) { return real(answer.at(26)); }

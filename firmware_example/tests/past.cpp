@@ -8,7 +8,7 @@ namespace {
 constexpr int segments = 4;
 
 // The fields of an answer of the truss string, where its values begin at 10: 4 tensions, 3 slips, a word of
-// states, 3 contact and 3 friction forces, a payout, 13 struts, 4 deviations, 3 mu and their deviations,
+// states, 3 contact and 3 friction forces, an extension, 13 struts, 4 deviations, 3 mu and their deviations,
 // alarms.
 float deviation(const Fields& answer, std::size_t segment) { return real(answer.at(38 + segment)); }
 bool doubts_past(const Fields& answer) {

@@ -44,8 +44,8 @@ template <class Source>
 using Device = Rig<monitor::Application<monitor::host::MemoryBoard, monitor::Settings, Source>>;
 
 // The fields of an answer, where its values begin at 10: 4 tensions, 3 slips, a word of states, 3 contact and
-// 3 friction forces, a payout, 4 deviations, 3 mu and their deviations, alarms.
-float payout(const Fields& answer) { return real(answer.at(24)); }
+// 3 friction forces, an extension, 4 deviations, 3 mu and their deviations, alarms.
+float extension(const Fields& answer) { return real(answer.at(24)); }
 float mu_deviation(const Fields& answer) { return real(answer.at(32)); }
 bool finds(const Fields& answer, taut::Alarm::Kind kind) {
   for (std::size_t i = 35; i < answer.size(); ++i)
@@ -65,7 +65,7 @@ std::string row_of(int row, const Reading& stroke) {
 }
 /// What the jack pays out with the friction that is expected, beyond a mark at 0.4 m.
 Reading stroke_at(const Fields& answer, int row) {
-  return row % 3 == 0 ? Reading(0.4F + payout(answer)) : none;
+  return row % 3 == 0 ? Reading(0.4F + extension(answer)) : none;
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ TEST_CASE("a stroke that contradicts as a measurement is said though it is withi
   }
   const float before = mu_deviation(answer);
   expected = checked.ask(row_of(24, none));
-  answer = measured.ask(row_of(24, 0.4F + 1.045F * payout(expected)));
+  answer = measured.ask(row_of(24, 0.4F + 1.045F * extension(expected)));
   CHECK(finds(answer, taut::Alarm::Kind::elongation));
   CHECK(mu_deviation(answer) == before);
 }
@@ -104,7 +104,7 @@ TEST_CASE("four standard deviations of a stroke's noise are no elongation") {
   for (int row = 0; row <= 6; ++row) {
     const Fields expected = checked.ask(row_of(row, none));
     const float off = row == 6 ? 0.002F : 0;
-    const Reading stroke = row % 3 == 0 ? Reading(0.4F + payout(expected) + off) : none;
+    const Reading stroke = row % 3 == 0 ? Reading(0.4F + extension(expected) + off) : none;
     CHECK_FALSE(finds(measured.ask(row_of(row, stroke)), taut::Alarm::Kind::elongation));
   }
 }

@@ -205,7 +205,7 @@ class Estimating {
     cable.cell[0].sd = cable.cell[1].sd = noise;
     const auto condensation = std::make_unique<taut::Condensation<Scalar, Scene<Cap>>>();
     good_ = condensation->run(*known, condensed_).ok();
-    taut::find_knowledge(*known, knowledge_);
+    taut::find_friction_prior(*known, prior_);
     readings_.ends[0][0].has_force = readings_.ends[0][1].has_force = true;
   }
   /// Reads the far end as it is with a mu of 0.4.
@@ -223,7 +223,7 @@ class Estimating {
   }
   void restart() {
     row_ = 0;
-    good_ = estimator_.start(condensed_, knowledge_).status.ok() && good_;
+    good_ = estimator_.start(condensed_, prior_).status.ok() && good_;
   }
   void advance(const taut::Sample<Scalar, Cap>& sample) {
     const Scalar force = sample.jack[0][1].force;
@@ -239,7 +239,7 @@ class Estimating {
 
  private:
   taut::Condensed<Scalar, Cap> condensed_;
-  taut::Knowledge<Scalar, Cap> knowledge_;
+  taut::FrictionPrior<Scalar, Cap> prior_;
   taut::Estimator<taut::Condensed<Scalar, Cap>, 3> estimator_;
   taut::Readings<Scalar, Cap> readings_;
   std::array<Scalar, 2 * samples> scatter_ = scatter<Scalar>();

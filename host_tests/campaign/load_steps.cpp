@@ -191,10 +191,10 @@ class LoadSteps::Stepper {
       : scene_(std::move(given)), bars_(scene_), anatomy_(scene_), random_(1) {
     for (int c = 0; c < scene_.cables.size(); ++c) add_cable(c);
     moved_.slip.assign(joints_.size(), 0);
-    moved_.payout.assign(2 * std::size_t(scene_.cables.size()), 0);
+    moved_.extension.assign(2 * std::size_t(scene_.cables.size()), 0);
     moved_.excess.assign(std::size_t(segments()), 0);
     now_.factors.assign(std::size_t(scene_.loads), 0);
-    now_.ends.resize(moved_.payout.size());
+    now_.ends.resize(moved_.extension.size());
     for (std::size_t end = 0; end < now_.ends.size(); ++end) {
       const auto& cable = scene_.cables[int(end / 2)];
       now_.ends[end].jacked = !cable.closed && cable.ends[end % 2] == taut::End::jacked;
@@ -257,7 +257,7 @@ class LoadSteps::Stepper {
   }
 
   Exact tension(int segment) const { return tension_[segment]; }
-  Exact payout(int end) const { return moved_.payout[std::size_t(end)]; }
+  Exact extension(int end) const { return moved_.extension[std::size_t(end)]; }
   Exact violation() const { return violation_; }
   Exact largest_change() const { return largest_change_; }
   Exact pivot() const { return pivot_; }
@@ -326,8 +326,8 @@ class LoadSteps::Stepper {
   void set_end(int end, const taut::Jack<double>& jack, End& from, End& to) {
     to.locked = jack.locked;
     if (jack.locked && !from.locked) {
-      from.payout = moved_.payout[std::size_t(end)];
-      to.payout = from.payout - Exact(scene_.cables[end / 2].seating);
+      from.extension = moved_.extension[std::size_t(end)];
+      to.extension = from.extension - Exact(scene_.cables[end / 2].seating);
     } else if (!jack.locked) {
       if (from.locked) {
         from.force = tension_[end_segment(end)];
@@ -342,7 +342,7 @@ class LoadSteps::Stepper {
     for (const Stretch& stretch : stretches_) {
       if (stretch.ends[0] != end && stretch.ends[1] != end) continue;
       Exact& excess = moved_.excess[std::size_t(stretch.segments[0])];
-      moved_.payout[std::size_t(end)] += excess;
+      moved_.extension[std::size_t(end)] += excess;
       if (stretch.ends[0] != end)
         for (const int j : stretch.joints) moved_.slip[std::size_t(j)] += excess;
       excess = 0;
@@ -358,7 +358,7 @@ class LoadSteps::Stepper {
       mixed.factors[i] = mix(from.factors[i], to.factors[i]);
     for (std::size_t i = 0; i < to.ends.size(); ++i) {
       mixed.ends[i].force = mix(from.ends[i].force, to.ends[i].force);
-      mixed.ends[i].payout = mix(from.ends[i].payout, to.ends[i].payout);
+      mixed.ends[i].extension = mix(from.ends[i].extension, to.ends[i].extension);
     }
     return mixed;
   }
@@ -409,7 +409,7 @@ class LoadSteps::Stepper {
     }
     for (std::size_t end = 0; end < drive.ends.size(); ++end) {
       if (!drive.ends[end].jacked) continue;
-      e[end_segment(int(end))] += drive.ends[end].locked ? drive.ends[end].payout : moves.payout[end];
+      e[end_segment(int(end))] += drive.ends[end].locked ? drive.ends[end].extension : moves.extension[end];
     }
     for (int i = 0; i < segments(); ++i) e[i] += moves.excess[std::size_t(i)];
     Vector T = drive.prestrain * bars_.prestrain().head(segments()) + W_ * e;
@@ -438,7 +438,7 @@ class LoadSteps::Stepper {
     return worst;
   }
 
-  /// What follows at once from a tension that is given: the payouts of the jacks at work, and the slips of
+  /// What follows at once from a tension that is given: the extensions of the jacks at work, and the slips of
   /// the joints of a stretch that such a jack leaves without force, where friction has nothing to hold.
   struct Followers {
     struct Law {
@@ -590,11 +590,11 @@ class LoadSteps::Stepper {
     const Vector more = followers.follow(T, followers.given());
     for (std::size_t k = 0; k < followers.laws.size(); ++k) {
       const auto& law = followers.laws[k];
-      (law.end >= 0 ? moves.payout[std::size_t(law.end)] : moves.slip[std::size_t(law.joint)]) +=
+      (law.end >= 0 ? moves.extension[std::size_t(law.end)] : moves.slip[std::size_t(law.joint)]) +=
           more[Index(k)];
     }
     for (std::size_t end = 0; end < to.ends.size(); ++end)
-      if (to.ends[end].locked) moves.payout[end] = to.ends[end].payout;
+      if (to.ends[end].locked) moves.extension[end] = to.ends[end].extension;
     const Exact least = -sound_ * std::max(peak_, T.cwiseAbs().maxCoeff());
     if (!(T.minCoeff() >= least)) return false;
     for (const Joint& at : joints_)
@@ -673,7 +673,7 @@ LoadSteps::~LoadSteps() = default;
 bool LoadSteps::start(int steps) { return stepper_->start(steps); }
 bool LoadSteps::advance(const reference::Row& row, int steps) { return stepper_->advance(row, steps); }
 Exact LoadSteps::tension(int segment) const { return stepper_->tension(segment); }
-Exact LoadSteps::payout(int end) const { return stepper_->payout(end); }
+Exact LoadSteps::extension(int end) const { return stepper_->extension(end); }
 Exact LoadSteps::violation() const { return stepper_->violation(); }
 Exact LoadSteps::largest_change() const { return stepper_->largest_change(); }
 LoadSteps::Way LoadSteps::probe(const Drive& now, const Drive& goal, const Moves& moves, Exact peak) {

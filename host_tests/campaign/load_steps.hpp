@@ -23,8 +23,8 @@ class LoadSteps {
   /// Loads, prestrain and jacks at one point of the path.
   struct End {
     bool jacked = false, locked = false;
-    Exact force = 0;   ///< of a jack at work [N]
-    Exact payout = 0;  ///< of a locked end [m]
+    Exact force = 0;      ///< of a jack at work [N]
+    Exact extension = 0;  ///< of a locked end [m]
   };
   struct Drive {
     std::vector<Exact> factors;
@@ -34,7 +34,7 @@ class LoadSteps {
   /// What has moved [m]: over every joint, out of every cable end, and the excess length of a slack stretch
   /// at its first segment.
   struct Moves {
-    std::vector<Exact> slip, payout, excess;
+    std::vector<Exact> slip, extension, excess;
   };
 
   template <int Dimension, class Cap>
@@ -52,7 +52,7 @@ class LoadSteps {
 
   Exact tension(int segment) const;
   /// Of a cable end, 2 x cable + end [m].
-  Exact payout(int end) const;
+  Exact extension(int end) const;
   /// The worst violation of balance, T >= 0 and friction in any step, as a part of the largest force.
   Exact violation() const;
   /// The largest change of a tension in one step of the last path, as a part of the largest force.

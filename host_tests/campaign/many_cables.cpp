@@ -105,15 +105,15 @@ class Trial {
 
   /// Where the tracker was before the row that it refuses, as far as the goal depends on it.
   struct Begun {
-    std::vector<Exact> payout;
+    std::vector<Exact> extension;
     std::vector<bool> locked;
   };
   Begun remember(const Run<double>& run) const {
     Begun begun;
-    const auto moves = run.tracker().moves();
+    const auto moves = run.tracker().slip_state();
     for (int c = 0; c < world_.scene.cables.size(); ++c)
       for (std::size_t end = 0; end < 2; ++end) {
-        begun.payout.push_back(Exact(moves.payout[c][end]));
+        begun.extension.push_back(Exact(moves.extension[c][end]));
         begun.locked.push_back(run.tracker().loads().jack[c][end].locked);
       }
     return begun;
@@ -231,14 +231,14 @@ class Trial {
 
   LoadSteps::Way probe(LoadSteps& judge, const Run<double>& run, int row, const Begun& begun) const {
     const auto& tracker = run.tracker();
-    const auto reached = tracker.moves();
+    const auto reached = tracker.slip_state();
     const auto& loads = tracker.loads();
     const auto& scene = world_.scene;
     LoadSteps::Drive now, goal;
     LoadSteps::Moves moves;
     moves.excess.assign(std::size_t(scene.prestrain.size()), 0);
-    for (int r = 0; r < tracker.runs().size(); ++r)
-      moves.excess[std::size_t(tracker.runs()[r].segment(0))] = Exact(reached.slack_length[r]);
+    for (int r = 0; r < tracker.spans().size(); ++r)
+      moves.excess[std::size_t(tracker.spans()[r].segment(0))] = Exact(reached.slack_length[r]);
     for (int j = 0; j < scene.mu.size(); ++j) moves.slip.push_back(Exact(reached.slip[j]));
     for (int k = 0; k < scene.loads; ++k) {
       now.factors.push_back(Exact(loads.factor[k]));
@@ -250,13 +250,14 @@ class Trial {
       for (std::size_t end = 0; end < 2; ++end) {
         const auto& at = loads.jack[c][end];
         LoadSteps::End from{!scene.cables[c].closed && scene.cables[c].ends[end] == taut::End::jacked,
-                            at.locked, Exact(at.force), Exact(at.payout)};
+                            at.locked, Exact(at.force), Exact(at.extension)};
         LoadSteps::End to = from;
-        moves.payout.push_back(Exact(reached.payout[c][end]));
+        moves.extension.push_back(Exact(reached.extension[c][end]));
         if (from.jacked && row >= 0) {
           const auto& asked = world_.samples[std::size_t(row)].jack[c][end];
           const std::size_t i = 2 * std::size_t(c) + end;
-          if (asked.locked && !begun.locked[i]) to.payout = begun.payout[i] - Exact(scene.cables[c].seating);
+          if (asked.locked && !begun.locked[i])
+            to.extension = begun.extension[i] - Exact(scene.cables[c].seating);
           if (!asked.locked) to.force = Exact(asked.force);
         }
         now.ends.push_back(from);

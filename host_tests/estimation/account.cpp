@@ -64,15 +64,15 @@ std::unique_ptr<Estimator> pulled(bool has_cell, double gauge_sd) {
   support::rigid_saddles(scene, cable, support::chain_points(5));
   static taut::Condensation<double, taut::Scene<double, 2, Recorded>> condensation;
   static Model model;
-  static taut::Knowledge<double, Recorded> knowledge;
+  static taut::FrictionPrior<double, Recorded> prior;
   REQUIRE(condensation.run(scene, model).ok());
-  taut::find_knowledge(scene, knowledge);
+  taut::find_friction_prior(scene, prior);
   auto estimator = std::make_unique<Estimator>();
   taut::FixedList<taut::LoadCell<double>, 1> gauges;
   taut::LoadCell<double> gauge;
   gauge.sd = gauge_sd;
   gauges.add(gauge);
-  REQUIRE(estimator->start(model, knowledge, {}, gauges).status.ok());
+  REQUIRE(estimator->start(model, prior, {}, gauges).status.ok());
   Random random(20261123);
   for (int i = 1; i <= rows; ++i) {
     std::vector<double> T(5, full * i / rows);

@@ -175,7 +175,7 @@ TEST_CASE("readings that scatter more than they were taken to have taught as muc
         belief.update();
         expected.add(H, measured, std::sqrt(times));
       }
-      belief.loosen(times);
+      belief.inflate(times);
       const Eigen::MatrixXd covariance = expected.covariance();
       for (int p = 0; p < unknowns; ++p)
         for (int q = 0; q < unknowns; ++q)
@@ -192,7 +192,7 @@ TEST_CASE("what was never measured stays as well known as it was beforehand") {
   H[0] = H[1] = 1;
   REQUIRE(belief.innovate(prediction_of(0, H, Vector::Zero(jacks)), {}, {0.3, 0.5, 0}));
   belief.update();
-  belief.loosen(100);
+  belief.inflate(100);
   for (int p = 2; p < unknowns; ++p)
     CHECK(belief.variance(p) == doctest::Approx(prior[p] * prior[p]).epsilon(1e-12));
   // Together they are still known better.
@@ -213,7 +213,7 @@ TEST_CASE("a sum that was measured well is no news of its parts, however often n
       REQUIRE(belief.innovate(prediction_of(0, H, Vector::Zero(jacks)), {}, {0, 1e-3, 0}));
       belief.update();
     }
-    belief.loosen(2);
+    belief.inflate(2);
   }
   // With the sum known each has the variance 1 / (1 / 0.05^2 + 1 / 0.01^2), and no less.
   const double both = 1 / (1 / (0.05 * 0.05) + 1 / (0.01 * 0.01));

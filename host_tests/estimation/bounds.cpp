@@ -11,7 +11,7 @@ namespace {
 
 constexpr double full = 2e5, least_known = 1e-9;
 using Model = taut::Condensed<double, PlaneCapacity>;
-using Known = taut::Knowledge<double, PlaneCapacity>;
+using Known = taut::FrictionPrior<double, PlaneCapacity>;
 using Ranges = taut::FixedArray<taut::ForceRange<double>, PlaneCapacity::segments>;
 
 struct Bounded {
@@ -29,7 +29,7 @@ struct Bounded {
       support::rigid_saddles(scene, cable, support::chain_points(7));
     static taut::Condensation<double, Plane> condensation;
     REQUIRE(condensation.run(scene, model).ok());
-    taut::find_knowledge(scene, known);
+    taut::find_friction_prior(scene, known);
   }
 };
 
@@ -107,7 +107,7 @@ TEST_CASE("a cell at each end narrows the bounds, and cells that contradict fric
   CHECK(empty);
 }
 
-TEST_CASE("without a reading there are no bounds, and nothing is carried over a locked joint") {
+TEST_CASE("without a reading there are no bounds, and nothing is carried over a self-locking joint") {
   static Bounded given;
   given.make(false, 0.2, 0);
   Ranges ranges;
@@ -115,7 +115,7 @@ TEST_CASE("without a reading there are no bounds, and nothing is carried over a 
   given.scene.mu[2] = 50;
   static taut::Condensation<double, Plane> condensation;
   REQUIRE(condensation.run(given.scene, given.model).ok());
-  taut::find_knowledge(given.scene, given.known);
+  taut::find_friction_prior(given.scene, given.known);
   const std::array<taut::EndReading<double>, 2> ends{{{}, {true, false, full, 0}}};
   REQUIRE(taut::find_bounds(given.model, given.known, ends, 0, ranges));
   CHECK(std::isfinite(ranges[3].most));

@@ -30,7 +30,7 @@ void make_scene(Plane& scene, const taut::Cable<double>& cable, bool elastic, bo
 }
 
 using Model = taut::Condensed<double, PlaneCapacity>;
-using Known = taut::Knowledge<double, PlaneCapacity>;
+using Known = taut::FrictionPrior<double, PlaneCapacity>;
 using Row = taut::Sample<double, PlaneCapacity>;
 
 /// A row, after which an unknown is the strain of the cable; from the next one on it is warmer or colder.
@@ -89,7 +89,7 @@ TEST_CASE("derivatives by the strain of a locked cable are those of trackers wit
       cable.temperature_sd = 10;
       make_scene(scene, cable, elastic, true);
       REQUIRE(condensation.run(scene, model).ok());
-      taut::find_knowledge(scene, known);
+      taut::find_friction_prior(scene, known);
       CHECK(known.drift_sd[0] == alpha * 10);
       const auto trackers = three_followers(model, known);
       const double kelvin = 1e-4;
@@ -131,7 +131,7 @@ TEST_CASE("between rigid saddles a strain takes E A times as much of every force
   cable.temperature_sd = 10;
   make_scene(scene, cable, false, true);
   REQUIRE(condensation.run(scene, model).ok());
-  taut::find_knowledge(scene, known);
+  taut::find_friction_prior(scene, known);
   static Follower tracker;
   REQUIRE(tracker.start(model).status.ok());
   for (const Warmed& warmed : two_visits(1)) {
@@ -236,17 +236,17 @@ TEST_CASE("without a cell at the far end what warms unseen is in the interval") 
   }
 }
 
-TEST_CASE("a strain is no payout: the wedge stays where it is") {
+TEST_CASE("a strain is no extension: the wedge stays where it is") {
   static Ground ground;
   make_ground(ground, true, 8, 0.2);
   const auto site = std::make_unique<Site<double>>(ground, Instruments{}, full, 1);
-  double payout = std::numeric_limits<double>::quiet_NaN();
+  double extension = std::numeric_limits<double>::quiet_NaN();
   warm(*site, 10, [&] {
     taut::Response<double, PlaneCapacity> response;
     site->estimator().respond(response, &site->rows());
-    if (std::isnan(payout)) payout = response.payout[0][1];
+    if (std::isnan(extension)) extension = response.extension[0][1];
     // The draw-in is corrected with the strain: by less than it is uncertain.
-    CHECK(std::fabs(response.payout[0][1] - payout) < 3 * 0.25 * 0.004);
+    CHECK(std::fabs(response.extension[0][1] - extension) < 3 * 0.25 * 0.004);
   });
 }
 

@@ -75,8 +75,8 @@ class Site {
     support::rigid_saddles(scene, cable, points);
     const auto condensation = std::make_unique<taut::Condensation<Scalar, Plane>>();
     REQUIRE(condensation->run(scene, model_).ok());
-    taut::find_knowledge(scene, knowledge_);
-    REQUIRE(estimator_.start(model_, knowledge_).status.ok());
+    taut::find_friction_prior(scene, prior_);
+    REQUIRE(estimator_.start(model_, prior_).status.ok());
   }
   Site(const Site&) = delete;
   Site& operator=(const Site&) = delete;
@@ -102,7 +102,7 @@ class Site {
   void restart() {
     const auto state = estimator_.save();
     estimator_ = {};
-    REQUIRE(estimator_.restore(model_, knowledge_, state).ok());
+    REQUIRE(estimator_.restore(model_, prior_, state).ok());
   }
 
  private:
@@ -111,7 +111,7 @@ class Site {
   Jacking jacking_;
   Random random_;
   taut::Condensed<Scalar, PlaneCapacity> model_;
-  taut::Knowledge<Scalar, PlaneCapacity> knowledge_;
+  taut::FrictionPrior<Scalar, PlaneCapacity> prior_;
   taut::Estimator<taut::Condensed<Scalar, PlaneCapacity>, 8> estimator_;
 };
 

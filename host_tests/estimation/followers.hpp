@@ -15,7 +15,7 @@ using Follower = taut::Tracker<taut::Condensed<double, PlaneCapacity>, 3>;
 /// Three of them, begun with what is known of a scene of one cable: one mu, unknown 0.
 inline std::unique_ptr<std::array<Follower, 3>> three_followers(
     const taut::Condensed<double, PlaneCapacity>& model,
-    const taut::Knowledge<double, PlaneCapacity>& known) {
+    const taut::FrictionPrior<double, PlaneCapacity>& known) {
   auto trackers = std::make_unique<std::array<Follower, 3>>();
   const auto friction = [&](int j) {
     const auto limit = known.limit(0, j, known.mu[j]);

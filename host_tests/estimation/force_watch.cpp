@@ -85,12 +85,12 @@ TEST_CASE("a restored estimator keeps the episode and its peak") {
   static taut::Condensed<double, PlaneCapacity> model;
   static taut::Condensation<double, Plane> condensation;
   REQUIRE(condensation.run(ground.known, model).ok());
-  taut::Knowledge<double, PlaneCapacity> knowledge;
-  taut::find_knowledge(ground.known, knowledge);
+  taut::FrictionPrior<double, PlaneCapacity> prior;
+  taut::find_friction_prior(ground.known, prior);
   using Estimator = taut::Estimator<taut::Condensed<double, PlaneCapacity>, 4>;
   const auto estimator = std::make_unique<Estimator>(), restored = std::make_unique<Estimator>();
   const auto limits = between(-1, full);
-  REQUIRE(estimator->start(model, knowledge, limits).status.ok());
+  REQUIRE(estimator->start(model, prior, limits).status.ok());
   const auto pull = [](Estimator& each, double force) {
     taut::Readings<double, PlaneCapacity> readings;
     readings.ends[0][1] = {true, false, force, 0};
@@ -100,7 +100,7 @@ TEST_CASE("a restored estimator keeps the episode and its peak") {
   const int last = model.segments - 1;
   CHECK(pull(*estimator, 0.999 * full) == 0);
   CHECK(pull(*estimator, 1.02 * full) > 0);
-  REQUIRE(restored->restore(model, knowledge, estimator->save(), limits).ok());
+  REQUIRE(restored->restore(model, prior, estimator->save(), limits).ok());
   CHECK(restored->peak(last) == estimator->peak(last));
   CHECK(std::fabs(restored->peak(last) - 1.02 * full) < 1e-9 * full);
   CHECK(pull(*restored, 0.995 * full) > 0);

@@ -91,8 +91,8 @@ TEST_CASE_TEMPLATE("with equal joints the variance is that of a Brownian bridge"
 TEST_CASE("a joint that cannot slide is as if it were not there") {
   ScatteredChain chain = ScatteredChain::random(21), without = chain;
   const int stuck = 3;
-  chain.grip[stuck] = 0;
-  without.grip.erase(without.grip.begin() + stuck);
+  chain.contact_factor[stuck] = 0;
+  without.contact_factor.erase(without.contact_factor.begin() + stuck);
   without.mu.erase(without.mu.begin() + stuck);
   ChainScatter scatter, expected;
   chain.find(scatter, 0, 0, 0);
@@ -104,7 +104,7 @@ TEST_CASE("a joint that cannot slide is as if it were not there") {
   }
   // Nor if none can, or none scatters.
   without.scatter = 0;
-  for (double& grip : chain.grip) grip = 0;
+  for (double& contact_factor : chain.contact_factor) contact_factor = 0;
   for (const ScatteredChain* none : {&chain, &without}) {
     none->find(scatter, 0, 0, 0);
     for (int i = 0; i <= none->joints(); ++i) CHECK(scatter.variance(i, one) == 0);

@@ -107,7 +107,7 @@ TEST_CASE("a gauge that contradicts everything known is told, not believed; so i
       CHECK(estimator.alarms()[0].cable == -1);
       CHECK(estimator.alarms()[0].place == chord);
     } else {
-      estimator.take_stroke(0, 1, 1.2 * site->true_payout(), instruments.stroke);
+      estimator.take_stroke(0, 1, 1.2 * site->true_extension(), instruments.stroke);
       REQUIRE(estimator.alarms().size() == 1);
       CHECK(estimator.alarms()[0].kind == taut::Alarm::Kind::elongation);
       CHECK(estimator.alarms()[0].cable == 0);
@@ -131,7 +131,7 @@ TEST_CASE("a measurement that was not believed leaves no trace in the next ones 
   REQUIRE(raised(misled->alarms(), taut::Alarm::Kind::strut) == 1);
   for (auto* estimator : {plain.get(), misled.get()}) {
     estimator->take_strut(site->rows(), chord + 6, site->true_strut(chord + 6), sd);
-    estimator->take_stroke(0, 1, site->true_payout(), 1e-3);
+    estimator->take_stroke(0, 1, site->true_extension(), 1e-3);
   }
   CHECK(misled->mu(0) == plain->mu(0));
   CHECK(misled->mu_deviation(0) == plain->mu_deviation(0));
@@ -212,7 +212,7 @@ using Estimator = taut::Estimator<Model, most_unknowns>;
 struct Followed {
   Model model;
   taut::CondensedStruts<double, PlaneCapacity> rows;
-  taut::Knowledge<double, PlaneCapacity> known;
+  taut::FrictionPrior<double, PlaneCapacity> known;
   Estimator estimator;
 
   Followed(const Plane& original, int joint, double by, const std::vector<double>& log) {
@@ -222,7 +222,7 @@ struct Followed {
       if (joint < 0 || j == joint) scene.mu[j] += by;
     static taut::Condensation<double, Plane> condensation;
     REQUIRE(condensation.run(scene, model, &rows).ok());
-    taut::find_knowledge(scene, known);
+    taut::find_friction_prior(scene, known);
     REQUIRE(estimator.start(model, known).status.ok());
     for (const double force : log) advance(force);
   }
@@ -240,10 +240,10 @@ struct Followed {
     return found;
   }
 };
-/// A strut's force, or the payout.
+/// A strut's force, or the extension.
 double number_of(const Followed& followed, int strut) {
   const auto response = followed.response();
-  return strut < 0 ? response.payout[0][1] : response.strut[strut];
+  return strut < 0 ? response.extension[0][1] : response.strut[strut];
 }
 void take(Estimator& estimator, const Followed& followed, int strut, double sd) {
   const double reading = number_of(followed, strut);
@@ -341,9 +341,9 @@ TEST_CASE("a gauge between two cables tells something only while both slide or o
   static taut::Condensation<double, Plane> condensation;
   static Model model;
   static taut::CondensedStruts<double, PlaneCapacity> rows;
-  static taut::Knowledge<double, PlaneCapacity> known;
+  static taut::FrictionPrior<double, PlaneCapacity> known;
   REQUIRE(condensation.run(scene, model, &rows).ok());
-  taut::find_knowledge(scene, known);
+  taut::find_friction_prior(scene, known);
   const auto estimator = std::make_unique<Estimator>();
   REQUIRE(estimator->start(model, known).status.ok());
   const auto pull = [&](double first, double second) {

@@ -29,7 +29,7 @@ int rows_with_alarm(const Truth& truth, double gain_sd, double tolerance, std::u
   static Plane scene;
   static taut::Condensation<double, Plane> condensation;
   static Model model;
-  static taut::Knowledge<double, PlaneCapacity> known;
+  static taut::FrictionPrior<double, PlaneCapacity> known;
   taut::Cable<double> cable = support::steel_cable(0.2);
   cable.mu_sd = 0.06;
   cable.shared_mu = true;
@@ -39,7 +39,7 @@ int rows_with_alarm(const Truth& truth, double gain_sd, double tolerance, std::u
   }
   support::rigid_saddles(scene, cable, support::chain_points(6));
   REQUIRE(condensation.run(scene, model).ok());
-  taut::find_knowledge(scene, known);
+  taut::find_friction_prior(scene, known);
   // All of friction from end to end; in truth there is a tenth more of it in the exponent.
   double held = 1;
   for (int j = 0; j < model.joints; ++j) held *= std::pow(model.rho[j], 1.1);

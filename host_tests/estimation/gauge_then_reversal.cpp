@@ -24,15 +24,15 @@ TEST_CASE("a jack reverses with the friction that a gauge has taught, not with t
   const auto known = std::make_unique<Model>(), actual = std::make_unique<Model>();
   const auto truth = std::make_unique<taut::Tracker<Model>>();
   const auto estimator = std::make_unique<Estimator>();
-  taut::Knowledge<double, PlaneCapacity> knowledge;
-  taut::find_knowledge(ground.known, knowledge);
+  taut::FrictionPrior<double, PlaneCapacity> prior;
+  taut::find_friction_prior(ground.known, prior);
   taut::LoadCell<double> gauge;
   gauge.sd = 0.2 * full;
   const std::vector<taut::LoadCell<double>> gauges = {gauge};
   REQUIRE(condensation->run(ground.known, *known).ok());
   REQUIRE(condensation->run(ground.actual, *actual).ok());
   REQUIRE(truth->start(*actual).status.ok());
-  REQUIRE(estimator->start(*known, knowledge, {}, gauges).status.ok());
+  REQUIRE(estimator->start(*known, prior, {}, gauges).status.ok());
   support::Random random(1);
   double worst = 0;
   const auto go = [&](double part) {

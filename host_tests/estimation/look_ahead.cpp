@@ -78,7 +78,7 @@ std::vector<Scalar> answers(const Site<Scalar>& site) {
     all.push_back(response.friction[j]);
     all.push_back(static_cast<Scalar>(response.state[j]));
   }
-  for (const Scalar payout : response.payout[0]) all.push_back(payout);
+  for (const Scalar extension : response.extension[0]) all.push_back(extension);
   for (int i = 0; i < PlaneCapacity::struts; ++i) all.push_back(response.strut[i]);
   return all;
 }
@@ -212,7 +212,7 @@ TEST_CASE("beside a cable that nobody has pulled yet it learns as beside none") 
     static Plane scene;
     static taut::Condensation<double, Plane> condensation;
     static Model model;
-    static taut::Knowledge<double, PlaneCapacity> known;
+    static taut::FrictionPrior<double, PlaneCapacity> known;
     if (elastic)
       support::truss_string(scene, cable, 6);
     else
@@ -220,7 +220,7 @@ TEST_CASE("beside a cable that nobody has pulled yet it learns as beside none") 
     const int below[] = {0, 14, 15, 16, 17, 18, 12}, over[] = {0, 1, 2, 3, 4, 5, 6};
     if (has_second) REQUIRE(scene.add_cable(cable, elastic ? below : over, 7) == 1);
     REQUIRE(condensation.run(scene, model).ok());
-    taut::find_knowledge(scene, known);
+    taut::find_friction_prior(scene, known);
     taut::Tracker<Model> truth;
     REQUIRE(truth.start(model).status.ok());
     const auto estimator = std::make_unique<taut::Estimator<Model, PlaneCapacity::joints + 8>>();
@@ -289,10 +289,10 @@ TEST_CASE("where a load lags its best estimate by many events, none is decided a
   static Plane scene;
   static taut::Condensation<double, Plane> condensation;
   static Model model;
-  static taut::Knowledge<double, PlaneCapacity> known;
+  static taut::FrictionPrior<double, PlaneCapacity> known;
   support::rigid_saddles(scene, cable, support::chain_points(10));
   REQUIRE(condensation.run(scene, model).ok());
-  taut::find_knowledge(scene, known);
+  taut::find_friction_prior(scene, known);
   const auto decisions = [](const auto& follow) {
     support::RoutesTaken::counts() = {};
     follow();

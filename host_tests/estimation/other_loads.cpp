@@ -17,7 +17,7 @@ using namespace estimation;
 namespace {
 
 using Model = taut::Condensed<double, PlaneCapacity>;
-using Known = taut::Knowledge<double, PlaneCapacity>;
+using Known = taut::FrictionPrior<double, PlaneCapacity>;
 using Row = taut::Sample<double, PlaneCapacity>;
 
 /// A row of a log; whether the jack's force is off in it.
@@ -53,7 +53,7 @@ TEST_CASE("derivatives by the load that friction came to rest at are those of tr
   static taut::Condensation<double, Plane> condensation;
   support::truss_string(scene, support::steel_cable(0.2), 6);
   REQUIRE(condensation.run(scene, model).ok());
-  taut::find_knowledge(scene, known);
+  taut::find_friction_prior(scene, known);
   int remembered = 0, compared = 0;
   for (const double during : {0.52, 0.6})
     for (const double after : {0.9, 0.3})

@@ -23,10 +23,10 @@ constexpr double full = 2e5, nominal_mu = 0.2, mu_sd = 0.06;
 /// T = F exp(-mu beta), beta the angle by which the cable has turned on its way from the jack.
 class ExponentialLoss {
  public:
-  explicit ExponentialLoss(const taut::Knowledge<double, PlaneCapacity>& knowledge, int segments)
+  explicit ExponentialLoss(const taut::FrictionPrior<double, PlaneCapacity>& prior, int segments)
       : angle_(static_cast<std::size_t>(segments), 0.0) {
     for (int i = segments - 2; i >= 0; --i)
-      angle_[static_cast<std::size_t>(i)] = angle_[static_cast<std::size_t>(i) + 1] + knowledge.grip[i];
+      angle_[static_cast<std::size_t>(i)] = angle_[static_cast<std::size_t>(i) + 1] + prior.contact_factor[i];
   }
   double force(int segment, double jack, double mu) const {
     return jack * std::exp(-mu * angle_[static_cast<std::size_t>(segment)]);
@@ -92,15 +92,15 @@ bool compare(std::uint64_t seed, Errors& errors) {
   bool good = condensation.run(ground.known, *nominal_model).ok() &&
               nominal->start(*nominal_model).status.ok() && condensation.run(glued, *locked_model).ok() &&
               locked->start(*locked_model).status.ok();
-  taut::Knowledge<double, PlaneCapacity> knowledge;
-  taut::find_knowledge(ground.known, knowledge);
+  taut::FrictionPrior<double, PlaneCapacity> prior;
+  taut::find_friction_prior(ground.known, prior);
 
   // After the fact: the means of both cells over the first hold.
   struct Row {
     double jack, far;
   };
   std::vector<Row> readings;
-  const ExponentialLoss loss(knowledge, site->segments());
+  const ExponentialLoss loss(prior, site->segments());
   const auto rows = log_rows();
   std::vector<std::vector<double>> truths;
   for (std::size_t row = 0; row < rows.size() && good; ++row) {

@@ -364,11 +364,11 @@ const std::string exact_jack_and_stroke =
 TEST_CASE("a stroke that grows by more than its tolerance raises an alarm in its row") {
   const Scratch scratch;
   write(scratch, "scene.json", scene(R"("mu": 0, "mu_sd": 0)", exact_jack_and_stroke));
-  // Without friction the payout is F L / EA.
-  const double payout = 2e5 * (2 * std::hypot(2, 0.3) + 2 * std::hypot(2, 0.1)) / (1.95e11 * 8e-4);
+  // Without friction the extension is F L / EA.
+  const double extension = 2e5 * (2 * std::hypot(2, 0.3) + 2 * std::hypot(2, 0.1)) / (1.95e11 * 8e-4);
   write(scratch, "log.csv",
-        "time,C.end,C.end.stroke\n1,100000," + std::to_string(0.5 * payout) + "\n2,200000," +
-            std::to_string(1.1 * payout) + "\n");
+        "time,C.end,C.end.stroke\n1,100000," + std::to_string(0.5 * extension) + "\n2,200000," +
+            std::to_string(1.1 * extension) + "\n");
   const Outcome outcome = estimate(scratch);
   REQUIRE(outcome.status == 0);
   const Table table(outcome.out);
@@ -430,10 +430,10 @@ namespace {
 /// No load, then one that stays, with strokes that are a fifth too long in rows 3 to 5 and missing from then
 /// on.
 std::string long_strokes(int rows) {
-  const double payout = 2e5 * (2 * std::hypot(2, 0.3) + 2 * std::hypot(2, 0.1)) / (1.95e11 * 8e-4);
-  std::string log = "time,C.end,C.end.stroke\n1,0,\n2,200000," + std::to_string(payout) + '\n';
+  const double extension = 2e5 * (2 * std::hypot(2, 0.3) + 2 * std::hypot(2, 0.1)) / (1.95e11 * 8e-4);
+  std::string log = "time,C.end,C.end.stroke\n1,0,\n2,200000," + std::to_string(extension) + '\n';
   for (int i = 3; i <= rows; ++i)
-    log += std::to_string(i) + ",200000," + (i > 5 ? "" : std::to_string(1.2 * payout)) + '\n';
+    log += std::to_string(i) + ",200000," + (i > 5 ? "" : std::to_string(1.2 * extension)) + '\n';
   return log;
 }
 const std::string stroke_in_doubt = "do not trust: the stroke at C.end contradicts the model";

@@ -33,12 +33,12 @@ class Pressed {
     else
       support::rigid_saddles(ground_.known, cable, support::chain_points(7));
     ground_.set_true_mu(std::vector<double>(16, 0.22));
-    taut::find_knowledge(ground_.known, knowledge_);
+    taut::find_friction_prior(ground_.known, prior_);
     const auto condensation = std::make_unique<taut::Condensation<double, Plane>>();
     REQUIRE(condensation->run(ground_.known, model_).ok());
     REQUIRE(condensation->run(ground_.actual, truth_model_).ok());
     REQUIRE(truth_.start(truth_model_).status.ok());
-    REQUIRE(estimator.start(model_, knowledge_).status.ok());
+    REQUIRE(estimator.start(model_, prior_).status.ok());
   }
   Pressed(const Pressed&) = delete;
   Pressed& operator=(const Pressed&) = delete;
@@ -71,7 +71,7 @@ class Pressed {
   double sd_;
   Random random_;
   Ground ground_;
-  taut::Knowledge<double, PlaneCapacity> knowledge_;
+  taut::FrictionPrior<double, PlaneCapacity> prior_;
   Model model_, truth_model_;
   taut::Tracker<Model> truth_;
   double pressure_ = 0, force_ = 0;

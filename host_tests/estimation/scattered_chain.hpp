@@ -28,10 +28,10 @@ struct ChainLayout {
   int segments() const { return number + 1; }
 };
 
-/// The tension behind joint j is (1 - mu c) / (1 + mu c) of that before, with the grip c. The shared unknown
-/// p changes every mu by `by_unknown` p; each scatters about that by the part `scatter`.
+/// The tension behind joint j is (1 - mu c) / (1 + mu c) of that before, with the contact factor c. The
+/// shared unknown p changes every mu by `by_unknown` p; each scatters about that by the part `scatter`.
 struct ScatteredChain {
-  std::vector<double> grip, mu;
+  std::vector<double> contact_factor, mu;
   double by_unknown = 0.7, scatter = 0.05;
   std::array<taut::End, 2> ends{taut::End::jacked, taut::End::jacked};
 
@@ -40,15 +40,15 @@ struct ScatteredChain {
     ScatteredChain chain;
     const int joints = 6 + random.below(6);
     for (int j = 0; j < joints; ++j) {
-      chain.grip.push_back(random.between(0.05, 0.25));
+      chain.contact_factor.push_back(random.between(0.05, 0.25));
       chain.mu.push_back(random.between(0.1, 0.25));
     }
     return chain;
   }
-  int joints() const { return static_cast<int>(grip.size()); }
-  double grip_of(int j) const { return grip[static_cast<std::size_t>(j)]; }
+  int joints() const { return static_cast<int>(contact_factor.size()); }
+  double contact_factor_of(int j) const { return contact_factor[static_cast<std::size_t>(j)]; }
   double mu_of(int j) const { return mu[static_cast<std::size_t>(j)]; }
-  double weight(int j) const { return by_unknown * grip_of(j); }
+  double weight(int j) const { return by_unknown * contact_factor_of(j); }
   /// Derivative of a force by the unknown, in first order of mu: by all joints on its way from the jack.
   static auto sensitivity(double force, double way) {
     return [S = -2 * force * way](int) { return S; };
@@ -60,7 +60,7 @@ struct ScatteredChain {
   void find_in(ChainScatter& into, int segment, int joint, int parameter) const {
     into.find(
         ChainLayout{segment, joint, joints(), ends}, parameter, [&](int j) { return weight(j - joint); },
-        [&](int j) { return scatter * mu_of(j - joint) * grip_of(j - joint); });
+        [&](int j) { return scatter * mu_of(j - joint) * contact_factor_of(j - joint); });
   }
 };
 
@@ -110,7 +110,7 @@ inline Strays draw_strays(const ScatteredChain& chain, bool jacked_at_start, std
       if (step == joints) break;
       const int j = jacked_at_start ? segment : segment - 1;
       const double mu = chain.mu_of(j) * (1 + chain.scatter * support::gaussian(random)),
-                   kappa = mu * chain.grip_of(j);
+                   kappa = mu * chain.contact_factor_of(j);
       log += std::log((1 - kappa) / (1 + kappa));
     }
     strays.add(log_force, log);

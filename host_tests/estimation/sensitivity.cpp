@@ -15,7 +15,7 @@ namespace {
 
 constexpr int most_parameters = 12;
 using Model = taut::Condensed<double, PlaneCapacity>;
-using Known = taut::Knowledge<double, PlaneCapacity>;
+using Known = taut::FrictionPrior<double, PlaneCapacity>;
 using Follower = taut::Tracker<Model, most_parameters>;
 using Row = taut::Sample<double, PlaneCapacity>;
 
@@ -30,7 +30,7 @@ struct Varied {
       if (shared || j == parameter) scene.mu[j] += by;
     taut::Condensation<double, Plane> condensation;
     REQUIRE(condensation.run(scene, model).ok());
-    taut::find_knowledge(scene, known);
+    taut::find_friction_prior(scene, known);
   }
   auto friction(bool shared) const {
     return [this, shared](int j) {

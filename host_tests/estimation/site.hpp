@@ -62,14 +62,14 @@ class Site {
     auto& cell = known_.cables[0].cell;
     cell[0].sd = with_digits(jacked_ ? instruments.jack : instruments.cell);
     cell[1].sd = with_digits(instruments.jack);
-    taut::find_knowledge(known_, knowledge_);
+    taut::find_friction_prior(known_, prior_);
     const auto condensing = std::make_unique<taut::Condensation<Scalar, Plane>>();
     const auto condensing_truth = std::make_unique<taut::Condensation<double, Plane>>();
     good_ = condensing->run(known_, model_, &rows_).ok() &&
             condensing_truth->run(known_, nominal_model_).ok() &&
             condensing_truth->run(ground.actual, truth_model_, &truth_rows_).ok() &&
             truth_.start(truth_model_).status.ok() && nominal_.start(nominal_model_).status.ok() &&
-            estimator_.start(model_, knowledge_).status.ok();
+            estimator_.start(model_, prior_).status.ok();
   }
   Site(const Site&) = delete;
   Site& operator=(const Site&) = delete;
@@ -105,7 +105,7 @@ class Site {
   void restart() {
     const auto state = estimator_.save();
     estimator_ = {};
-    good_ = good_ && estimator_.restore(model_, knowledge_, state).ok();
+    good_ = good_ && estimator_.restore(model_, prior_, state).ok();
   }
 
   bool good() const { return good_; }
@@ -133,7 +133,7 @@ class Site {
     truth_.respond(response, &truth_rows_);
     return response.strut[strut];
   }
-  double true_payout() const { return truth_.moves().payout[0][1]; }
+  double true_extension() const { return truth_.slip_state().extension[0][1]; }
 
  private:
   /// What has no column in the readings.
@@ -144,7 +144,7 @@ class Site {
                             static_cast<Scalar>(with_digits(instruments_.gauge)));
     if (instruments_.stroke > 0)
       estimator_.take_stroke(0, 1,
-                             static_cast<Scalar>(true_payout() + instruments_.stroke * gaussian(random_)),
+                             static_cast<Scalar>(true_extension() + instruments_.stroke * gaussian(random_)),
                              static_cast<Scalar>(instruments_.stroke));
   }
   double with_digits(double noise) const {
@@ -159,7 +159,7 @@ class Site {
   Instruments instruments_;
   Random random_;
   Plane known_;
-  taut::Knowledge<Scalar, PlaneCapacity> knowledge_;
+  taut::FrictionPrior<Scalar, PlaneCapacity> prior_;
   Model model_;
   Truth truth_model_, nominal_model_;
   taut::CondensedStruts<Scalar, PlaneCapacity> rows_;

@@ -183,12 +183,12 @@ TEST_CASE("mu far outside of its band is told") {
   CHECK(std::fabs(static_cast<double>(site->estimator().mu(0)) - 0.28) < 0.01);
 }
 
-TEST_CASE("a payout that grows outside of the tolerance on the elongation is told, one inside is not") {
+TEST_CASE("an extension that grows outside of the tolerance on the elongation is told, one inside is not") {
   static Ground ground;
   make_ground(ground, true, 0.2, 0, 0.2);
   const auto site = std::make_unique<Site<double>>(ground, Instruments{0, 0, 0, 0, false}, full, 1);
-  taut::Knowledge<double, PlaneCapacity> knowledge;
-  taut::find_knowledge(ground.known, knowledge);
+  taut::FrictionPrior<double, PlaneCapacity> prior;
+  taut::find_friction_prior(ground.known, prior);
   taut::AlarmLimits<double> limits;
   limits.stroke_sd = 1e-6;
   const auto read = [](Site<double>::Estimator& estimator, double force, double stroke) {
@@ -200,14 +200,14 @@ TEST_CASE("a payout that grows outside of the tolerance on the elongation is tol
   // Half of the force strains the cable enough for strokes to count.
   ramp(*site, 0, 0.5, 20);
   const auto half = site->estimator().save();
-  const double before = site->true_payout();
+  const double before = site->true_extension();
   ramp(*site, 0.5, 1, 20);
-  const double growth = site->true_payout() - before;
+  const double growth = site->true_extension() - before;
   for (const double zero : {0.0, 0.3})
     for (const double part : {1.0, 1.04, 1.06, 0.96, 0.94}) {
       CAPTURE(part);
       Site<double>::Estimator estimator;
-      REQUIRE(estimator.restore(site->model(), knowledge, half, limits).ok());
+      REQUIRE(estimator.restore(site->model(), prior, half, limits).ok());
       CHECK_FALSE(read(estimator, 0.5 * full, zero + before));
       CHECK(read(estimator, full, zero + before + part * growth) == (std::fabs(part - 1) > 0.05));
     }
@@ -250,10 +250,10 @@ TEST_CASE("more unknowns than there is room for are refused with how many are mi
   taut::Condensed<double, PlaneCapacity> model;
   static taut::Condensation<double, Plane> condensation;
   REQUIRE(condensation.run(ground.known, model).ok());
-  taut::Knowledge<double, PlaneCapacity> knowledge;
-  taut::find_knowledge(ground.known, knowledge);
+  taut::FrictionPrior<double, PlaneCapacity> prior;
+  taut::find_friction_prior(ground.known, prior);
   taut::Estimator<taut::Condensed<double, PlaneCapacity>, 4> estimator;
-  const auto progress = estimator.start(model, knowledge);
+  const auto progress = estimator.start(model, prior);
   CHECK(progress.status.code == taut::Code::capacity_exceeded);
   CHECK(progress.status.amount == ground.known.mu.size() - 4);
 }
@@ -262,7 +262,7 @@ TEST_CASE("more unknowns than there is room for are refused with how many are mi
 struct Pulled {
   Plane scene;
   taut::Condensed<double, PlaneCapacity> model;
-  taut::Knowledge<double, PlaneCapacity> knowledge;
+  taut::FrictionPrior<double, PlaneCapacity> prior;
   taut::Estimator<taut::Condensed<double, PlaneCapacity>, 8> estimator;
 
   void make(const std::array<taut::End, 2>& ends, const std::array<double, 2>& sensor_sd) {
@@ -271,8 +271,8 @@ struct Pulled {
     support::rigid_saddles(scene, cable, support::chain_points(7));
     static taut::Condensation<double, Plane> condensation;
     REQUIRE(condensation.run(scene, model).ok());
-    taut::find_knowledge(scene, knowledge);
-    REQUIRE(estimator.start(model, knowledge).status.ok());
+    taut::find_friction_prior(scene, prior);
+    REQUIRE(estimator.start(model, prior).status.ok());
   }
 };
 

@@ -28,8 +28,8 @@ struct Deed {
   bool fresh = false;  ///< of the first 12 rows of a ramp or a hold
 
   // What comes of it.
-  std::vector<double> tension;     ///< of every segment [N]
-  std::array<double, 2> payout{};  ///< of the jacks [m]
+  std::vector<double> tension;        ///< of every segment [N]
+  std::array<double, 2> extension{};  ///< of the jacks [m]
 };
 
 }  // namespace estimation_site

@@ -171,7 +171,7 @@ std::string truth_text(const Jacked& jacked) {
   for (const Deed& deed : jacked.rows) {
     text += rounded(deed.time, 3) + ",\"" + name_of(deed.phase) + '"';
     for (const double T : deed.tension) text += ',' + number(T);
-    text += ',' + number(deed.payout[1]) + '\n';
+    text += ',' + number(deed.extension[1]) + '\n';
   }
   return text;
 }

@@ -55,7 +55,7 @@ void read_instruments(Random& random, const InstrumentRules& rules, Jacked& jack
     readings.end.push_back(at_jack.read(random, deed.gauge[1], deed.time));
     const double at_far = jacked.ground.two_jacks ? deed.gauge[0] : deed.tension.front();
     readings.start.push_back(at_start.read(random, at_far, deed.time));
-    readings.stroke.push_back(mark + deed.payout[1] + 0.001 * gaussian(random));
+    readings.stroke.push_back(mark + deed.extension[1] + 0.001 * gaussian(random));
     if (!deed.locked[1]) last_free = static_cast<int>(i);
     if (deed.phase == Phase::ramp) last_of_ramp = static_cast<int>(i);
   }

@@ -86,14 +86,14 @@ class Truth {
     for (int i = 0; i < segments_; ++i)
       deed.tension[static_cast<std::size_t>(i)] = static_cast<double>(steps_.tension(i));
     for (int end = 0; end < 2; ++end)
-      deed.payout[static_cast<std::size_t>(end)] = static_cast<double>(steps_.payout(end));
+      deed.extension[static_cast<std::size_t>(end)] = static_cast<double>(steps_.extension(end));
   }
   static void mix(const Deed& a, const Deed& b, double part, Deed& between) {
     between.tension.resize(a.tension.size());
     for (std::size_t i = 0; i < a.tension.size(); ++i)
       between.tension[i] = a.tension[i] + part * (b.tension[i] - a.tension[i]);
     for (std::size_t end = 0; end < 2; ++end)
-      between.payout[end] = a.payout[end] + part * (b.payout[end] - a.payout[end]);
+      between.extension[end] = a.extension[end] + part * (b.extension[end] - a.extension[end]);
   }
 
   int segments_;

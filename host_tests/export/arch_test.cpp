@@ -5,9 +5,9 @@
 namespace arch = scene_2_arches_ber;
 
 TEST_CASE("an elastic scene is exported with every bit, and tracked as the program tracks it") {
-  exported::check<2, arch::unknowns>("arch", arch::condensed<float>, arch::knowledge<float>,
+  exported::check<2, arch::unknowns>("arch", arch::condensed<float>, arch::prior<float>,
                                      &arch::struts<float>);
-  exported::check<2, arch::unknowns>("arch", arch::condensed<double>, arch::knowledge<double>,
+  exported::check<2, arch::unknowns>("arch", arch::condensed<double>, arch::prior<double>,
                                      &arch::struts<double>);
 }
 
@@ -17,13 +17,14 @@ TEST_CASE("names keep their bytes whatever they are") {
   CHECK(std::string(arch::names::joint_nodes[3]) == "b");
 }
 
-TEST_CASE("a joint that is locked by friction is exported as locked") {
-  CHECK(arch::condensed<float>.is_locked(3));
-  CHECK_FALSE(arch::condensed<float>.is_locked(0));
+TEST_CASE("a joint that locks itself by friction is exported as self-locking") {
+  CHECK(arch::condensed<float>.is_self_locking(3));
+  CHECK_FALSE(arch::condensed<float>.is_self_locking(0));
 }
 
 TEST_CASE(
-    "unknowns: one mu for all joints of a cable, none of a locked joint, three memories of a noisy jack "
+    "unknowns: one mu for all joints of a cable, none of a self-locking joint, three memories of a noisy "
+    "jack "
     "beside other loads, a draw-in of every wedge") {
   static_assert(arch::unknowns == 1 + 3 + 2);
 }
@@ -42,12 +43,12 @@ TEST_CASE("strokes that the scene describes are listed by cable and end, a free 
   // A gain each, and one zero.
   static_assert(arch::reading_unknowns == 3);
   taut::Estimator<taut::Condensed<float, arch::Capacity>, arch::unknowns, arch::reading_unknowns> estimator;
-  CHECK(estimator.start(arch::condensed<float>, arch::knowledge<float>, {}, strokes.items).status.ok());
+  CHECK(estimator.start(arch::condensed<float>, arch::prior<float>, {}, strokes.items).status.ok());
 }
 
 TEST_CASE("deviations of mu and of load cells are those of the scene; without one a jack is exact") {
-  CHECK(arch::knowledge<double>.mu_sd[0] == 0.03);
-  CHECK(arch::knowledge<double>.shared[0]);
-  CHECK(arch::knowledge<double>.cell[0][0].sd == 20);
-  CHECK(arch::knowledge<double>.cell[0][1].sd == 0);
+  CHECK(arch::prior<double>.mu_sd[0] == 0.03);
+  CHECK(arch::prior<double>.shared[0]);
+  CHECK(arch::prior<double>.cell[0][0].sd == 20);
+  CHECK(arch::prior<double>.cell[0][1].sd == 0);
 }

@@ -7,9 +7,8 @@ TEST_CASE(
     "the "
     "program tracks it") {
   exported::check<2, beam_string::unknowns, beam_string::reading_unknowns>(
-      "beam_string", beam_string::condensed<float>, beam_string::knowledge<float>,
-      &beam_string::struts<float>);
+      "beam_string", beam_string::condensed<float>, beam_string::prior<float>, &beam_string::struts<float>);
   exported::check<2, beam_string::unknowns, beam_string::reading_unknowns>(
-      "beam_string", beam_string::condensed<double>, beam_string::knowledge<double>,
+      "beam_string", beam_string::condensed<double>, beam_string::prior<double>,
       &beam_string::struts<double>);
 }

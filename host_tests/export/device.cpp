@@ -21,11 +21,10 @@ taut::Estimator<Model, arch::unknowns, arch::reading_unknowns> estimator;
 taut::JackPlanner<decltype(estimator)::TrackerType> planner;
 
 bool follow(const decltype(estimator)::ReadingsType& readings) {
-  if (!estimator.start(arch::condensed<float>, arch::knowledge<float>, {}, arch::strokes<float>.items).status)
+  if (!estimator.start(arch::condensed<float>, arch::prior<float>, {}, arch::strokes<float>.items).status)
     return false;
   const auto saved = estimator.save();
-  if (!estimator.restore(arch::condensed<float>, arch::knowledge<float>, saved, {},
-                         arch::strokes<float>.items))
+  if (!estimator.restore(arch::condensed<float>, arch::prior<float>, saved, {}, arch::strokes<float>.items))
     return false;
   return tracker.start(arch::condensed<float>).status && tracker.advance(readings.sample).status &&
          estimator.advance(readings).status && estimator.estimate(0).deviation > 0 &&
@@ -46,7 +45,7 @@ taut::Estimator<Model, beam_string::unknowns, beam_string::reading_unknowns> est
 taut::JackPlanner<decltype(estimator)::TrackerType> planner;
 
 bool follow(const decltype(estimator)::ReadingsType& readings, taut::Response<float, Model::Capacity>& all) {
-  if (!estimator.start(beam_string::condensed<float>, beam_string::knowledge<float>).status) return false;
+  if (!estimator.start(beam_string::condensed<float>, beam_string::prior<float>).status) return false;
   estimator.respond(all, &beam_string::struts<float>);
   return tracker.start(beam_string::condensed<float>).status && tracker.advance(readings.sample).status &&
          estimator.advance(readings).status && taut::verify(tracker).worst() < 1;

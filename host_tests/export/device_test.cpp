@@ -11,8 +11,8 @@ using taut::Code;
 
 namespace {
 
-template <class Model, int Unknowns, int Further, class Knowledge, class Gauges>
-void check_order(const Model& condensed, const typename Model::Struts& struts, const Knowledge& knowledge,
+template <class Model, int Unknowns, int Further, class FrictionPrior, class Gauges>
+void check_order(const Model& condensed, const typename Model::Struts& struts, const FrictionPrior& prior,
                  const Gauges& gauges) {
   using Cap = typename Model::Capacity;
   static taut::Estimator<Model, Unknowns, Further> estimator;
@@ -38,9 +38,9 @@ void check_order(const Model& condensed, const typename Model::Struts& struts, c
   CHECK(force.force + force.deviation + strut.force + strut.deviation == 0);
   CHECK(estimator.mu(0) + estimator.mu_deviation(0) + estimator.peak(0) + estimator.load(0, 1).load == 0);
   CHECK(tracker.tension(0) + tracker.peak() + tracker.friction_used(0) + tracker.bend_change(0) == 0);
-  CHECK(tracker.slope(0, 0) + tracker.payout_slope(0, 1) == 0);
+  CHECK(tracker.slope(0, 0) + tracker.extension_slope(0, 1) == 0);
   CHECK(tracker.rho(0) == 0);
-  CHECK(tracker.moves().slip[0] + tracker.moves().payout[0][1] == 0);
+  CHECK(tracker.slip_state().slip[0] + tracker.slip_state().extension[0][1] == 0);
   CHECK(tracker.motion(0) == taut::JointState::stick);
   CHECK(taut::verify(tracker).worst() == 0);
   taut::Response<float, Cap> response;
@@ -51,7 +51,7 @@ void check_order(const Model& condensed, const typename Model::Struts& struts, c
   CHECK_FALSE(tracker.is_started());
   // What is saved then is nothing to go on from.
   CHECK(tracker.restore(condensed, tracker.save()).code == Code::bad_sample);
-  CHECK(estimator.restore(condensed, knowledge, estimator.save(), {}, gauges).code == Code::bad_sample);
+  CHECK(estimator.restore(condensed, prior, estimator.save(), {}, gauges).code == Code::bad_sample);
   REQUIRE(tracker.start(condensed).status.ok());
   CHECK(tracker.is_started());
   readings.sample.jack[0] = {{{1e4F, false}, {1e4F, false}}};
@@ -62,9 +62,9 @@ void check_order(const Model& condensed, const typename Model::Struts& struts, c
 
 TEST_CASE("before start() rows and saved states are refused, and everything else says zero") {
   check_order<taut::Condensed<float, arch::Capacity>, arch::unknowns, arch::reading_unknowns>(
-      arch::condensed<float>, arch::struts<float>, arch::knowledge<float>, arch::strokes<float>.items);
+      arch::condensed<float>, arch::struts<float>, arch::prior<float>, arch::strokes<float>.items);
   check_order<taut::SecondOrder<float, beam_string::Capacity>, beam_string::unknowns,
               beam_string::reading_unknowns>(beam_string::condensed<float>, beam_string::struts<float>,
-                                             beam_string::knowledge<float>,
+                                             beam_string::prior<float>,
                                              taut::FixedList<taut::LoadCell<float>, 0>());
 }

@@ -21,7 +21,7 @@
 #include "lib/kinds/solver_values.hpp"
 #include "taut/condensation/condense.hpp"
 #include "taut/estimation/estimator.hpp"
-#include "taut/estimation/find_knowledge.hpp"
+#include "taut/estimation/find_friction_prior.hpp"
 #include "taut/tracking/target_state.hpp"
 #include "taut/tracking/tracker.hpp"
 
@@ -118,7 +118,7 @@ void check_bits(const std::string& file, const SecondOrder<Scalar, Cap>& found,
   CHECK(found.lean.beams == expected.lean.beams);
   check_rows(found.lean.bends, expected.lean.bends);
   check_rows(found.lean.aside, expected.lean.aside);
-  CHECK(same_bits(found.lean.grip_by_bend, expected.lean.grip_by_bend));
+  CHECK(same_bits(found.lean.kappa_by_bend, expected.lean.kappa_by_bend));
   CHECK(same_bits(found.lean.tension_by_bar, expected.lean.tension_by_bar));
   REQUIRE(rows != nullptr);
   check_rows(rows->low, expected_rows.low);
@@ -140,14 +140,14 @@ inline SceneDescription described(const std::string& name) {
 
 /// Every bit of the constant against collecting it from the scene at run time.
 template <class Scalar, int Dimension, class Cap>
-void check_knowledge(const std::string& name, const Knowledge<Scalar, Cap>& found) {
+void check_prior(const std::string& name, const FrictionPrior<Scalar, Cap>& found) {
   using SceneType = Scene<double, Dimension, Whole<Cap>>;
   const auto scene = std::make_unique<SceneType>();
   build(described(name), *scene);
-  Knowledge<Scalar, Whole<Cap>> expected;
-  find_knowledge(*scene, expected);
+  FrictionPrior<Scalar, Whole<Cap>> expected;
+  find_friction_prior(*scene, expected);
   CHECK(same_bits(found.mu, expected.mu));
-  CHECK(same_bits(found.grip, expected.grip));
+  CHECK(same_bits(found.contact_factor, expected.contact_factor));
   CHECK(same_bits(found.capstan, expected.capstan));
   CHECK(same_bits(found.mu_sd, expected.mu_sd));
   CHECK(same_bits(found.shared, expected.shared));
@@ -183,7 +183,7 @@ std::string tracked(const std::string& name, const Exported& condensed,
 /// The result of an estimator that runs on the constants, as the program would write it with --hex.
 template <int Unknowns, int Further, class Exported, class Known>
 std::string estimated(const std::string& name, bool fits_exactly, const Exported& condensed,
-                      const Known& knowledge, const typename Exported::Struts* rows) {
+                      const Known& prior, const typename Exported::Struts* rows) {
   using Scalar = typename Exported::Scalar;
   using Cap = typename Exported::Capacity;
   const NumberFormat format{sizeof(Scalar) == sizeof(float) ? ScalarType::float32 : ScalarType::float64,
@@ -192,7 +192,7 @@ std::string estimated(const std::string& name, bool fits_exactly, const Exported
   std::ifstream stream = open_log(folder() + "/" + name + ".csv");
   LogReader log(stream, name + ".csv", scene);
   Estimator<Exported, Unknowns, Further> estimator;
-  REQUIRE(estimator.start(condensed, knowledge).status.ok());
+  REQUIRE(estimator.start(condensed, prior).status.ok());
   CHECK(estimator.unknowns() <= Unknowns + Further);
   CHECK((estimator.unknowns() == Unknowns + Further || !fits_exactly || Unknowns == 1));
   std::string text = result_header(scene, ResultColumns::estimate);
@@ -226,22 +226,22 @@ std::string program_says(const std::string& command, const std::string& name) {
 
 /// A tracker and an estimator on the constants against the program.
 template <int Unknowns, int Further = 0, class Exported, class Known>
-void check_answers(const std::string& name, bool fits_exactly, const Exported& condensed,
-                   const Known& knowledge, const typename Exported::Struts* rows = nullptr) {
+void check_answers(const std::string& name, bool fits_exactly, const Exported& condensed, const Known& prior,
+                   const typename Exported::Struts* rows = nullptr) {
   using Scalar = typename Exported::Scalar;
   CHECK(tracked(name, condensed, rows) == program_says<Scalar>("simulate", name));
-  CHECK(estimated<Unknowns, Further>(name, fits_exactly, condensed, knowledge, rows) ==
+  CHECK(estimated<Unknowns, Further>(name, fits_exactly, condensed, prior, rows) ==
         program_says<Scalar>("estimate", name));
 }
 
 /// The same, and the constants against condensation at run time.
 template <int Dimension, int Unknowns, int Further = 0, class Exported, class Known>
-void check(const std::string& name, const Exported& condensed, const Known& knowledge,
+void check(const std::string& name, const Exported& condensed, const Known& prior,
            const typename Exported::Struts* rows = nullptr) {
   using Scalar = typename Exported::Scalar;
   check_bits<Scalar, Dimension>(name + ".json", condensed, rows);
-  check_knowledge<Scalar, Dimension>(name, knowledge);
-  check_answers<Unknowns, Further>(name, true, condensed, knowledge, rows);
+  check_prior<Scalar, Dimension>(name, prior);
+  check_answers<Unknowns, Further>(name, true, condensed, prior, rows);
 }
 
 }  // namespace exported

@@ -12,7 +12,7 @@ foreach(header IN LISTS HEADERS)
   endif()
   execute_process(COMMAND ${COMPILER} -std=c++17 -O0 -I${TAUT}/include -c ${unit} -o ${object}
                   RESULT_VARIABLE status)
-  file(STRINGS ${object} symbols REGEX "condensed|struts|knowledge|joint_nodes")
+  file(STRINGS ${object} symbols REGEX "condensed|struts|prior|joint_nodes")
   if(NOT status EQUAL 0 OR symbols)
     message(FATAL_ERROR "${header} costs memory although nothing of it is used: ${symbols}")
   endif()

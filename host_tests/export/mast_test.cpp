@@ -5,7 +5,7 @@
 TEST_CASE("in space a bar leans along two normals, and all of them are exported") {
   static_assert(mast::Capacity::normals == 2);
   exported::check<3, mast::unknowns, mast::reading_unknowns>("mast", mast::condensed<float>,
-                                                             mast::knowledge<float>, &mast::struts<float>);
+                                                             mast::prior<float>, &mast::struts<float>);
   exported::check<3, mast::unknowns, mast::reading_unknowns>("mast", mast::condensed<double>,
-                                                             mast::knowledge<double>, &mast::struts<double>);
+                                                             mast::prior<double>, &mast::struts<double>);
 }

@@ -4,6 +4,6 @@
 
 TEST_CASE("a node that cables alone hold keeps the coupling between their segments") {
   CHECK_FALSE(taut::has_rigid_saddles<net::Capacity>);
-  exported::check<3, net::unknowns>("net", net::condensed<float>, net::knowledge<float>);
-  exported::check<3, net::unknowns>("net", net::condensed<double>, net::knowledge<double>);
+  exported::check<3, net::unknowns>("net", net::condensed<float>, net::prior<float>);
+  exported::check<3, net::unknowns>("net", net::condensed<double>, net::prior<double>);
 }

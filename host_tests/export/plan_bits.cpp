@@ -47,7 +47,7 @@ static bool look(const Planner::Goal& goal) {
 }
 
 int main() {
-  if (!estimator.start(scene::condensed<float>, scene::knowledge<float>).status) return 1;
+  if (!estimator.start(scene::condensed<float>, scene::prior<float>).status) return 1;
   if constexpr (scene::Capacity::loads > 0) readings.sample.factor[0] = 1;
   Planner::Goal goal;
   for (int i = 0; i < 4; ++i) goal.target[i] = TARGET;

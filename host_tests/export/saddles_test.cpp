@@ -12,8 +12,8 @@ struct Elastic : saddles::Capacity {
 }  // namespace
 
 TEST_CASE("a scene between rigid saddles is exported with every bit, and tracked as the program tracks it") {
-  exported::check<2, saddles::unknowns>("saddles", saddles::condensed<float>, saddles::knowledge<float>);
-  exported::check<2, saddles::unknowns>("saddles", saddles::condensed<double>, saddles::knowledge<double>);
+  exported::check<2, saddles::unknowns>("saddles", saddles::condensed<float>, saddles::prior<float>);
+  exported::check<2, saddles::unknowns>("saddles", saddles::condensed<double>, saddles::prior<double>);
 }
 
 TEST_CASE("between rigid saddles no coupling matrix is stored") {
@@ -25,6 +25,6 @@ TEST_CASE("between rigid saddles no coupling matrix is stored") {
 
 TEST_CASE("where the scene is silent, half of the mean mu is its standard deviation") {
   static_assert(saddles::unknowns == 3 + 1 + 1);
-  CHECK(saddles::knowledge<double>.mu_sd[0] == doctest::Approx(0.075));
-  CHECK(saddles::knowledge<double>.mu_sd[1] == doctest::Approx(0.05));
+  CHECK(saddles::prior<double>.mu_sd[0] == doctest::Approx(0.075));
+  CHECK(saddles::prior<double>.mu_sd[1] == doctest::Approx(0.05));
 }

@@ -15,13 +15,13 @@ namespace {
 template <class Scalar>
 void check_all() {
   constexpr int unknowns = arch::unknowns;
-  const auto check = [](const char* name, const auto& condensed, const auto& knowledge, const auto*... rows) {
-    exported::check_answers<unknowns>(name, false, condensed, knowledge, rows...);
+  const auto check = [](const char* name, const auto& condensed, const auto& prior, const auto*... rows) {
+    exported::check_answers<unknowns>(name, false, condensed, prior, rows...);
   };
-  check("wire", wire::condensed<Scalar>, wire::knowledge<Scalar>);
-  check("arch", arch::condensed<Scalar>, arch::knowledge<Scalar>, &arch::struts<Scalar>);
-  check("net", net::condensed<Scalar>, net::knowledge<Scalar>);
-  check("saddles", saddles::condensed<Scalar>, saddles::knowledge<Scalar>);
+  check("wire", wire::condensed<Scalar>, wire::prior<Scalar>);
+  check("arch", arch::condensed<Scalar>, arch::prior<Scalar>, &arch::struts<Scalar>);
+  check("net", net::condensed<Scalar>, net::prior<Scalar>);
+  check("saddles", saddles::condensed<Scalar>, saddles::prior<Scalar>);
 }
 
 std::string in_quotes(const std::filesystem::path& file) { return "'" + file.string() + "'"; }

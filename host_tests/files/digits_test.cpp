@@ -108,7 +108,7 @@ TEST_CASE("of an estimate what has no deviation has as many digits as the force 
   answer.mu_deviation = {0.012345678};
   answer.slip = {0.0123456789123};
   answer.contact = answer.friction = answer.friction_used = answer.displacement = answer.slip;
-  answer.payout = {{0.0123456789123, 0}};
+  answer.extension = {{0.0123456789123, 0}};
   answer.strut = {-9876.54321987654};
   Answer written = with_deserved_digits(answer);
   CHECK(written.tension == std::vector<double>{41234.57, 0, 1234.6});
@@ -119,7 +119,7 @@ TEST_CASE("of an estimate what has no deviation has as many digits as the force 
   for (const auto* numbers :
        {&written.slip, &written.contact, &written.friction, &written.friction_used, &written.displacement})
     CHECK(*numbers == std::vector<double>{0.01234568});
-  CHECK(written.payout[0][0] == 0.01234568);
+  CHECK(written.extension[0][0] == 0.01234568);
   CHECK(written.strut == std::vector<double>{-9876.543});
 
   answer.strut.push_back(-4e-12);  // a member without force

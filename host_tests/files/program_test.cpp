@@ -181,16 +181,16 @@ TEST_CASE("load steps are accepted and remarked on where the tracker has none to
   CHECK(run_taut(scratch, arguments + " --substeps 7 --method stepwise").err.empty());
 }
 
-TEST_CASE("a locked jack keeps its payout less the seating, and takes hold again when it is unlocked") {
+TEST_CASE("a locked jack keeps its extension less the seating, and takes hold again when it is unlocked") {
   const Scratch scratch;
   const std::string log = "time,C.end,C.end.locked\n1,50000,0\n2,,1\n3,,1\n4,70000,0\n";
   const Outcome outcome = run_taut(scratch, simulation(scratch, log, one_jack));
   CHECK(outcome.status == 0);
   const Table table(outcome.out);
-  const auto payout = table.column("C.end.payout"), T2 = table.column("C.T2");
-  CHECK(std::fabs(number(payout[1]) - (number(payout[0]) - 0.002)) < 1e-12);
+  const auto extension = table.column("C.end.payout"), T2 = table.column("C.T2");
+  CHECK(std::fabs(number(extension[1]) - (number(extension[0]) - 0.002)) < 1e-12);
   CHECK(number(T2[1]) < 50000);
-  CHECK(payout[2] == payout[1]);
+  CHECK(extension[2] == extension[1]);
   CHECK(T2[2] == T2[1]);
   CHECK(std::fabs(number(T2[3]) - 70000) < 1e-6);
 }

@@ -57,7 +57,7 @@ std::size_t files_in(const Scratch& scratch) {
 
 }  // namespace
 
-TEST_CASE("the header names every column in the order of the scene, payouts at jacked ends only") {
+TEST_CASE("the header names every column in the order of the scene, extensions at jacked ends only") {
   CHECK(result_header(two_cables()) ==
         "time,C.T1,C.T2,C.slip1,C.state1,C.N1,C.f1,C.start.payout,"
         "H.T1,H.T2,H.T3,H.slip1,H.slip2,H.slip3,H.state1,H.state2,H.state3,H.N1,H.N2,H.N3,H.f1,H.f2,H.f3,"
@@ -79,7 +79,7 @@ TEST_CASE("a row holds the values under their columns") {
   answer.state = {JointState::stick, JointState::forward, JointState::backward, JointState::open};
   answer.contact = {10, 20, 30, 40};
   answer.friction = {-1, -2, -3, -4};
-  answer.payout = {{0.5, 0.6}, {0.7, 0.8}};
+  answer.extension = {{0.5, 0.6}, {0.7, 0.8}};
   answer.strut = {-99.5};
   CHECK(result_row(two_cables(), 0.25, answer, as_double) ==
         "0.25,1,2,0.1,stick,10,-1,0.5,3,4,5,0.2,0.3,0.4,forward,backward,open,20,30,40,-2,-3,-4,-99.5\n");

@@ -100,7 +100,7 @@ HARD_CASE(rejacking, "full release and jacking again",
 }
 
 HARD_CASE(lock_off, "lock-off with draw-in, slack behind the wedge, jacking again",
-          "a payout becomes prescribed and free again, once with the cable slack") {
+          "an extension becomes prescribed and free again, once with the cable slack") {
   taut::Cable<double> cable = steel_cable(0.3);
   Measured all;
   for (const double seating : {3e-3, 0.1}) {
@@ -226,8 +226,9 @@ HARD_CASE(units, "newton and millimetre, kilonewton and metre",
   return all |= follow(other, with_jack<Plane>(loads_and_jack(usual_history), 1e-3));
 }
 
-HARD_CASE(slack_beside_taut, "slack runs beside taut ones",
-          "a locked joint divides the cable: one part goes slack and comes back while the other one works") {
+HARD_CASE(
+    slack_beside_taut, "slack spans beside taut ones",
+    "a self-locking joint divides the cable: one part goes slack and comes back while the other one works") {
   truss_string(plane, prestrained(0.2, 4e-4), 8);
   plane.mu[3] = 50;
   Measured all = follow(plane, load_factors(1, {2, 6, 12, 3, 8, -2, 10, 0}));

@@ -211,7 +211,8 @@ TEST_CASE(
   CHECK(nearest <= 1e-9);
 }
 
-TEST_CASE("full release past an almost locked joint leaves no more than the force tolerance over its ratio") {
+TEST_CASE(
+    "full release past an nearly self-locking joint leaves no more than the force tolerance over its ratio") {
   // Hard because whether the joint is at its limit is asked in T_small - rho T_big: with T_small = 0 the
   // tension behind it is known to the force tolerance (1e-12 of the largest force) over rho only.
   saddles(chain, steel_cable(0.3), path_points({3, 4, 5}, {0.8, 0.5}));

@@ -85,8 +85,8 @@ TEST_CASE("a pinned strut leans towards the jack, and the far segment has more t
     CHECK(near(path.T(0, 1), F, 1e-3));
     CHECK(near(path.strut(0), strut, .05));
     CHECK(near(path.strut(0), e.strut, .6));
-    CHECK(near(path.payout(0, 1), extension, 4e-9));
-    CHECK(near(path.payout(0, 1), e.extension, 6e-8));
+    CHECK(near(path.extension(0, 1), extension, 4e-9));
+    CHECK(near(path.extension(0, 1), e.extension, 6e-8));
     CHECK(path.mode(0, 0) == Mode::stick);
     CHECK(path.slip(0, 0) == 0);
     CHECK(path.stability() > 0);
@@ -132,7 +132,7 @@ TEST_CASE("a guided joint rises as equilibrium with friction at the present angl
     REQUIRE(path.advance(at(model, e.F, 1)));
     CHECK(near(-path.equilibrium.position(path.state, 1).y(), e.y, 6e-8));
     CHECK(near(path.T(0, 0), e.T1, .06));
-    CHECK(near(path.payout(0, 1), e.extension, 6e-8));
+    CHECK(near(path.extension(0, 1), e.extension, 6e-8));
   }
 }
 

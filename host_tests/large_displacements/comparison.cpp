@@ -27,7 +27,7 @@ Table table_of(const std::string& text) {
   return table;
 }
 
-/// C.T1, strut2, C.end.payout, C.slip3, node.x; empty for others.
+/// C.T1, strut2, C.end.extension, C.slip3, node.x; empty for others.
 std::string kind_of(const std::string& column) {
   const auto last = column.rfind('.');
   const std::string word = last == std::string::npos ? column : column.substr(last + 1);

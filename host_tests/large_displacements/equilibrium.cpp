@@ -191,8 +191,8 @@ Equilibrium::Segment Equilibrium::segment(const State& state, const Inputs& inpu
   } else {
     if (i < joints) add(slip(c, i), 1);
     if (i > 0) add(slip(c, i - 1), -1);
-    if (i == 0) add(payout(c, 0), 1);
-    if (i == joints) add(payout(c, 1), 1);
+    if (i == 0) add(extension(c, 0), 1);
+    if (i == joints) add(extension(c, 1), 1);
   }
   double taken = 0;
   for (int k = 0; k < count; ++k) taken += found.sign[k] * state.material[found.material[k]];
@@ -430,7 +430,7 @@ void Equilibrium::assemble(const State& state, const State& from, const Inputs& 
       }
     }
     for (int end : {0, 1}) {
-      const int material = payout(c, end), row = displacements_ + material;
+      const int material = extension(c, end), row = displacements_ + material;
       const Inputs::End& given = inputs.ends[c][end];
       const Segment& s = end == 0 ? segments.front() : segments.back();
       if (given.jacked) {

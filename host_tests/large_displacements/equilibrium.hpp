@@ -14,12 +14,13 @@ namespace large_displacements {
 
 enum class Mode { stick, forward, backward, open };
 
-/// Where everything is. Slips and payouts are one list: of each cable its joints, then its start and its end.
+/// Where everything is. Slips and extensions are one list: of each cable its joints, then its start and its
+/// end.
 struct State {
   std::vector<Vector> moved;            ///< of each node [m]
   std::vector<Eigen::Matrix3d> turned;  ///< of each frame, see Equilibrium
   std::vector<Vector> spin;             ///< sum of the increments of rotation; in the plane the angle
-  Eigen::VectorXd material;             ///< slips and payouts [m]
+  Eigen::VectorXd material;             ///< slips and extensions [m]
   std::vector<Mode> modes;              ///< in the order of `material`
 };
 
@@ -28,7 +29,7 @@ struct Inputs {
   std::vector<double> factors;  ///< one a load pattern
   double prestrain = 1;         ///< part of every prestrain
   struct End {
-    bool jacked = false;  ///< `value` is the force [N], otherwise the payout [m]
+    bool jacked = false;  ///< `value` is the force [N], otherwise the extension [m]
     double value = 0;
   };
   std::vector<std::array<End, 2>> ends;  ///< one a cable
@@ -54,7 +55,7 @@ class Equilibrium {
   Vector rotation(const State& state, int node) const;
   JointFriction friction(const State& state, int cable, int joint) const;
   int slip(int cable, int joint) const { return first_[cable] + joint; }  ///< place in `State::material`
-  int payout(int cable, int end) const { return first_[cable] + model_.cables[cable].joints() + end; }
+  int extension(int cable, int end) const { return first_[cable] + model_.cables[cable].joints() + end; }
 
   /// Smallest real part of an eigenvalue of the tangent by the displacements and rotations: jacks keep their
   /// forces, joints that slide keep sliding. Scaled to a unit diagonal. Negative: the equilibrium is

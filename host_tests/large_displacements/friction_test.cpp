@@ -162,7 +162,7 @@ TEST_CASE("a scene that is turned, mirrored or carried into space has the same f
       for (int i = 0; i <= 5; ++i) found.push_back(path.T(0, i));
       for (int s = 0; s < 5; ++s) found.push_back(path.strut(s));
       for (int j = 0; j < 5; ++j) found.push_back(1e6 * path.slip(0, j));
-      found.push_back(1e6 * path.payout(0, 1));
+      found.push_back(1e6 * path.extension(0, 1));
     }
     return found;
   };
@@ -177,14 +177,14 @@ TEST_CASE("a scene that is turned, mirrored or carried into space has the same f
 }
 
 TEST_CASE(
-    "a locked end keeps its payout less the seating, and takes its force from there when it is unlocked") {
+    "a locked end keeps its extension less the seating, and takes its force from there when it is unlocked") {
   Model model = arc(3, .1, true);
   model.cables[0].seating = .006;
   Path path(model);
   REQUIRE(path.advance(jack(1e6)));
-  const double payout = path.payout(0, 1), before = path.T(0, 3);
+  const double extension = path.extension(0, 1), before = path.T(0, 3);
   REQUIRE(path.advance(jack(1e6, true)));
-  CHECK(std::fabs(path.payout(0, 1) - (payout - .006)) < 1e-15);
+  CHECK(std::fabs(path.extension(0, 1) - (extension - .006)) < 1e-15);
   CHECK(path.T(0, 3) < before);
   const double seated = path.T(0, 3);
   REQUIRE(path.advance(jack(0, true)));

@@ -83,7 +83,7 @@ Reached Path::advance(const Row& row) {
       const Row::End& given = row.jacks[c][end];
       if (given.locked) {
         if (now.jacked) {
-          now.value = payout(c, end);
+          now.value = extension(c, end);
           then.value = now.value - cables[c].seating;
         }
         now.jacked = then.jacked = false;

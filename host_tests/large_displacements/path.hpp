@@ -33,7 +33,7 @@ class Path {
   double T(int cable, int segment) const { return equilibrium.tension(state, inputs, cable, segment); }
   double strut(int s) const { return equilibrium.strut_force(state, s); }
   double slip(int cable, int joint) const { return state.material[equilibrium.slip(cable, joint)]; }
-  double payout(int cable, int end) const { return state.material[equilibrium.payout(cable, end)]; }
+  double extension(int cable, int end) const { return state.material[equilibrium.extension(cable, end)]; }
   Mode mode(int cable, int joint) const { return state.modes[equilibrium.slip(cable, joint)]; }
   JointFriction friction(int cable, int joint) const { return equilibrium.friction(state, cable, joint); }
   Vector moved(int node) const { return state.moved[node]; }

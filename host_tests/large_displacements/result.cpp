@@ -42,7 +42,7 @@ void write_row(std::ostream& out, double time, const Path& path) {
     for (int j = 0; j < cable.joints(); ++j) out << "," << words[static_cast<int>(path.mode(c, j))];
     for (int j = 0; j < cable.joints(); ++j) out << "," << friction_used(path, c, j);
     for (const int end : {0, 1})
-      if (cable.jacked[end]) out << "," << path.payout(c, end);
+      if (cable.jacked[end]) out << "," << path.extension(c, end);
   }
   for (int s = 0; s < static_cast<int>(model.struts.size()); ++s) out << "," << path.strut(s);
   for (int n = 0; n < static_cast<int>(model.nodes.size()); ++n)

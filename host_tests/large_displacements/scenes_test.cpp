@@ -143,7 +143,7 @@ TEST_CASE("a plane beam string that stands upright in space has the same forces"
     REQUIRE(space.advance(made.rows[row]));
     for (int i = 0; i < 8; ++i)
       CHECK(std::fabs(plane.T(0, i) - space.T(0, i)) < 1e-7 * made.target.forces[0][1]);
-    CHECK(std::fabs(plane.payout(0, 1) - space.payout(0, 1)) < 1e-9);
+    CHECK(std::fabs(plane.extension(0, 1) - space.extension(0, 1)) < 1e-9);
   }
 }
 

@@ -184,7 +184,7 @@ TEST_CASE("mu = 12.7 is not below tan(alpha), as the text has it, but above: tha
   for (int j = 0; j < lower_nodes; ++j) {
     CAPTURE(j);
     CHECK(std::tan(truss_alpha(j)) < table_5[1].mu);
-    CHECK(taut::FrictionElement<double, 2>::of(scene, 0, j).grip.locked());
+    CHECK(taut::FrictionElement<double, 2>::of(scene, 0, j).limit.is_self_locking());
   }
 }
 

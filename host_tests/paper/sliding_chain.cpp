@@ -39,7 +39,7 @@ TEST_CASE("over each joint goes what all segments behind it stretch") {
     CAPTURE(j);
     const auto i = static_cast<std::size_t>(j);
     stretch += T[i] * chain_length[i] / (E_steel * chain_A);
-    CHECK(close(j < 3 ? found.slip[j] : found.payout[0][1], stretch, 1e-12));
+    CHECK(close(j < 3 ? found.slip[j] : found.extension[0][1], stretch, 1e-12));
   }
 }
 

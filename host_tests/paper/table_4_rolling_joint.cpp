@@ -50,7 +50,7 @@ TEST_CASE("one joint conserves the cable: the jack draws out what both segments 
   const auto found = checked_answer<double>(rolling_joint(mu), {0, row.T1});
   const double EA = E_steel * A_members;
   CHECK(close(found.slip[0], row.T2 / EA, 1e-12));
-  CHECK(close(found.payout[0][1], (row.T2 + row.T1 * std::sqrt(2.0)) / EA, 1e-12));
+  CHECK(close(found.extension[0][1], (row.T2 + row.T1 * std::sqrt(2.0)) / EA, 1e-12));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ class CoreJackOf : public CoreJack {
     for (int i = 0; i < tracker_->model().segments; ++i) tension.push_back(tracker_->tension(i));
     return tension;
   }
-  double stroke() const override { return tracker_->moves().payout[0][1]; }
+  double stroke() const override { return tracker_->slip_state().extension[0][1]; }
   CoreMoves plan(const PlanGoal& given, const CoreQuestion& question) override {
     typename Planner::Goal goal;
     const auto limit = [](double value) { return value < no_limit ? value : 0; };

@@ -11,7 +11,7 @@
 #include "support/saddles.hpp"
 #include "taut/condensation/condense.hpp"
 #include "taut/estimation/estimator.hpp"
-#include "taut/estimation/find_knowledge.hpp"
+#include "taut/estimation/find_friction_prior.hpp"
 #include "taut/planning/jack_planner.hpp"
 #include "taut/stepwise/stepwise.hpp"
 
@@ -72,7 +72,7 @@ class Truth {
 struct Site {
   Saddles scene;
   Condensed condensed;
-  taut::Knowledge<double, Cap> knowledge;
+  taut::FrictionPrior<double, Cap> prior;
   Estimator estimator;
   Planner planner;
   Truth truth;
@@ -81,8 +81,8 @@ struct Site {
   explicit Site(double mu, double far_sd = 500) : scene(scene_with(told, far_sd)), truth(mu) {
     taut::Condensation<double, Saddles> condensation;
     REQUIRE(condensation.run(scene, condensed).ok());
-    taut::find_knowledge(scene, knowledge);
-    REQUIRE(estimator.start(condensed, knowledge).status.ok());
+    taut::find_friction_prior(scene, prior);
+    REQUIRE(estimator.start(condensed, prior).status.ok());
   }
   void jack_to(double force) {
     const double from = turns.empty() ? 0 : turns.back();
@@ -152,7 +152,7 @@ TEST_CASE("half-way the core plans anew with the mu that was learned, and the fo
                 .begin(
                     knows.condensed,
                     [&](int j) {
-                      const auto limit = knows.knowledge.limit(0, j, mu);
+                      const auto limit = knows.prior.limit(0, j, mu);
                       return taut::JointFriction<double>{limit.rho, 0, 0};
                     },
                     knows.estimator.tracker().save(), Site::goal(), 0, 1)

@@ -37,7 +37,8 @@ class Reference::Follower {
     }
     for (int c = 0; c < scene.cables.size(); ++c)
       for (int end = 0; end < 2 && !scene.cables[c].closed; ++end)
-        imposes_(scene.cables[c].end_segment(static_cast<std::size_t>(end)), payout_place(2 * c + end)) = 1;
+        imposes_(scene.cables[c].end_segment(static_cast<std::size_t>(end)), extension_place(2 * c + end)) =
+            1;
     for (std::size_t r = 0; r < stretches_.size(); ++r)
       imposes_(stretches_[r].segments[0], excess_place(r)) = 1;
     moved_ = Vector::Zero(moves);
@@ -76,7 +77,7 @@ class Reference::Follower {
   Exact tension(int segment) const { return tension_[segment]; }
   Exact strut(int i) const { return forces_[segments() + i]; }
   Exact slip(int joint) const { return moved_[joint]; }
-  Exact payout(int cable, int end) const { return moved_[payout_place(2 * cable + end)]; }
+  Exact extension(int cable, int end) const { return moved_[extension_place(2 * cable + end)]; }
   Exact peak() const { return peak_; }
 
   std::vector<Vector> possible_rates(const Row& row) const {
@@ -95,7 +96,7 @@ class Reference::Follower {
   struct EndDrive {
     bool jacked = false;
     bool locked = false;
-    Exact force = 0, payout = 0;
+    Exact force = 0, extension = 0;
   };
   struct Drive {
     Vector factors;
@@ -117,7 +118,7 @@ class Reference::Follower {
   int segments() const { return bars_.segments(); }
   Index joints() const { return Index(joints_.size()); }
   const Joint& joint(Index j) const { return joints_[static_cast<std::size_t>(j)]; }
-  Index payout_place(int end) const { return joints() + end; }
+  Index extension_place(int end) const { return joints() + end; }
   Index excess_place(std::size_t stretch) const {
     return joints() + 2 * scene_.cables.size() + Index(stretch);
   }
@@ -162,8 +163,8 @@ class Reference::Follower {
   void set_end(int end, const taut::Jack<double>& jack, EndDrive& from, EndDrive& to) {
     to.locked = jack.locked;
     if (jack.locked && !from.locked) {
-      from.payout = moved_[payout_place(end)];
-      to.payout = from.payout - Exact(scene_.cables[end / 2].seating);
+      from.extension = moved_[extension_place(end)];
+      to.extension = from.extension - Exact(scene_.cables[end / 2].seating);
     } else if (!jack.locked) {
       if (from.locked) {
         from.force = tension_[scene_.cables[end / 2].end_segment(static_cast<std::size_t>(end % 2))];
@@ -181,14 +182,14 @@ class Reference::Follower {
       const Exact length = moved_[excess_place(r)];
       moved_[excess_place(r)] = 0;
       slack_[r] = false;
-      moved_[payout_place(end)] += length;
+      moved_[extension_place(end)] += length;
       if (stretch.ends[0] == end) continue;
       for (const int j : stretch.joints) moved_[j] += length;
     }
   }
 
   bool is_free(int end) const { return pulls(end) && !is_spare(end); }
-  /// Two jacks on a cable without a joint: the start's payout rests.
+  /// Two jacks on a cable without a joint: the start's extension rests.
   bool is_spare(int end) const {
     const std::size_t other = static_cast<std::size_t>(end) + 1;
     return end % 2 == 0 && scene_.cables[end / 2].segments() == 1 && now_.ends[other].jacked &&
@@ -219,7 +220,7 @@ class Reference::Follower {
     rate.prestrain -= from.prestrain;
     for (std::size_t i = 0; i < rate.ends.size(); ++i) {
       rate.ends[i].force -= from.ends[i].force;
-      rate.ends[i].payout -= from.ends[i].payout;
+      rate.ends[i].extension -= from.ends[i].extension;
     }
     return rate;
   }
@@ -230,7 +231,7 @@ class Reference::Follower {
     now_.prestrain -= rest_ * rate.prestrain;
     for (std::size_t i = 0; i < rate.ends.size(); ++i) {
       now_.ends[i].force -= rest_ * rate.ends[i].force;
-      now_.ends[i].payout -= rest_ * rate.ends[i].payout;
+      now_.ends[i].extension -= rest_ * rate.ends[i].extension;
     }
     compute_forces();
   }
@@ -363,7 +364,7 @@ class Reference::Follower {
     return false;
   }
   void widen_peak(Drive to, Exact push) {
-    for (EndDrive& end : to.ends) end.payout = 0;
+    for (EndDrive& end : to.ends) end.extension = 0;
     peak_ = std::max({peak_, push, size_of(to)});
   }
   /// The largest force that it would cause by any of its parts if all joints stuck.
@@ -375,7 +376,7 @@ class Reference::Follower {
       const EndDrive& at = drive.ends[static_cast<std::size_t>(end)];
       if (!at.jacked) continue;
       const Exact k = bars_.elongation()(end_segment(end), end_segment(end));
-      most = std::max({most, std::fabs(at.force), std::fabs(k * at.payout)});
+      most = std::max({most, std::fabs(at.force), std::fabs(k * at.extension)});
     }
     return most;
   }
@@ -442,7 +443,8 @@ class Reference::Follower {
     return true;
   }
 
-  /// Everything that follows at once when something else changes: payouts of jacks at work, slack stretches.
+  /// Everything that follows at once when something else changes: extensions of jacks at work, slack
+  /// stretches.
   struct Followers {
     std::vector<Index> moves;
     std::vector<Index> tensions;  ///< prescribed: the jack's force, or zero
@@ -457,7 +459,7 @@ class Reference::Follower {
   };
   void collect_followers(Followers& followers) const {
     for (int end = 0; end < int(now_.ends.size()); ++end)
-      if (is_free(end)) followers.add(payout_place(end), end_segment(end), end);
+      if (is_free(end)) followers.add(extension_place(end), end_segment(end), end);
     for (std::size_t r = 0; r < stretches_.size(); ++r) {
       const Stretch& stretch = stretches_[r];
       const std::size_t n = stretch.segments.size();
@@ -534,7 +536,7 @@ class Reference::Follower {
     Rates rates;
     rates.moves = Vector::Zero(moved_.size());
     for (std::size_t end = 0; end < rate.ends.size(); ++end)
-      if (rate.ends[end].locked) rates.moves[payout_place(int(end))] = rate.ends[end].payout;
+      if (rate.ends[end].locked) rates.moves[extension_place(int(end))] = rate.ends[end].extension;
     rates.tension = (rate.prestrain * bars_.prestrain() + by_move_ * rates.moves).head(segments());
     if (scene_.loads > 0) rates.tension += (bars_.load() * rate.factors).head(segments());
     rates.scale = rates.tension.cwiseAbs().maxCoeff();
@@ -745,7 +747,7 @@ class Reference::Follower {
   Anatomy anatomy_;
   std::vector<Joint> joints_;
   std::vector<Stretch> stretches_;
-  Matrix imposes_;  // elongations of the segments from every move: slips, payouts, excess lengths
+  Matrix imposes_;  // elongations of the segments from every move: slips, extensions, excess lengths
   Matrix by_move_;  // forces of all bars from every move
   Vector moved_, forces_, tension_;
   std::vector<bool> slack_, rests_;
@@ -773,7 +775,7 @@ Exact Reference::clearance() const { return follower_->clearance(); }
 Exact Reference::tension(int segment) const { return follower_->tension(segment); }
 Exact Reference::strut(int i) const { return follower_->strut(i); }
 Exact Reference::slip(int joint) const { return follower_->slip(joint); }
-Exact Reference::payout(int cable, int end) const { return follower_->payout(cable, end); }
+Exact Reference::extension(int cable, int end) const { return follower_->extension(cable, end); }
 Exact Reference::peak() const { return follower_->peak(); }
 
 std::vector<std::vector<Exact>> Reference::possible_rates(const Row& row) const {

@@ -43,7 +43,7 @@ class Reference {
   Exact tension(int segment) const;
   Exact strut(int i) const;
   Exact slip(int joint) const;
-  Exact payout(int cable, int end) const;
+  Exact extension(int cable, int end) const;
   /// The largest tension so far [N].
   Exact peak() const;
 

@@ -73,7 +73,7 @@ struct Jacking {
     answer.state = {taut::JointState::stick};
     answer.verdict = std::string("trust");
     answer.alarms = alarms;
-    expected.payout = {{0, 1e-7 * force - wedge}};
+    expected.extension = {{0, 1e-7 * force - wedge}};
     record.add(row, answer, &expected);
   }
   Jacking& whole() {

@@ -58,8 +58,8 @@ class Bench {
   const taut::Response<Scalar, Cap>& response() const { return engine_->response(); }
   double T(int segment) const { return static_cast<double>(response().tension[segment]); }
   double slip(int joint) const { return static_cast<double>(response().slip[joint]); }
-  double payout(int cable, int end) const {
-    return static_cast<double>(response().payout[cable][static_cast<std::size_t>(end)]);
+  double extension(int cable, int end) const {
+    return static_cast<double>(response().extension[cable][static_cast<std::size_t>(end)]);
   }
   double displacement(int node, int axis) const {
     return static_cast<double>(engine_->displacement(node, axis));

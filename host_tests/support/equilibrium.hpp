@@ -225,10 +225,10 @@ class Watch {
     const auto& cable = scene_.cables[c];
     const auto ends = scene_.segment_nodes(cable, i);
     const auto joints = SceneType::segment_joints(cable, i);
-    const auto& payout = now_.payout[c];
-    // A cable end has a payout where a joint has a slip.
-    const Exact out = joints[1] >= 0 ? Exact(now_.slip[joints[1]]) : Exact(payout[1]);
-    const Exact in = joints[0] >= 0 ? Exact(now_.slip[joints[0]]) : -Exact(payout[0]);
+    const auto& extension = now_.extension[c];
+    // A cable end has an extension where a joint has a slip.
+    const Exact out = joints[1] >= 0 ? Exact(now_.slip[joints[1]]) : Exact(extension[1]);
+    const Exact in = joints[0] >= 0 ? Exact(now_.slip[joints[0]]) : -Exact(extension[0]);
     const Exact k = axial(c, i);
     return {k * (stretch(ends[0], ends[1]) + out - in) + locked_in(c, i),
             std::max(largest_, k * std::max({farthest_, std::fabs(out), std::fabs(in)}))};
@@ -247,7 +247,8 @@ class Watch {
     }
   }
 
-  /// Without tension only the sum over a run, from one anchor or locked joint to the next, means anything.
+  /// Without tension only the sum over a run, from one anchor or self-locking joint to the next, means
+  /// anything.
   void slack_runs(int c) {
     const auto& cable = scene_.cables[c];
     const int n = cable.segments();

@@ -1,4 +1,4 @@
-// Moves that follow their laws, and the map from inputs to tensions, against dense solutions.
+// Slips that follow their laws, and the map from inputs to tensions, against dense solutions.
 #include "taut/tracking/active_set.hpp"
 
 #include <doctest/doctest.h>
@@ -27,18 +27,18 @@ constexpr double rounding = 1e-14;
 template <class Cable>
 using SetOn = taut::ActiveSet<typename Cable::Model, typename Cable::Laws>;
 
-/// The set has these moves and lets them follow as the dense solution says.
+/// The set has these slips and lets them follow as the dense solution says.
 template <class Cable>
-void check_set(const Cable& cable, const SetOn<Cable>& set, const std::vector<taut::Active>& moves,
+void check_set(const Cable& cable, const SetOn<Cable>& set, const std::vector<taut::ActiveConstraint>& values,
                Random& random, int passes, const Matrix& coupling) {
-  REQUIRE(set.size() == static_cast<int>(moves.size()));
-  const auto dense = cable.dense(moves, coupling);
+  REQUIRE(set.size() == static_cast<int>(values.size()));
+  const auto dense = cable.dense(values, coupling);
   const Vector T = random_vector(random, cable.n()), due = random_vector(random, set.size());
   const Vector m = set.size() == 0 ? Vector(0) : solved(dense.RW, due - product(dense.R, T));
   const Vector expected = T + product(coupling, product(dense.E, m));
 
   typename Cable::Tensions found;
-  typename SetOn<Cable>::Moves dues, moved;
+  typename SetOn<Cable>::Values dues, moved;
   fill(found, T);
   fill(dues, due);
   fill(moved, Vector::Ones(set.size()));  // what is there already is added to
@@ -49,39 +49,39 @@ void check_set(const Cable& cable, const SetOn<Cable>& set, const std::vector<ta
         rounding * lost * (1 + largest(m)));
 }
 template <class Cable>
-void check_set(const Cable& cable, const SetOn<Cable>& set, const std::vector<taut::Active>& moves,
+void check_set(const Cable& cable, const SetOn<Cable>& set, const std::vector<taut::ActiveConstraint>& values,
                Random& random, int passes) {
-  check_set(cable, set, moves, random, passes, cable.C);
+  check_set(cable, set, values, random, passes, cable.C);
 }
 
-/// Appends random moves, those that can be; what can be is said by the rank of the dense matrix.
+/// Appends random slips, those that can be; what can be is said by the rank of the dense matrix.
 template <class Cable>
-std::vector<taut::Active> fill_at_random(const Cable& cable, SetOn<Cable>& set, Random& random,
-                                         int& refused) {
-  std::vector<taut::Active> moves;
+std::vector<taut::ActiveConstraint> fill_at_random(const Cable& cable, SetOn<Cable>& set, Random& random,
+                                                   int& refused) {
+  std::vector<taut::ActiveConstraint> values;
   for (int count = 0; count < 2 * cable.n(); ++count) {
-    const taut::Active move = cable.any(random);
-    std::vector<taut::Active> more = moves;
-    more.push_back(move);
+    const taut::ActiveConstraint slip = cable.any(random);
+    std::vector<taut::ActiveConstraint> more = values;
+    more.push_back(slip);
     const bool independent =
         more.size() <= static_cast<std::size_t>(cable.n()) && rcond(cable.dense(more).RW) > 1e-11;
-    CAPTURE(static_cast<int>(move.move.kind));
-    CAPTURE(move.move.index);
-    CAPTURE(static_cast<int>(move.sense));
-    CAPTURE(moves.size());
-    REQUIRE(set.append(cable.laws, move) == independent);
+    CAPTURE(static_cast<int>(slip.variable.kind));
+    CAPTURE(slip.variable.index);
+    CAPTURE(static_cast<int>(slip.sense));
+    CAPTURE(values.size());
+    REQUIRE(set.append(cable.laws, slip) == independent);
     if (independent)
-      moves = more;
+      values = more;
     else
       ++refused;
-    CHECK(set.size() == static_cast<int>(moves.size()));
+    CHECK(set.size() == static_cast<int>(values.size()));
   }
-  return moves;
+  return values;
 }
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("moves are taken in while their laws are independent, and follow like the dense solution",
+TEST_CASE_TEMPLATE("slips are taken in while their laws are independent, and follow like the dense solution",
                    On, Structure, Saddles, SaddlesAmongStructures, StructureAmongSaddles) {
   int refused = 0, full = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
@@ -92,16 +92,16 @@ TEST_CASE_TEMPLATE("moves are taken in while their laws are independent, and fol
         random, closed ? 3 + random.below(most - 2) : 1 + random.below(most), closed, On::coupled);
     SetOn<AnyCable<typename On::Capacity>> set;
     set.begin(cable.model);
-    const auto moves = fill_at_random(cable, set, random, refused);
+    const auto values = fill_at_random(cable, set, random, refused);
     full += set.is_full() ? 1 : 0;
-    check_set(cable, set, moves, random, 1);
-    check_set(cable, set, moves, random, 8);
+    check_set(cable, set, values, random, 1);
+    check_set(cable, set, values, random, 8);
   }
   CHECK(refused >= 200);
   CHECK(full >= 20);
 }
 
-TEST_CASE_TEMPLATE("what is left after moves were taken away follows like the dense solution", On, Structure,
+TEST_CASE_TEMPLATE("what is left after slips were taken away follows like the dense solution", On, Structure,
                    Saddles, SaddlesAmongStructures, StructureAmongSaddles) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     CAPTURE(seed);
@@ -111,12 +111,14 @@ TEST_CASE_TEMPLATE("what is left after moves were taken away follows like the de
     SetOn<AnyCable<typename On::Capacity>> set;
     set.begin(cable.model);
     int refused = 0;
-    auto moves = fill_at_random(cable, set, random, refused);
+    auto values = fill_at_random(cable, set, random, refused);
     // The order of those that stay may change where a pivot is small: it is read from the set.
-    const auto listed = [&] { return std::vector<taut::Active>(set.actives().begin(), set.actives().end()); };
+    const auto listed = [&] {
+      return std::vector<taut::ActiveConstraint>(set.actives().begin(), set.actives().end());
+    };
     const int one = random.below(set.size());
     if (!set.remove(cable.laws, one)) continue;  // the others depend on one another without it
-    CHECK(set.size() + 1 == static_cast<int>(moves.size()));
+    CHECK(set.size() + 1 == static_cast<int>(values.size()));
     check_set(cable, set, listed(), random, 8);
     const int before = set.size();
     std::vector<bool> leaves;
@@ -135,7 +137,7 @@ TEST_CASE_TEMPLATE("what is left after moves were taken away follows like the de
   }
 }
 
-TEST_CASE_TEMPLATE("a move whose law follows from the others is refused", On, Structure, Saddles,
+TEST_CASE_TEMPLATE("a slip whose law follows from the others is refused", On, Structure, Saddles,
                    SaddlesAmongStructures, StructureAmongSaddles) {
   Random random(17);
   using Cable = AnyCable<typename On::Capacity>;
@@ -143,10 +145,10 @@ TEST_CASE_TEMPLATE("a move whose law follows from the others is refused", On, St
     const Cable cable(random, 5, false, On::coupled);
     SetOn<Cable> set;
     set.begin(cable.model);
-    CHECK(set.append(cable.laws, cable.payout(1)));
+    CHECK(set.append(cable.laws, cable.extension(1)));
     CHECK_FALSE(set.append(cable.laws, cable.slack_length(4)));
     CHECK(set.append(cable.laws, cable.slack_length(3)));
-    check_set(cable, set, {cable.payout(1), cable.slack_length(3)}, random, 8);
+    check_set(cable, set, {cable.extension(1), cable.slack_length(3)}, random, 8);
   }
   SUBCASE("a joint slides between two segments whose tensions are given") {
     const Cable cable(random, 5, false, On::coupled);
@@ -171,11 +173,11 @@ TEST_CASE_TEMPLATE("a move whose law follows from the others is refused", On, St
     const Cable cable(random, 3, false, On::coupled);
     SetOn<Cable> set;
     set.begin(cable.model);
-    CHECK(set.append(cable.laws, cable.payout(0)));
+    CHECK(set.append(cable.laws, cable.extension(0)));
     CHECK(set.append(cable.laws, cable.slip(0, true)));
     CHECK(set.append(cable.laws, cable.slip(1, true)));
     CHECK(set.is_full());
-    CHECK_FALSE(set.append(cable.laws, cable.payout(1)));
+    CHECK_FALSE(set.append(cable.laws, cable.extension(1)));
   }
 }
 
@@ -191,9 +193,9 @@ TEST_CASE("factors made anew in the order of entry give the same bits") {
     int refused = 0;
     (void)fill_at_random(cable, set, random, refused);
     if (!set.remove(cable.laws, random.below(set.size()))) continue;
-    for (const taut::Active& active : set.actives()) REQUIRE(anew.append(cable.laws, active));
+    for (const taut::ActiveConstraint& active : set.actives()) REQUIRE(anew.append(cable.laws, active));
     Cable::Tensions T, again;
-    SetOn<Cable>::Moves due, moved, moved_again;
+    SetOn<Cable>::Values due, moved, moved_again;
     fill(T, random_vector(random, most));
     fill(due, random_vector(random, set.size()));
     again = T;
@@ -217,16 +219,16 @@ TEST_CASE("springs that hold the segments count as stiffness of their own") {
     set.hold(0.5);
     Matrix held = cable.C;
     held.diagonal() *= 1.5;
-    std::vector<taut::Active> moves;
+    std::vector<taut::ActiveConstraint> values;
     for (const int joint : {2, 5, 0}) {
-      moves.push_back(cable.slip(joint, random.coin()));
-      REQUIRE(set.append(cable.laws, moves.back()));
+      values.push_back(cable.slip(joint, random.coin()));
+      REQUIRE(set.append(cable.laws, values.back()));
     }
-    check_set(cable, set, moves, random, 1, held);
+    check_set(cable, set, values, random, 1, held);
   }
 }
 
-TEST_CASE_TEMPLATE("tensions are the affine map of the inputs that the laws of the active moves give", On,
+TEST_CASE_TEMPLATE("tensions are the affine map of the inputs that the laws of the active variables give", On,
                    Structure, Saddles, SaddlesAmongStructures) {
   using Cable = AnyCable<typename On::Capacity>;
   using Map = taut::AffineMap<typename Cable::Model, typename Cable::Laws>;
@@ -241,22 +243,22 @@ TEST_CASE_TEMPLATE("tensions are the affine map of the inputs that the laws of t
     map.clear_inputs();
     map.add_input(Kind::load, 1);
     map.add_input(Kind::jack_force, 1);
-    map.add_input(Kind::payout, 0);
+    map.add_input(Kind::extension, 0);
     map.add_input(Kind::prestrain, 0);
     map.add_input(Kind::load, 0);
     REQUIRE(map.inputs() == 5);
     // The jack at the end pulls and some joints slide; the jack at the start is locked.
-    std::vector<taut::Active> active;
+    std::vector<taut::ActiveConstraint> active;
     for (int j = cable.model.joints - 1; j >= 0; --j)
       if (random.coin()) active.push_back(cable.slip(j, random.coin()));
-    active.insert(active.begin() + random.below(static_cast<int>(active.size()) + 1), cable.payout(1));
-    for (const taut::Active& each : active) REQUIRE(map.set().append(cable.laws, each));
+    active.insert(active.begin() + random.below(static_cast<int>(active.size()) + 1), cable.extension(1));
+    for (const taut::ActiveConstraint& each : active) REQUIRE(map.set().append(cable.laws, each));
     const auto dense = cable.dense(active);
     const double lost = 1 / rcond(dense.RW);
     std::size_t jack = 0;
     while (active[jack].slides()) ++jack;
 
-    // What inputs and frozen moves make while nothing follows, and what the laws are to be.
+    // What inputs and frozen slips make while nothing follows, and what the laws are to be.
     const Vector frozen = random_vector(random, n), begun = random_vector(random, map.active());
     const auto followed_by_none = [&](const Vector& x) {
       Vector e = frozen + product(dense.E, begun);
@@ -276,12 +278,12 @@ TEST_CASE_TEMPLATE("tensions are the affine map of the inputs that the laws of t
     const Vector anchor = random_vector(random, 5);
     typename Map::Inputs anchored, inputs;
     typename Map::Tensions T;
-    typename Map::Moves moves;
+    typename Map::Values values;
     fill(anchored, anchor);
     fill(T, followed_by_none(anchor));
-    fill(moves, begun);
+    fill(values, begun);
     int differentiated = 0;
-    map.make(cable.laws, T, moves, anchored, [&](auto) { ++differentiated; });
+    map.make(cable.laws, T, values, anchored, [&](auto) { ++differentiated; });
     CHECK(differentiated == 1);
     CHECK_FALSE(map.has_slack());
 
@@ -295,7 +297,7 @@ TEST_CASE_TEMPLATE("tensions are the affine map of the inputs that the laws of t
       const Vector expected = tensions_at(at), moved = begun + moves_at(at);
       CHECK(largest(mapped(at) - expected) <= rounding * lost * (1 + largest(expected)));
       for (int i = 0; i < map.active(); ++i)
-        CHECK(std::fabs(map.active_move(i, inputs) - moved[i]) <= rounding * lost * (1 + largest(moved)));
+        CHECK(std::fabs(map.value(i, inputs) - moved[i]) <= rounding * lost * (1 + largest(moved)));
       CHECK(map.law_violation(cable.laws, T, inputs) <= rounding * lost * (1 + largest(expected)));
     }
     // Affine: halfway between two inputs are the tensions halfway.
@@ -310,7 +312,7 @@ TEST_CASE_TEMPLATE("tensions are the affine map of the inputs that the laws of t
     fill(inputs, y - x);
     bool all_go_on = true;
     for (int i = 0; i < map.active(); ++i) {
-      CHECK(std::fabs(map.move_rate(i, inputs) - gone[i]) <= rounding * lost * (1 + largest(gone)));
+      CHECK(std::fabs(map.value_rate(i, inputs) - gone[i]) <= rounding * lost * (1 + largest(gone)));
       all_go_on = all_go_on && active[static_cast<std::size_t>(i)].sense * gone[i] >= 0;
     }
     CHECK(map.goes_on(inputs, 0) == all_go_on);

@@ -29,7 +29,7 @@ struct OnEither : OnStructure {
 template <class Cap>
 struct AnyCable {
   using Model = taut::Condensed<double, Cap>;
-  using Laws = taut::JointLaws<Model>;
+  using Laws = taut::JointConstraints<Model>;
   using Tensions = taut::FixedArray<double, most>;
 
   AnyCable(Random& random, int n, bool closed, bool coupled) {
@@ -58,61 +58,62 @@ struct AnyCable {
   int before(int joint) const { return model.cables[0].closed ? (joint + n() - 1) % n() : joint; }
   int after(int joint) const { return model.cables[0].closed ? joint : joint + 1; }
 
-  taut::Active slip(int joint, bool forward) const {
+  taut::ActiveConstraint slip(int joint, bool forward) const {
     return laws.sliding(
         taut::SlipMode::of(joint, forward ? taut::JointState::forward : taut::JointState::backward));
   }
-  taut::Active slack_length(int segment) const {
-    return {taut::Move::of(taut::Move::Kind::slack_length, segment, segment),
+  taut::ActiveConstraint slack_length(int segment) const {
+    return {taut::SlipVariable::of(taut::SlipVariable::Kind::slack_length, segment, segment),
             static_cast<std::int16_t>(segment)};
   }
-  taut::Active payout(int end) const {
+  taut::ActiveConstraint extension(int end) const {
     const int segment = end == 0 ? 0 : n() - 1;
-    return {taut::Move::of(taut::Move::Kind::payout, end, segment), static_cast<std::int16_t>(segment)};
+    return {taut::SlipVariable::of(taut::SlipVariable::Kind::extension, end, segment),
+            static_cast<std::int16_t>(segment)};
   }
-  /// A move with its law, of any kind.
-  taut::Active any(Random& random) const {
+  /// A slip variable with its law, of any kind.
+  taut::ActiveConstraint any(Random& random) const {
     const int kind = random.below(10);
     if (kind < 7 && model.joints > 0) return slip(random.below(model.joints), random.coin());
     if (kind < 9 || model.cables[0].closed) return slack_length(random.below(n()));
-    return payout(random.below(2));
+    return extension(random.below(2));
   }
 
-  /// Coefficients of a law on the tensions, and elongations of a unit move.
-  Vector law(const taut::Active& active) const {
+  /// Coefficients of a law on the tensions, and elongations of a unit slip.
+  Vector law(const taut::ActiveConstraint& active) const {
     Vector row = Vector::Zero(n());
     if (!active.slides()) {
       row[active.on] = 1;
       return row;
     }
-    const int joint = active.move.index;
+    const int joint = active.variable.index;
     const bool forward = active.sense > 0;
     row[forward ? before(joint) : after(joint)] = 1;
     row[forward ? after(joint) : before(joint)] = -model.rho[joint];
     return row;
   }
-  Vector elongation(const taut::Active& active) const {
+  Vector elongation(const taut::ActiveConstraint& active) const {
     Vector e = Vector::Zero(n());
-    if (active.move.kind == taut::Move::Kind::slip) {
-      e[before(active.move.index)] += 1;
-      e[after(active.move.index)] -= 1;
+    if (active.variable.kind == taut::SlipVariable::Kind::slip) {
+      e[before(active.variable.index)] += 1;
+      e[after(active.variable.index)] -= 1;
     } else {
       e[active.on] = 1;
     }
     return e;
   }
 
-  /// The laws R of some moves, their elongations E, and R C E.
+  /// The laws R of some slips, their elongations E, and R C E.
   struct Dense {
     Matrix R, E, RW;
   };
-  Dense dense(const std::vector<taut::Active>& moves) const { return dense(moves, C); }
-  Dense dense(const std::vector<taut::Active>& moves, const Matrix& coupling) const {
-    const int m = static_cast<int>(moves.size());
+  Dense dense(const std::vector<taut::ActiveConstraint>& values) const { return dense(values, C); }
+  Dense dense(const std::vector<taut::ActiveConstraint>& values, const Matrix& coupling) const {
+    const int m = static_cast<int>(values.size());
     Dense made{Matrix::Zero(m, n()), Matrix::Zero(n(), m), Matrix::Zero(m, m)};
     for (int i = 0; i < m; ++i) {
-      made.R.row(i) = law(moves[static_cast<std::size_t>(i)]).transpose();
-      made.E.col(i) = elongation(moves[static_cast<std::size_t>(i)]);
+      made.R.row(i) = law(values[static_cast<std::size_t>(i)]).transpose();
+      made.E.col(i) = elongation(values[static_cast<std::size_t>(i)]);
     }
     made.RW = product(made.R, product(coupling, made.E));
     return made;

@@ -33,14 +33,14 @@ void check_tensions(const PlaneBench& bench, const Expected& expected) {
 
 }  // namespace
 
-SOLVER_TEST_CASE("without friction every segment has the force of the jack, and the payout is F sum(L) / EA",
-                 solver) {
+SOLVER_TEST_CASE(
+    "without friction every segment has the force of the jack, and the extension is F sum(L) / EA", solver) {
   const Chain chain{6, 0};
   make(chain);
   PlaneBench bench(scene, solver);
   REQUIRE(bench.jack(0, 1, F).go().ok());
   check_tensions(bench, [](int) { return F; });
-  CHECK(close(bench.payout(0, 1), F * chain.total_length() / EA, rounding));
+  CHECK(close(bench.extension(0, 1), F * chain.total_length() / EA, rounding));
 }
 
 SOLVER_TEST_CASE(
@@ -67,15 +67,15 @@ SOLVER_TEST_CASE("while the jack pulls every joint keeps its part of the force",
   }
 }
 
-SOLVER_TEST_CASE("the payout of a jack is the elongation of all segments", solver) {
+SOLVER_TEST_CASE("the extension of a jack is the elongation of all segments", solver) {
   const Chain chain{7, 0.25};
   make(chain);
   PlaneBench bench(scene, solver);
   REQUIRE(bench.jack(0, 1, F).go().ok());
   double elongation = 0;
   for (int i = 0; i < chain.segments; ++i) elongation += F * chain.reach(i) * chain.length(i) / EA;
-  CHECK(close(bench.payout(0, 1), elongation, rounding));
-  CHECK(bench.payout(0, 0) == 0);
+  CHECK(close(bench.extension(0, 1), elongation, rounding));
+  CHECK(bench.extension(0, 0) == 0);
 }
 
 SOLVER_TEST_CASE("a jack at the start pulls the cable backwards", solver) {
@@ -132,14 +132,14 @@ SOLVER_TEST_CASE("a hundred load cycles end where the first one ended", solver) 
   check_tensions(bench, [&](int i) { return std::min(F * chain.reach(i), 0.4 * F / chain.reach(i)); });
 }
 
-SOLVER_TEST_CASE("a full release leaves no tension and no payout", solver) {
+SOLVER_TEST_CASE("a full release leaves no tension and no extension", solver) {
   const Chain chain{6, 0.3};
   make(chain);
   PlaneBench bench(scene, solver);
   REQUIRE(bench.jack(0, 1, F).go().ok());
   REQUIRE(bench.jack(0, 1, 0).go().ok());
   check_tensions(bench, [](int) { return 0.0; });
-  CHECK(std::fabs(bench.payout(0, 1)) <= rounding * F * chain.total_length() / EA);
+  CHECK(std::fabs(bench.extension(0, 1)) <= rounding * F * chain.total_length() / EA);
 }
 
 SOLVER_TEST_CASE("without friction the tensions follow the jack up and down", solver) {
@@ -151,7 +151,7 @@ SOLVER_TEST_CASE("without friction the tensions follow the jack up and down", so
   }
 }
 
-SOLVER_TEST_CASE("nothing passes a locked joint, and beyond it the chain is that of the other joints",
+SOLVER_TEST_CASE("nothing passes a self-locking joint, and beyond it the chain is that of the other joints",
                  solver) {
   const Chain chain{6, 0.3};
   make(chain);
@@ -200,7 +200,7 @@ SOLVER_TEST_CASE("a cable of one segment has the force of its only jack", solver
     PlaneBench bench(scene, solver);
     REQUIRE(bench.jack(0, end, F).go().code == Code::ok);
     check_tensions(bench, [](int) { return F; });
-    CHECK(close(bench.payout(0, end), F * chain_length(0) / EA, rounding));
+    CHECK(close(bench.extension(0, end), F * chain_length(0) / EA, rounding));
   }
 }
 
@@ -221,7 +221,7 @@ SOLVER_TEST_CASE("two equal jacks on a cable of one segment share its elongation
   PlaneBench bench(scene, solver);
   REQUIRE(bench.jack(0, 0, F).jack(0, 1, F).go().code == Code::ok);
   check_tensions(bench, [](int) { return F; });
-  CHECK(close(bench.payout(0, 0) + bench.payout(0, 1), F * chain_length(0) / EA, rounding));
+  CHECK(close(bench.extension(0, 0) + bench.extension(0, 1), F * chain_length(0) / EA, rounding));
 }
 
 SOLVER_TEST_CASE("along saddles the force falls by exp(-mu beta), along straight ducts by exp(-mu k s)",

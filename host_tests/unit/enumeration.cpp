@@ -15,7 +15,7 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 /// One open cable on a plane structure, one load step from rest: unknowns are the displacements, all
-/// tensions, the slips and the payout of the jack.
+/// tensions, the slips and the extension of the jack.
 class Enumeration {
  public:
   Enumeration(const Plane& scene, const taut::Sample<double, PlaneCapacity>& sample)
@@ -48,8 +48,8 @@ class Enumeration {
       for (int axis = 0; axis < 2; ++axis) place_.push_back(scene_.nodes[i].is_held(axis) ? -1 : free_++);
     T0_ = free_;
     slip0_ = T0_ + segments();
-    payout_ = slip0_ + joints();
-    size_ = payout_ + 1;
+    extension_ = slip0_ + joints();
+    size_ = extension_ + 1;
   }
   int place(int node, int axis) const { return place_[static_cast<std::size_t>(2 * node + axis)]; }
 
@@ -81,8 +81,8 @@ class Enumeration {
               force.force[static_cast<std::size_t>(axis)] * sample_.factor[force.load];
     for (int i = 0; i < segments(); ++i) add_segment(i);
     const bool has_jack = cable_.ends[1] == taut::End::jacked;
-    A_(payout_, has_jack ? T0_ + segments() - 1 : payout_) = 1;
-    b_[payout_] = has_jack ? sample_.jack[0][1].force : 0;
+    A_(extension_, has_jack ? T0_ + segments() - 1 : extension_) = 1;
+    b_[extension_] = has_jack ? sample_.jack[0][1].force : 0;
   }
   void add_segment(int i) {
     const auto ends = scene_.segment_nodes(cable_, i);
@@ -93,7 +93,7 @@ class Enumeration {
     A_(T0_ + i, T0_ + i) = -1;
     if (i < joints()) A_(T0_ + i, slip0_ + i) = axial;
     if (i > 0) A_(T0_ + i, slip0_ + i - 1) = -axial;
-    if (i + 1 == segments()) A_(T0_ + i, payout_) = axial;
+    if (i + 1 == segments()) A_(T0_ + i, extension_) = axial;
     b_[T0_ + i] = -cable_.E * cable_.A * scene_.prestrain[i];
   }
 
@@ -134,7 +134,7 @@ class Enumeration {
   Anatomy<Plane> anatomy_;
   const taut::Cable<double>& cable_;
   std::vector<int> place_;
-  int free_ = 0, T0_ = 0, slip0_ = 0, payout_ = 0, size_ = 0;
+  int free_ = 0, T0_ = 0, slip0_ = 0, extension_ = 0, size_ = 0;
   Matrix A_;
   Vector b_;
 };

@@ -54,7 +54,7 @@ TEST_CASE("a force that does not follow from its elongation is incompatible") {
   CHECK(after([](Spoiled& s) { s.answer.strut[3] += wrong * 2e5; }).strut > wrong / 1000);
   CHECK(after([](Spoiled& s) { s.answer.tension[2] *= 1 + wrong; }).incompatible > wrong / 100);
   CHECK(after([](Spoiled& s) { s.answer.slip[2] *= 1 + wrong; }).incompatible > wrong / 100);
-  CHECK(after([](Spoiled& s) { s.answer.payout[0][1] *= 1 + wrong; }).incompatible > wrong / 100);
+  CHECK(after([](Spoiled& s) { s.answer.extension[0][1] *= 1 + wrong; }).incompatible > wrong / 100);
   CHECK(after([](Spoiled& s) { s.lift = 1e-7; }).strut > 1e-8);
 }
 

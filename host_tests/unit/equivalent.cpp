@@ -45,7 +45,7 @@ void compare(const A& a, const B& b, int segments, int struts, const Mapping& ma
   for (int i = 0; i < struts; ++i)
     CHECK(close(a.response().strut[i] * map.force, b.response().strut[i], rounding, scale * map.force));
   for (const int end : {0, 1})
-    CHECK(close(a.payout(0, end) * map.length, b.payout(0, map.mirrored ? 1 - end : end), rounding,
+    CHECK(close(a.extension(0, end) * map.length, b.extension(0, map.mirrored ? 1 - end : end), rounding,
                 1e-2 * map.length));
 }
 

@@ -88,15 +88,15 @@ SOLVER_TEST_CASE("with friction the draw-in is felt as far as the change of fric
   CHECK(wholly);
 }
 
-SOLVER_TEST_CASE("a locked end keeps its payout less the draw-in", solver) {
+SOLVER_TEST_CASE("a locked end keeps its extension less the draw-in", solver) {
   make({6, 0.3}, 3e-3);
   PlaneBench bench(scene, solver);
   REQUIRE(bench.jack(0, 1, F).go().ok());
-  const double drawn = bench.payout(0, 1);
+  const double drawn = bench.extension(0, 1);
   REQUIRE(bench.lock(0, 1).go().ok());
-  CHECK(close(bench.payout(0, 1), drawn - 3e-3, rounding));
+  CHECK(close(bench.extension(0, 1), drawn - 3e-3, rounding));
   REQUIRE(bench.go().ok());
-  CHECK(close(bench.payout(0, 1), drawn - 3e-3, rounding));  // drawn in once only
+  CHECK(close(bench.extension(0, 1), drawn - 3e-3, rounding));  // drawn in once only
 }
 
 SOLVER_TEST_CASE("a draw-in longer than the elongation leaves the cable slack", solver) {
@@ -134,9 +134,9 @@ SOLVER_TEST_CASE("a jack set on again lifts the end off at the force that was le
   make(chain, seating);
   PlaneBench bench(scene, solver);
   pull_and_lock(bench);
-  const double X = force_after_draw_in(chain, seating), payout = bench.payout(0, 1);
+  const double X = force_after_draw_in(chain, seating), extension = bench.extension(0, 1);
   REQUIRE(bench.jack(0, 1, X).go().ok());
-  CHECK(close(bench.payout(0, 1), payout, 1e-10));
+  CHECK(close(bench.extension(0, 1), extension, 1e-10));
   for (const double force : {1.02 * X, F, 1.2 * F}) {
     REQUIRE(bench.jack(0, 1, force).go().ok());
     check_tensions(bench, [&](int i) {
@@ -183,10 +183,10 @@ SOLVER_TEST_CASE("a cable that is warmed under a jack keeps its force and is dra
   scene.add_temperature(scene.add_load(), 0, 10);
   PlaneBench bench(scene, solver);
   REQUIRE(bench.jack(0, 1, F).go().ok());
-  const double before = bench.payout(0, 1);
+  const double before = bench.extension(0, 1);
   REQUIRE(bench.load(0, 1).go().ok());
   check_tensions(bench, [](int) { return F; });
-  CHECK(close(bench.payout(0, 1) - before, 1.2e-5 * 10 * chain.total_length(), 1e-9));
+  CHECK(close(bench.extension(0, 1) - before, 1.2e-5 * 10 * chain.total_length(), 1e-9));
 }
 
 SOLVER_TEST_CASE(

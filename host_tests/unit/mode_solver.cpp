@@ -30,15 +30,15 @@ struct Rates {
   std::vector<bool> active;
 };
 
-/// A rate problem: moves that follow whatever happens with what their laws are due, pairs that may.
+/// A rate problem: slips that follow whatever happens with what their laws are due, pairs that may.
 template <class Cap>
 struct Problem {
   explicit Problem(const AnyCable<Cap>& on) : cable(on) {}
 
   const AnyCable<Cap>& cable;
-  std::vector<taut::Active> follow;
+  std::vector<taut::ActiveConstraint> follow;
   std::vector<double> due;
-  std::vector<taut::Active> pairs;
+  std::vector<taut::ActiveConstraint> pairs;
   std::vector<double> least;  // of a segment's rate of tension
   Vector stuck;
 
@@ -49,23 +49,23 @@ struct Problem {
   }
   /// The rates if just these pairs are active; false if nothing determines them.
   bool solve(int code, Rates& rates) const {
-    std::vector<taut::Active> moves = follow;
+    std::vector<taut::ActiveConstraint> values = follow;
     Vector dues = Vector::Zero(static_cast<int>(follow.size() + pairs.size()));
     for (std::size_t i = 0; i < due.size(); ++i) dues[static_cast<int>(i)] = due[i];
     rates.active.assign(pairs.size(), false);
     for (std::size_t p = 0; p < pairs.size(); ++p) {
       if ((code >> p) % 2 == 0) continue;
       rates.active[p] = true;
-      if (!pairs[p].slides()) dues[static_cast<int>(moves.size())] = least[p];
-      moves.push_back(pairs[p]);
+      if (!pairs[p].slides()) dues[static_cast<int>(values.size())] = least[p];
+      values.push_back(pairs[p]);
     }
     rates.T = stuck;
     rates.v = Vector::Zero(static_cast<int>(pairs.size()));
-    if (moves.empty()) return true;
-    if (moves.size() > static_cast<std::size_t>(cable.n())) return false;
-    const auto dense = cable.dense(moves);
+    if (values.empty()) return true;
+    if (values.size() > static_cast<std::size_t>(cable.n())) return false;
+    const auto dense = cable.dense(values);
     if (rcond(dense.RW) < 1e-5) return false;
-    const Vector m = solved(dense.RW, dues.head(static_cast<int>(moves.size())) - product(dense.R, stuck));
+    const Vector m = solved(dense.RW, dues.head(static_cast<int>(values.size())) - product(dense.R, stuck));
     rates.T += product(cable.C, product(dense.E, m));
     for (std::size_t p = 0, at = follow.size(); p < pairs.size(); ++p)
       if (rates.active[p]) {
@@ -103,22 +103,23 @@ struct Decision {
   Solver solver;
 
   /// `begun`: slips that are in the set from the start.
-  Outcome decide(const Problem<Cap>& problem, bool go_on, const std::vector<taut::Active>& begun = {}) {
+  Outcome decide(const Problem<Cap>& problem, bool go_on,
+                 const std::vector<taut::ActiveConstraint>& begun = {}) {
     const auto& cable = problem.cable;
     set.begin(cable.model);
-    for (const taut::Active& active : problem.follow) REQUIRE(set.append(cable.laws, active));
-    for (const taut::Active& active : begun) REQUIRE(set.append(cable.laws, active));
+    for (const taut::ActiveConstraint& active : problem.follow) REQUIRE(set.append(cable.laws, active));
+    for (const taut::ActiveConstraint& active : begun) REQUIRE(set.append(cable.laws, active));
     solver.begin(cable.model, cable.laws, set);
     for (std::size_t p = 0; p < problem.pairs.size(); ++p) {
-      const taut::Active& pair = problem.pairs[p];
+      const taut::ActiveConstraint& pair = problem.pairs[p];
       if (pair.slides())
-        solver.add_slip(
-            taut::SlipMode::of(pair.move.index, pair.sense > 0 ? JointState::forward : JointState::backward));
+        solver.add_slip(taut::SlipMode::of(pair.variable.index,
+                                           pair.sense > 0 ? JointState::forward : JointState::backward));
       else
         solver.add_segment(pair.on, problem.least[p]);
     }
     typename Solver::Tensions stuck;
-    typename Solver::Moves due;
+    typename Solver::Values due;
     fill(stuck, problem.stuck);
     due.fill(0);
     for (std::size_t i = 0; i < problem.due.size(); ++i) due[static_cast<int>(i)] = problem.due[i];
@@ -148,7 +149,7 @@ struct Decision {
     CHECK(largest(to_vector(solver.rates(), n) - rates.T) <= rounding * (1 + largest(rates.T)));
     for (std::size_t p = 0; p < problem.pairs.size(); ++p) {
       const int i = static_cast<int>(p);
-      const double unit = set.stiffness(problem.pairs[p].move);
+      const double unit = set.stiffness(problem.pairs[p].variable);
       CHECK(std::fabs(solver.value(i) - unit * rates.v[i]) <= rounding * unit * (1 + largest(rates.v)));
     }
   }
@@ -159,7 +160,7 @@ template <class Cap>
 Problem<Cap> under_tension(const AnyCable<Cap>& cable, Random& random) {
   Problem<Cap> problem(cable);
   if (!cable.model.cables[0].closed && random.coin()) {
-    problem.follow.push_back(cable.payout(1));
+    problem.follow.push_back(cable.extension(1));
     problem.due.push_back(random.between(-1, 1));
   }
   for (int j = 0; j < cable.model.joints; ++j)
@@ -179,7 +180,7 @@ Problem<Cap> from_zero_tension(const AnyCable<Cap>& cable, Random& random) {
   double pull = 0;
   if (!cable.model.cables[0].closed && random.coin()) {
     pull = random.between(0.1, 1);
-    problem.follow.push_back(cable.payout(1));
+    problem.follow.push_back(cable.extension(1));
     problem.due.push_back(pull);
   }
   for (int i = 0; i < cable.n() - static_cast<int>(problem.follow.size()); ++i) {
@@ -211,10 +212,10 @@ TEST_CASE_TEMPLATE(
     const auto found = problem.all_rates();
     impossible += found.empty() ? 1 : 0;
     // From nothing that slides, and from slips of before that go on or come to rest.
-    std::vector<taut::Active> before;
-    for (const taut::Active& pair : problem.pairs)
+    std::vector<taut::ActiveConstraint> before;
+    for (const taut::ActiveConstraint& pair : problem.pairs)
       if (static_cast<int>(before.size()) < 2 && random.coin()) before.push_back(pair);
-    for (const auto& begun : {std::vector<taut::Active>{}, before}) {
+    for (const auto& begun : {std::vector<taut::ActiveConstraint>{}, before}) {
       CAPTURE(begun.size());
       Decider decision;
       const auto outcome = decision.decide(problem, true, begun);

@@ -27,7 +27,7 @@ std::vector<double> state_of(const PlaneBench& bench) {
     all.push_back(static_cast<double>(response.state[j]));
   }
   for (int i = 0; i < scene.struts.size(); ++i) all.push_back(response.strut[i]);
-  for (const double payout : response.payout[0]) all.push_back(payout);
+  for (const double extension : response.extension[0]) all.push_back(extension);
   for (int node = 0; node < scene.nodes.size(); ++node)
     for (int axis = 0; axis < 2; ++axis) all.push_back(bench.displacement(node, axis));
   return all;
@@ -126,7 +126,7 @@ SOLVER_TEST_CASE("two different jacks on a cable of one segment pull it through"
   CHECK(bench.jack(0, 0, 1e5).jack(0, 1, 1.1e5).go().code == Code::pulled_through);
 }
 
-SOLVER_TEST_CASE("a locked joint between two jacks holds any difference", solver) {
+SOLVER_TEST_CASE("a self-locking joint between two jacks holds any difference", solver) {
   rigid_saddles(scene, steel_cable(0.1, two_jacks), chain_points(3));
   scene.mu[1] = 100;
   PlaneBench bench(scene, solver);

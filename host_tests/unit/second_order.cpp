@@ -111,7 +111,7 @@ TEST_CASE(
     const Response found = condensed->at(*tracker);
     CHECK(near(found.tension[0], each.T1, 1e-5));
     CHECK(near(found.strut[0], each.strut, 1e-3));
-    CHECK(near(found.payout[0][1], each.extension, 1e-4));
+    CHECK(near(found.extension[0][1], each.extension, 1e-4));
     CHECK(found.state[0] == taut::JointState::stick);
     CHECK(verify(*tracker).worst() < 1e-10);
   }
@@ -182,7 +182,7 @@ TEST_CASE("a loaded joint that the cable lifts slides at its limit in the displa
     REQUIRE(tracker->advance(pulled(each.F, 1)).status.ok());
     const Response found = condensed->at(*tracker);
     CHECK(near(found.tension[0], each.T1, 1e-4));
-    CHECK(near(found.payout[0][1], each.extension, each.part));
+    CHECK(near(found.extension[0][1], each.extension, each.part));
     CHECK(verify(*tracker).worst() < 1e-10);
   }
 }
@@ -197,7 +197,7 @@ TEST_CASE("in second-order theory forces do not depend on how a straight path is
     REQUIRE(whole->advance(pulled(to)).status.ok());
     for (int i = 1; i <= 37; ++i) REQUIRE(cut->advance(pulled(from + (to - from) * i / 37)).status.ok());
     for (int i = 0; i < 2; ++i) CHECK(std::fabs(whole->tension(i) - cut->tension(i)) <= 1e-9 * 2.1e6);
-    CHECK(std::fabs(whole->moves().payout[0][1] - cut->moves().payout[0][1]) <= 1e-11);
+    CHECK(std::fabs(whole->slip_state().extension[0][1] - cut->slip_state().extension[0][1]) <= 1e-11);
   }
 }
 
@@ -211,7 +211,7 @@ TEST_CASE("a mirrored scene in second-order theory has the same forces") {
     REQUIRE(a->advance(pulled(F)).status.ok());
     REQUIRE(b->advance(pulled(F, 0, 0)).status.ok());
     CHECK(near(b->tension(1), a->tension(0), 1e-12));
-    CHECK(near(b->moves().payout[0][0], a->moves().payout[0][1], 1e-11));
+    CHECK(near(b->slip_state().extension[0][0], a->slip_state().extension[0][1], 1e-11));
   }
 }
 

@@ -57,12 +57,12 @@ class Site {
     const Table table(simulated.out);
     forces_.clear();
     for (int i = 1; i <= 4; ++i) forces_.push_back(table.number(rows_, "C.T" + std::to_string(i)));
-    const double payout = table.number(rows_, "C.end.payout");
+    const double extension = table.number(rows_, "C.end.payout");
     std::normal_distribution<double> force_noise(0, 150), stroke_noise(0, 0.001);
     std::ostringstream line;
     line.precision(10);
     line << rows_++ << ',' << forces_[0] + force_noise(random_) << ',' << force + force_noise(random_) << ','
-         << payout + stroke_noise(random_) << '\n';
+         << extension + stroke_noise(random_) << '\n';
     return line.str();
   }
   double force() const { return force_; }

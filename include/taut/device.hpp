@@ -1,9 +1,9 @@
 // taut on a device: all that follows a scene that `taut export` wrote, in linear or second-order theory.
 //
 // Tracker, verify(), Estimator, UnknownPast, find_bounds() and JackPlanner, with what they are given:
-// Condensed, SecondOrder, Knowledge, Sample, Readings, JackGoal. taut.hpp says of each when it fails and what
-// it costs. It needs no Eigen, and of the C library square roots alone. What has still to be condensed needs
-// taut.hpp.
+// Condensed, SecondOrder, FrictionPrior, Sample, Readings, JackGoal. taut.hpp says of each when it fails and
+// what it costs. It needs no Eigen, and of the C library square roots alone. What has still to be condensed
+// needs taut.hpp.
 //
 // A static Tracker or Estimator is all zeros until start(): it lies in .bss, and takes no flash. advance()
 // before start() fails with `not_started`; what returns no Status says zero then.
@@ -23,8 +23,8 @@
 #include "taut/condensation/second_order.hpp"
 #include "taut/estimation/bounds.hpp"
 #include "taut/estimation/estimator.hpp"
+#include "taut/estimation/friction_prior.hpp"
 #include "taut/estimation/gauges.hpp"
-#include "taut/estimation/knowledge.hpp"
 #include "taut/estimation/unknown_past.hpp"
 #include "taut/planning/jack_planner.hpp"
 #include "taut/scene/capacity.hpp"

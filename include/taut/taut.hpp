@@ -24,13 +24,14 @@
 // INTERRUPTS AND THREADS. Nothing has state outside of its own objects, waits or takes a lock. So every call
 // may be made from an interrupt or a thread, but not while another call changes the same object: who reads
 // tension() in an interrupt that has cut into advance() sees half of a state. Functions that are const may
-// run at the same time. Scenes, condensed scenes and Knowledge are only read and may be shared. An event
+// run at the same time. Scenes, condensed scenes and FrictionPrior are only read and may be shared. An event
 // takes a thousand times as long as a sample without one: let the interrupt hand over the readings, and call
 // advance() outside.
 //
 // THE SAME BITS everywhere from Condensed on: + - * / and square roots alone, in the order written down. It
 // takes IEEE arithmetic, -ffp-contract=off and no -ffast-math. For capstan joints Condensation and
-// find_knowledge() use tanh and atan2 of the C library, which may round as they like: export those scenes.
+// find_friction_prior() use tanh and atan2 of the C library, which may round as they like: export those
+// scenes.
 //
 // COSTS are orders of the worst case, in operations, for n segments and J joints (of all cables together), L
 // load patterns, K jacked ends and P unknowns of the friction.
@@ -105,7 +106,7 @@
 // one for its wedge, without which reversals and draw-in count as exact. Further holds gain and zero of all
 // other instruments. They are `unknowns` and `reading_unknowns` of an exported header, whose `strokes` are
 // the instruments that start() takes and take_stroke() is given, by number. Condensed scene and
-// Knowledge must outlive it. start(), then advance() for every Readings: forces [N] and strokes [m]
+// FrictionPrior must outlive it. start(), then advance() for every Readings: forces [N] and strokes [m]
 // of cable ends as far as they were read, load factors, locks, time since the row before.
 //
 //   start() fails with `capacity_exceeded` if and only if friction and cells at jacks have more unknowns than
@@ -151,7 +152,7 @@
 #include "taut/elements/elements.hpp"
 #include "taut/estimation/bounds.hpp"
 #include "taut/estimation/estimator.hpp"
-#include "taut/estimation/find_knowledge.hpp"
+#include "taut/estimation/find_friction_prior.hpp"
 #include "taut/estimation/unknown_past.hpp"
 #include "taut/planning/jack_planner.hpp"
 #include "taut/scene/capacity.hpp"

@@ -255,7 +255,7 @@ taut::AlarmLimits<float> limits() {
 extern "C" {
 
 @name@_status @name@_start(void) {
-  const auto progress = estimator.start(scene::condensed<float>, scene::knowledge<float>, limits()@cells@);
+  const auto progress = estimator.start(scene::condensed<float>, scene::prior<float>, limits()@cells@);
   is_started = progress.status.ok() && !(progress.fraction < 1);
   return answer(progress.status);
 }
@@ -330,7 +330,7 @@ size_t @name@_save(void* buffer, size_t size) {
   if (buffer == nullptr || size != sizeof(State)) return wrong_call();
   std::memcpy(static_cast<void*>(&state), buffer, sizeof(State));
   const taut::Status status =
-      estimator.restore(scene::condensed<float>, scene::knowledge<float>, state, limits()@cells@);
+      estimator.restore(scene::condensed<float>, scene::prior<float>, state, limits()@cells@);
   is_started = status.ok();
   return answer(status);
 }
@@ -376,7 +376,7 @@ std::string c_header(const ExportedScene& scene, const std::string& name) {
 }
 
 std::string c_source(const ExportedScene& scene, const std::string& name, const std::string& header) {
-  const bool has_strokes = !scene.in_float.knowledge.stroke.empty();
+  const bool has_strokes = !scene.in_float.prior.stroke.empty();
   std::vector<Word> words = pattern_words(scene, name);
   words.push_back({"@file@", header});
   words.push_back({"@cells@", has_strokes ? ", scene::strokes<float>.items" : ""});

@@ -221,9 +221,9 @@ class Theory {
   std::optional<TheoryEnd> end_;
 };
 
-std::vector<double> payouts(const Answer& answer) {
+std::vector<double> extensions_of(const Answer& answer) {
   std::vector<double> all;
-  for (const auto& ends : answer.payout) all.insert(all.end(), ends.begin(), ends.end());
+  for (const auto& ends : answer.extension) all.insert(all.end(), ends.begin(), ends.end());
   return all;
 }
 
@@ -248,7 +248,7 @@ ComparedTheories compare_theories(const SceneDescription& scene, const std::stri
     const Answer &of_linear = linear.answer(), &of_second = second.answer();
     segments.take(of_linear.tension, of_second.tension);
     struts.take(of_linear.strut, of_second.strut);
-    extensions.take(payouts(of_linear), payouts(of_second));
+    extensions.take(extensions_of(of_linear), extensions_of(of_second));
   };
   take();
   const auto visit = [&](const LogRow& row, const std::string& place) {

@@ -195,7 +195,7 @@ class Constants {
  public:
   Constants(const ExportedArrays& arrays, const CondensedCounts& capacity, ScalarType scalar)
       : arrays_(arrays.condensed),
-        knowledge_(arrays.knowledge),
+        prior_(arrays.prior),
         capacity_(capacity),
         single_(scalar == ScalarType::float32) {}
 
@@ -220,18 +220,19 @@ class Constants {
            field("by_bar", rows(by_bar(a.level->strut_by_bar))) + "          /*count*/ " +
            std::to_string(a.level->struts) + "};\n}\n";
   }
-  std::string knowledge() const {
-    const KnowledgeArrays& k = knowledge_;
-    return "constexpr ::taut::Knowledge<" + name() + ", Capacity> make_knowledge(" + name() + ") {\n" +
-           "  return {/*mu*/ " + numbers(k.mu, 10) + ",\n" + field("grip", numbers(k.grip, 10)) +
-           field("capstan", truths(k.capstan)) + field("mu_sd", scalars(k.mu_sd, 10)) +
-           field("shared", truths(k.shared)) + field("scatter", scalars(k.scatter, 10)) +
-           field("seating_sd", scalars(k.seating_sd, 10)) + field("drift_sd", scalars(k.drift_sd, 10)) +
-           field("length", scalars(k.length, 10)) + "          /*cell*/ " + cells(k.cell) + "};\n}\n";
+  std::string prior() const {
+    const FrictionPriorArrays& k = prior_;
+    return "constexpr ::taut::FrictionPrior<" + name() + ", Capacity> make_prior(" + name() +
+           ") {\n" + "  return {/*mu*/ " + numbers(k.mu, 10) + ",\n" +
+           field("contact_factor", numbers(k.contact_factor, 10)) + field("capstan", truths(k.capstan)) +
+           field("mu_sd", scalars(k.mu_sd, 10)) + field("shared", truths(k.shared)) +
+           field("scatter", scalars(k.scatter, 10)) + field("seating_sd", scalars(k.seating_sd, 10)) +
+           field("drift_sd", scalars(k.drift_sd, 10)) + field("length", scalars(k.length, 10)) +
+           "          /*cell*/ " + cells(k.cell) + "};\n}\n";
   }
   std::string strokes() const {
     std::vector<std::string> items;
-    for (const StrokeGauge<double>& stroke : knowledge_.stroke)
+    for (const StrokeGauge<double>& stroke : prior_.stroke)
       items.push_back("{" + cell(stroke) + ", " + std::to_string(stroke.cable) + ", " +
                       std::to_string(stroke.end) + "}");
     if (items.empty()) return "";
@@ -259,7 +260,7 @@ class Constants {
   std::string lean(const LevelArrays& level) const {
     return "constexpr ::taut::CondensedLean<" + name() + ", Capacity> make_lean(" + name() + ") {\n" +
            "  return {/*bends*/ " + table(level.bends) + ",\n" +
-           field("grip_by_bend", numbers(level.grip_by_bend, 10)) + field("aside", table(asides(level))) +
+           field("kappa_by_bend", numbers(level.kappa_by_bend, 10)) + field("aside", table(asides(level))) +
            field("tension_by_bar", rows(by_bar(level.tension_by_bar))) + "          /*struts*/ " +
            std::to_string(level.struts) + ", /*beams*/ " + std::to_string(level.beams) + "};\n}\n";
   }
@@ -368,7 +369,7 @@ class Constants {
   }
 
   const CondensedArrays& arrays_;
-  const KnowledgeArrays& knowledge_;
+  const FrictionPriorArrays& prior_;
   const CondensedCounts& capacity_;
   bool single_;
 };
@@ -376,11 +377,13 @@ class Constants {
 // As Estimator counts them.
 UnknownCounts unknowns(const ExportedArrays& arrays) {
   using AnyEstimator = Estimator<Condensed<double, Capacity>, 1>;
-  const auto is_locked = [&](int j) { return !(arrays.condensed.rho[static_cast<std::size_t>(j)] > 0); };
+  const auto is_self_locking = [&](int j) {
+    return !(arrays.condensed.rho[static_cast<std::size_t>(j)] > 0);
+  };
   UnknownCounts count =
-      count_unknowns(arrays.condensed.cables, is_locked, arrays.knowledge,
+      count_unknowns(arrays.condensed.cables, is_self_locking, arrays.prior,
                      AnyEstimator::remembered_corners(static_cast<int>(arrays.condensed.load.size())));
-  const auto& strokes = arrays.knowledge.stroke;
+  const auto& strokes = arrays.prior.stroke;
   for (const StrokeGauge<double>& stroke : strokes) count.further += stroke.unknowns();
   // Every gauge has a place, with unknowns or without.
   count.further = std::max(count.further, static_cast<int>(strokes.size()));
@@ -425,7 +428,7 @@ std::string head(const std::vector<ExportedScene>& scenes, const CondensedCounts
          "#include \"taut/condensation/" +
          (capacity.leans() ? "second_order" : "condensed") + ".hpp\"\n" +
          (has_strokes ? "#include \"taut/estimation/gauges.hpp\"\n" : "") +
-         "#include \"taut/estimation/knowledge.hpp\"\n"
+         "#include \"taut/estimation/friction_prior.hpp\"\n"
          "#else\n"
          "#include \"taut_device.hpp\"  // taut in one header\n"
          "#endif\n"
@@ -481,7 +484,7 @@ struct Shared {
         most_unknowns.carried = std::max(most_unknowns.carried, count.carried);
         most_unknowns.further = std::max(most_unknowns.further, count.further);
       }
-      has_strokes = has_strokes || !scene.in_double.knowledge.stroke.empty();
+      has_strokes = has_strokes || !scene.in_double.prior.stroke.empty();
     }
   }
 
@@ -505,8 +508,8 @@ std::string constants(const ExportedScene& scene, const CondensedCounts& capacit
     const ExportedArrays& arrays = scalar == ScalarType::float32 ? scene.in_float : scene.in_double;
     if (!arrays.condensed.condensing.status) continue;
     const Constants written(arrays, capacity, scalar);
-    text += written.condensed() + (has_struts ? written.struts() : "") + written.knowledge() +
-            written.strokes() + "\n";
+    text += written.condensed() + (has_struts ? written.struts() : "") + written.prior() + written.strokes() +
+            "\n";
   }
   return text;
 }
@@ -523,8 +526,8 @@ std::string objects(const Shared& shared) {
          "/// Of a jack that the scene does not say to be exact, an ordinary cell is taken, at an anchored "
          "end only one whose sd it says.\n"
          "template <class Scalar>\n"
-         "inline constexpr ::taut::Knowledge<Scalar, Capacity> knowledge = "
-         "detail::make_knowledge(Scalar());\n\n"
+         "inline constexpr ::taut::FrictionPrior<Scalar, Capacity> prior = "
+         "detail::make_prior(Scalar());\n\n"
          "/// The Parameters of an Estimator of " +
          std::string(shared.is_one ? "this scene" : "every scene of this header") +
          ".\n"
@@ -556,7 +559,7 @@ std::string strut_objects(std::size_t struts, const Shared& shared) {
 }
 
 std::string stroke_objects(const ExportedScene& scene) {
-  const std::size_t count = scene.in_double.knowledge.stroke.size();
+  const std::size_t count = scene.in_double.prior.stroke.size();
   if (count == 0) return "";
   return "/// The strokes of jacks that are measurements, for start() and take_stroke() of Estimator.\n"
          "template <class Scalar>\n"

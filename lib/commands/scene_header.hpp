@@ -17,7 +17,7 @@ std::string identifier(const std::string& name);
 /// A scene in one floating-point type.
 struct ExportedArrays {
   CondensedArrays condensed;
-  KnowledgeArrays knowledge;
+  FrictionPriorArrays prior;
 };
 
 /// A scene with what is written of it.

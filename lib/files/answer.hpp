@@ -21,7 +21,7 @@ struct StrutEstimate {
 struct Answer {
   std::vector<double> tension, slip, contact, friction;
   std::vector<JointState> state;
-  std::vector<std::array<double, 2>> payout;
+  std::vector<std::array<double, 2>> extension;
   std::vector<double> strut;
   std::vector<double> friction_used;     ///< of every joint: 1 where it slides; not of the method stepwise
   std::vector<double> bend_change;       ///< of the cable at every joint, by itself; 0 in linear theory

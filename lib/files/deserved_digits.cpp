@@ -107,10 +107,10 @@ double rounded_as_known(double number, double deviation) {
 Answer with_deserved_digits(const Answer& answer) {
   Answer written = answer;
   const int digits = best_known_digits(answer);
-  std::vector<double> payouts;
-  for (const auto& ends : answer.payout) payouts.insert(payouts.end(), ends.begin(), ends.end());
+  std::vector<double> extensions;
+  for (const auto& ends : answer.extension) extensions.insert(extensions.end(), ends.begin(), ends.end());
   const Lists forces = {&written.tension, &written.contact, &written.friction, &written.strut},
-              lengths = {&written.slip, &written.displacement, &payouts};
+              lengths = {&written.slip, &written.displacement, &extensions};
   const double least_force = computed_deviation * largest_of(forces);
   if (answer.deviation.empty()) {
     round_all(forces, computed_digits, least_force);
@@ -121,7 +121,7 @@ Answer with_deserved_digits(const Answer& answer) {
   }
   round_all(lengths, digits, computed_deviation * largest_of(lengths));
   round_all({&written.friction_used}, digits, computed_deviation);
-  for (std::size_t i = 0; i < payouts.size(); ++i) written.payout[i / 2][i % 2] = payouts[i];
+  for (std::size_t i = 0; i < extensions.size(); ++i) written.extension[i / 2][i % 2] = extensions[i];
   return written;
 }
 

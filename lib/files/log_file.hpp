@@ -24,7 +24,7 @@ struct EndRow {
   double force = 0;               ///< last possible force given [N]
   bool locked = false;            ///< last word on the wedge
   std::optional<double> reading;  ///< force given in this row [N]
-  std::optional<double> stroke;   ///< payout given in this row [m]
+  std::optional<double> stroke;   ///< extension given in this row [m]
 };
 
 /// The force of a segment or a strut, measured in a row [N].

@@ -95,7 +95,7 @@ bool is_possible(const Answer& answer) {
   };
   return all(answer.tension) && all(answer.slip) && all(answer.contact) && all(answer.friction) &&
          all(answer.strut) && all(answer.displacement) && all(answer.deviation) && all(answer.mu) &&
-         all(answer.mu_deviation) && std::all_of(answer.payout.begin(), answer.payout.end(), all);
+         all(answer.mu_deviation) && std::all_of(answer.extension.begin(), answer.extension.end(), all);
 }
 
 }  // namespace
@@ -149,8 +149,8 @@ std::string impossible_number(const SceneDescription& scene, const Answer& answe
     check(cable.name + ".mu", answer.mu, joint, joints);
     check(cable.name + ".mu_sd", answer.mu_deviation, joint, joints);
     for (std::size_t end = 0; end < 2; ++end)
-      if (const double payout = answer.payout[c][end]; found.empty() && !is_possible(payout))
-        found = cable.name + "." + end_name(end) + ".payout = " + plain(payout);
+      if (const double extension = answer.extension[c][end]; found.empty() && !is_possible(extension))
+        found = cable.name + "." + end_name(end) + ".payout = " + plain(extension);
     segment += segments;
     joint += joints;
   }
@@ -254,7 +254,7 @@ std::string result_row(const SceneDescription& scene, double time, const Answer&
     line.number(answer.contact, joint, joints);
     line.number(answer.friction, joint, joints);
     for (std::size_t end = 0; end < 2; ++end) {
-      if (cable.is_jacked(end)) line.number(answer.payout[c][end]);
+      if (cable.is_jacked(end)) line.number(answer.extension[c][end]);
     }
     segment += cable.segments();
     joint += joints;

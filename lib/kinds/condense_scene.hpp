@@ -4,7 +4,7 @@
 #include "lib/files/scene_description.hpp"
 #include "lib/kinds/condensed_kind.hpp"
 #include "taut/condensation/condensed.hpp"
-#include "taut/estimation/knowledge.hpp"
+#include "taut/estimation/friction_prior.hpp"
 #include "taut/status.hpp"
 
 namespace taut::host {
@@ -25,6 +25,6 @@ Condensing condense_scene(const SceneDescription& scene, CondensedOf<Scalar, Cap
 
 /// What the scene says of friction and load cells, for an Estimator. Compiled with condense_scene().
 template <class Scalar, int Dimension, class Cap>
-void know_scene(const SceneDescription& scene, Knowledge<Scalar, Cap>& knowledge);
+void know_scene(const SceneDescription& scene, FrictionPrior<Scalar, Cap>& prior);
 
 }  // namespace taut::host

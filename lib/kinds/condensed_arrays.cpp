@@ -58,7 +58,7 @@ bool are_possible(const LinearArrays& arrays) {
 }
 bool are_possible(const LevelArrays& arrays) {
   return are_possible(arrays.high) && are_possible(arrays.high_struts) && are_possible(arrays.bends) &&
-         are_possible(arrays.grip_by_bend) && are_possible(arrays.aside) &&
+         are_possible(arrays.kappa_by_bend) && are_possible(arrays.aside) &&
          are_possible(arrays.tension_by_bar) && are_possible(arrays.strut_by_bar) &&
          is_possible(arrays.target_force) && is_possible(arrays.curve);
 }
@@ -126,7 +126,7 @@ LevelArrays level_arrays(const SecondOrder<Scalar, Cap>& condensed, const LevelS
   arrays.high = copied(condensed.high);
   arrays.high_struts = copied(struts.high, low, arrays.struts);
   arrays.bends = copied(condensed.lean.bends, low, low.joints);
-  arrays.grip_by_bend = row_of(condensed.lean.grip_by_bend, low.joints);
+  arrays.kappa_by_bend = row_of(condensed.lean.kappa_by_bend, low.joints);
   const RowsArrays aside = copied(condensed.lean.aside, low, max_bars<Cap> * Cap::normals);
   const auto kept = [&](const Row& row) {
     return bars_of<Cap>(row, low.segments, arrays, static_cast<std::size_t>(Cap::normals));
@@ -157,27 +157,27 @@ CondensedArrays condensed_arrays(const SceneDescription& scene) {
 }
 
 template <class Scalar, int Dimension, class Cap>
-KnowledgeArrays knowledge_arrays(const SceneDescription& scene) {
-  const auto knowledge = std::make_unique<Knowledge<Scalar, Cap>>();
-  know_scene<Scalar, Dimension, Cap>(scene, *knowledge);
+FrictionPriorArrays friction_prior_arrays(const SceneDescription& scene) {
+  const auto prior = std::make_unique<FrictionPrior<Scalar, Cap>>();
+  know_scene<Scalar, Dimension, Cap>(scene, *prior);
   const auto cables = static_cast<int>(scene.cables.size());
   std::size_t joints = 0, segments = 0;
   for (const CableDescription& cable : scene.cables) {
     joints += cable.joints();
     segments += cable.segments();
   }
-  KnowledgeArrays arrays;
-  arrays.mu = row_of(knowledge->mu, static_cast<int>(joints));
-  arrays.grip = row_of(knowledge->grip, static_cast<int>(joints));
-  arrays.mu_sd = row_of(knowledge->mu_sd, cables);
-  arrays.seating_sd = row_of(knowledge->seating_sd, cables);
-  arrays.scatter = row_of(knowledge->scatter, cables);
-  arrays.drift_sd = row_of(knowledge->drift_sd, cables);
-  arrays.length = row_of(knowledge->length, static_cast<int>(segments));
+  FrictionPriorArrays arrays;
+  arrays.mu = row_of(prior->mu, static_cast<int>(joints));
+  arrays.contact_factor = row_of(prior->contact_factor, static_cast<int>(joints));
+  arrays.mu_sd = row_of(prior->mu_sd, cables);
+  arrays.seating_sd = row_of(prior->seating_sd, cables);
+  arrays.scatter = row_of(prior->scatter, cables);
+  arrays.drift_sd = row_of(prior->drift_sd, cables);
+  arrays.length = row_of(prior->length, static_cast<int>(segments));
   for (int c = 0; c < cables; ++c) {
-    arrays.capstan.push_back(knowledge->capstan[c]);
-    arrays.shared.push_back(knowledge->shared[c]);
-    const auto& cell = knowledge->cell[c];
+    arrays.capstan.push_back(prior->capstan[c]);
+    arrays.shared.push_back(prior->shared[c]);
+    const auto& cell = prior->cell[c];
     arrays.cell.push_back({LoadCell<double>::of(cell[0]), LoadCell<double>::of(cell[1])});
     for (int end = 0; end < 2; ++end) {
       const CableDescription& cable = scene.cables[static_cast<std::size_t>(c)];
@@ -201,12 +201,12 @@ CondensedArrays condense(const SceneDescription& scene, ScalarType scalar) {
   });
 }
 
-KnowledgeArrays know(const SceneDescription& scene, ScalarType scalar) {
+FrictionPriorArrays know(const SceneDescription& scene, ScalarType scalar) {
   return with_condensed_capacity(scene, [&](auto kind) {
     using Kind = decltype(kind);
     using Cap = typename Kind::Capacity;
-    return scalar == ScalarType::float32 ? knowledge_arrays<float, Kind::dimension, Cap>(scene)
-                                         : knowledge_arrays<double, Kind::dimension, Cap>(scene);
+    return scalar == ScalarType::float32 ? friction_prior_arrays<float, Kind::dimension, Cap>(scene)
+                                         : friction_prior_arrays<double, Kind::dimension, Cap>(scene);
   });
 }
 

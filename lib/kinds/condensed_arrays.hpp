@@ -41,7 +41,7 @@ struct LevelArrays {
   LinearArrays high;
   RowsArrays high_struts;
   RowsArrays bends, aside;
-  Row grip_by_bend;
+  Row kappa_by_bend;
   std::vector<Row> tension_by_bar, strut_by_bar;  ///< of struts and beams
   int struts = 0, beams = 0, normals = 0;
   double target_force = 0, curve = 0;
@@ -58,10 +58,10 @@ struct CondensedArrays : LinearArrays {
 /// Condenses a scene in the given type. Throws InputError if the scene cannot be used.
 CondensedArrays condense(const SceneDescription& scene, ScalarType scalar);
 
-/// The fields of Knowledge for what the scene holds, and the strokes that it describes; values in float are
-/// exact.
-struct KnowledgeArrays {
-  CondensedArrays::Row mu, grip;
+/// The fields of FrictionPrior for what the scene holds, and the strokes that it describes; values in float
+/// are exact.
+struct FrictionPriorArrays {
+  CondensedArrays::Row mu, contact_factor;
   std::vector<bool> capstan;
   CondensedArrays::Row mu_sd;
   std::vector<bool> shared;
@@ -71,6 +71,6 @@ struct KnowledgeArrays {
 };
 
 /// Collects it from a usable scene in the given type.
-KnowledgeArrays know(const SceneDescription& scene, ScalarType scalar);
+FrictionPriorArrays know(const SceneDescription& scene, ScalarType scalar);
 
 }  // namespace taut::host

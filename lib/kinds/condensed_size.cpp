@@ -84,7 +84,7 @@ struct Sizes {
     static constexpr std::size_t bytes = sizeof(Tracker<SampledScene<Scalar, Cap>>);
   };
 
-  // The large variables that live at once while the modes are decided, four rows of tensions and moves for a
+  // The large variables that live at once while the modes are decided, four rows of tensions and slips for a
   // direction, and a kilobyte for all calls.
   template <class Cap>
   struct OfStack {
@@ -92,8 +92,8 @@ struct Sizes {
     using Model = typename SampledScene<Scalar, Cap>::AtLevel;
     using Solver = ModeSolver<Model, typename CableSystem<Model, 0>::Laws>;
     static constexpr std::size_t bytes =
-        sizeof(Solver) + 2 * sizeof(FixedList<SlipMode, 2 * Cap::joints>) + sizeof(typename Tracked::Moving) +
-        8 * sizeof(typename Solver::Tensions) + 8 * sizeof(typename Solver::Moves) + 1024;
+        sizeof(Solver) + 2 * sizeof(FixedList<SlipMode, 2 * Cap::joints>) + sizeof(typename Tracked::SlipState) +
+        8 * sizeof(typename Solver::Tensions) + 8 * sizeof(typename Solver::Values) + 1024;
   };
 
   template <Room Is>

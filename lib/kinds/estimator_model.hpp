@@ -26,14 +26,14 @@ class EstimatorModel : public Model {
         limits_(AlarmLimits<Scalar>::of(limits)),
         condensed_(new CondensedType),
         struts_(new StrutRows),
-        knowledge_(new KnowledgeType),
+        prior_(new PriorType),
         estimator_(new EstimatorType),
         readings_(new ReadingsType) {}
 
   Followed start(int) override {
     const Status known = know();
     if (!known) return {known, 0};
-    const auto progress = estimator_->start(*condensed_, *knowledge_, limits_, cells_);
+    const auto progress = estimator_->start(*condensed_, *prior_, limits_, cells_);
     before_ = FrictionBefore::of(*estimator_, linear_part(*condensed_).joints);
     return {progress.status, static_cast<double>(progress.fraction)};
   }
@@ -47,7 +47,7 @@ class EstimatorModel : public Model {
     if (bytes.size() != sizeof(State)) return {Status::at(Code::bad_sample, Place::none, 0), 0};
     const auto state = std::make_unique<State>();
     std::memcpy(static_cast<void*>(state.get()), bytes.data(), sizeof(State));
-    const Status restored = estimator_->restore(*condensed_, *knowledge_, *state, limits_, cells_);
+    const Status restored = estimator_->restore(*condensed_, *prior_, *state, limits_, cells_);
     before_ = FrictionBefore::of(*estimator_, linear_part(*condensed_).joints);
     time_ = time;
     has_row_ = true;
@@ -58,7 +58,7 @@ class EstimatorModel : public Model {
     time_ = row.time;
     has_row_ = true;
     if (past_) {
-      past_->look(*condensed_, *knowledge_, *readings_);
+      past_->look(*condensed_, *prior_, *readings_);
       if (!past_->is_unknown()) past_.reset();
     }
     if (past_) past_->withhold(*condensed_, *readings_);
@@ -77,7 +77,7 @@ class EstimatorModel : public Model {
   void deny_past() override { past_.reset(); }
   bool has_unknown_past() const override { return past_ != nullptr; }
   std::vector<LearnedFriction> learned() const override {
-    return learned_mu(*estimator_, linear_part(*condensed_), *knowledge_, before_, scene_);
+    return learned_mu(*estimator_, linear_part(*condensed_), *prior_, before_, scene_);
   }
   std::vector<StrutEstimate> struts() const override {
     std::vector<StrutEstimate> all;
@@ -109,7 +109,7 @@ class EstimatorModel : public Model {
  private:
   using CondensedType = CondensedOf<Scalar, Cap>;
   using StrutRows = StrutsOf<Scalar, Cap>;
-  using KnowledgeType = Knowledge<Scalar, Cap>;
+  using PriorType = FrictionPrior<Scalar, Cap>;
   static constexpr int cells = 2 * Cap::cables < most_unknown_cells ? 2 * Cap::cables : most_unknown_cells;
   // Gain, zero and hysteresis of a jack, its wedge's draw-in, three remembered loads and what its cable
   // drifts by; gain and zero of another cell, and of a gauge a segment and a stroke a cable.
@@ -121,7 +121,7 @@ class EstimatorModel : public Model {
 
   template <int Dimension>
   Condensing condense() {
-    know_scene<Scalar, Dimension, Cap>(scene_, *knowledge_);
+    know_scene<Scalar, Dimension, Cap>(scene_, *prior_);
     return condense_scene<Scalar, Dimension, Cap>(scene_, *condensed_, *struts_);
   }
 
@@ -134,7 +134,7 @@ class EstimatorModel : public Model {
   }
   // Both estimators go on until they agree; where that has no answer neither has.
   Followed advance_past() {
-    const auto progress = past_->advance(*condensed_, *knowledge_, limits_, cells_, *readings_);
+    const auto progress = past_->advance(*condensed_, *prior_, limits_, cells_, *readings_);
     const Followed above = {progress.status, static_cast<double>(progress.fraction)};
     if (!above.whole()) return above;
     past_->settle(*estimator_);
@@ -166,7 +166,7 @@ class EstimatorModel : public Model {
   AlarmLimits<Scalar> limits_;
   std::unique_ptr<CondensedType> condensed_;
   std::unique_ptr<StrutRows> struts_;
-  std::unique_ptr<KnowledgeType> knowledge_;
+  std::unique_ptr<PriorType> prior_;
   std::unique_ptr<EstimatorType> estimator_;
   FrictionBefore before_;
   std::unique_ptr<PastType> past_;  // while it is not known

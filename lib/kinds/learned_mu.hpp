@@ -56,9 +56,9 @@ inline std::vector<FrictionSource> sources_of(int p, const FrictionAccount& acco
 
 /// Every mu that was not known where the estimate began: one of a cable with a common one, that of its first
 /// joint that can slide, or one of every joint.
-template <class EstimatorType, class CondensedType, class KnowledgeType>
+template <class EstimatorType, class CondensedType, class PriorType>
 std::vector<LearnedFriction> learned_mu(const EstimatorType& estimator, const CondensedType& condensed,
-                                        const KnowledgeType& knowledge, const FrictionBefore& before,
+                                        const PriorType& prior, const FrictionBefore& before,
                                         const SceneDescription& scene) {
   std::vector<LearnedFriction> all;
   for (int c = 0; c < condensed.cables.size(); ++c) {
@@ -67,7 +67,7 @@ std::vector<LearnedFriction> learned_mu(const EstimatorType& estimator, const Co
       const int j = cable.first_joint + k, p = estimator.friction_unknown(j);
       const auto at = static_cast<std::size_t>(j);
       if (p < 0 || !(before.sd[at] > 0)) continue;
-      const bool is_common = knowledge.shared[c];
+      const bool is_common = prior.shared[c];
       const std::string& name = scene.cables[static_cast<std::size_t>(c)].name;
       all.push_back({is_common ? name : name + "." + std::to_string(k + 1), before.mu[at], before.sd[at],
                      static_cast<double>(estimator.mu(j)), static_cast<double>(estimator.mu_deviation(j)),

@@ -63,12 +63,12 @@ void copy_numbers(const Values& from, std::size_t count, std::vector<double>& to
 template <class Scalar, class Cap>
 void read_response(const Response<Scalar, Cap>& response, const SceneDescription& scene, Answer& answer) {
   std::size_t segments = 0, joints = 0;
-  answer.payout.resize(scene.cables.size());
+  answer.extension.resize(scene.cables.size());
   for (std::size_t c = 0; c < scene.cables.size(); ++c) {
     segments += scene.cables[c].segments();
     joints += scene.cables[c].joints();
     for (std::size_t end = 0; end < 2; ++end)
-      answer.payout[c][end] = detail::answered(response.payout[static_cast<int>(c)][end]);
+      answer.extension[c][end] = detail::answered(response.extension[static_cast<int>(c)][end]);
   }
   detail::copy_numbers(response.tension, segments, answer.tension);
   detail::copy_numbers(response.slip, joints, answer.slip);

@@ -64,7 +64,7 @@ std::vector<JackNow> jacks_of(const SceneDescription& scene, const LogRow& row, 
       jacks.push_back(
           {c, end, answer.tension[end == 0 ? first : first + scene.cables[c].segments() - 1],
            as_read(read.reading),
-           has_stroke[c][end] ? as_read(read.stroke) : std::optional<double>(answer.payout[c][end])});
+           has_stroke[c][end] ? as_read(read.stroke) : std::optional<double>(answer.extension[c][end])});
     }
   return jacks;
 }

@@ -191,7 +191,7 @@ void PlanGuide::watch_limits(const Answer& answer) {
   for (std::size_t k = 0; k < jacks_.size(); ++k) {
     const std::size_t c = jacks_[k].cable, end = jacks_[k].end;
     watch(jacks_[k].name, now_.force[k], goal_.most_force[c][end]);
-    watch(jacks_[k].name + ".stroke", answer.payout[c][end], goal_.most_stroke[c][end]);
+    watch(jacks_[k].name + ".stroke", answer.extension[c][end], goal_.most_stroke[c][end]);
   }
   std::size_t segment = 0;
   for (const CableDescription& cable : scene_.cables)

@@ -108,7 +108,7 @@ LegPoint Jacking::here() const {
   LegPoint point;
   point.tension = std::move(answer.tension);
   point.state = std::move(answer.state);
-  for (const PlanJack& jack : jacks_) point.stroke.push_back(answer.payout[jack.cable][jack.end]);
+  for (const PlanJack& jack : jacks_) point.stroke.push_back(answer.extension[jack.cable][jack.end]);
   return point;
 }
 

@@ -78,7 +78,7 @@ std::string plan_table(const SceneDescription& scene, const PlanGoal& goal, cons
                              : digits(stage < 0 ? 0 : plan.stages[static_cast<std::size_t>(stage)].force[k]));
     }
     for (std::size_t k = 0; k < plan.jacks.size(); ++k) {
-      const double stroke = answer.payout[plan.jacks[k].cable][plan.jacks[k].end];
+      const double stroke = answer.extension[plan.jacks[k].cable][plan.jacks[k].end];
       cells.push_back(digits(stroke));
       if (!result.prior) continue;
       const bool has_band = stage >= 0 && !result.prior->stroke.empty();

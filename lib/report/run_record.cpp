@@ -115,7 +115,7 @@ void RunRecord::add_jacks(const LogRow& row, const Answer& answer, const Answer*
       jack.force = given.force;
       jack.locked = given.locked;
       jack.stroke = given.stroke;
-      if (expected != nullptr) jack.expected = expected->payout[c][e];
+      if (expected != nullptr) jack.expected = expected->extension[c][e];
       jack.anchored = anchored;
       add_stage(c, e, jack, has_word(answer.alarms, alarm_word(outlier, scene_)));
     }

@@ -114,7 +114,7 @@ struct Jacking {
 
 bool follow(const Reality& reality, const Chance& chance, bool told, Jacking& jacking) {
   Site site(reality, chance);
-  if (!estimator.start(source.model(), source.knowledge()).status || !nominal.start(source.model()).status ||
+  if (!estimator.start(source.model(), source.prior()).status || !nominal.start(source.model()).status ||
       !site.start())
     return false;
   double at = 0;

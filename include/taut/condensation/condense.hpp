@@ -96,7 +96,7 @@ class Condensation {
   static constexpr auto no_force = [](int, int) { return Real(0); };
 
   void set_joint(Condensed<Scalar, Cap>& condensed, int j, const FrictionElement<Real, dimension>& element) {
-    condensed.rho[j] = element.grip.rho();
+    condensed.rho[j] = element.limit.rho();
     condensed.cos_alpha[j] = static_cast<Scalar>(element.frame.cos_alpha);
     condensed.sin_alpha[j] = static_cast<Scalar>(element.frame.sin_alpha);
   }
@@ -220,7 +220,7 @@ class Condensation {
     lean.struts = struts;
     lean.beams = beams;
     for (int j = 0; j < condensed.joints; ++j)
-      lean.grip_by_bend[j] = JointLean<Real, dimension>::grip_by_bend(structure_.elements().joints[j]);
+      lean.kappa_by_bend[j] = JointLean<Real, dimension>::kappa_by_bend(structure_.elements().joints[j]);
     for (int b = 0; b < struts + beams; ++b) {
       const auto unit = [b](int i) { return i == b ? Real(1) : Real(0); };
       const Status status = structure_.solve(no_force, none, unit);

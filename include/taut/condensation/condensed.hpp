@@ -137,7 +137,7 @@ struct Condensed {
   FixedArray<Scalar, Cap::cables> most_force;  ///< of a jack of every cable: a tenth of its E A [N]
   FixedArray<Scalar, Cap::loads> most_factor;  ///< that alone gives a segment a hundred times that
 
-  constexpr bool is_locked(int joint) const { return !(rho[joint] > 0); }
+  constexpr bool is_self_locking(int joint) const { return !(rho[joint] > 0); }
 
   /// Contact and friction forces of all joints from the tensions of the response:
   /// N = (T1 + T2) cos(alpha), f = (T2 - T1) sin(alpha), Eq. (2) [N].
@@ -231,7 +231,7 @@ struct CondensedLean {
   using Real = Wide<Scalar>;
   CondensedBends<Scalar, Cap> bends;
   /// By what part of itself kappa changes where the bend does by such a part.
-  FixedArray<Real, Cap::joints> grip_by_bend;
+  FixedArray<Real, Cap::joints> kappa_by_bend;
   /// By how much the ends of every bar move apart across it, for each normal, by the root of twice its
   /// length: their squares are what leaning lengthens it by [m^1/2].
   CondensedRows<Real, max_bars<Cap> * Cap::normals, Cap> aside;

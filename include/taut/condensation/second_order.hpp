@@ -162,7 +162,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   Real target_force = 0;             ///< T* of all segments together [N]
   Real least_sum = 0, most_sum = 0;  ///< of all tensions, while this step holds [N]
   Kappas bend;                       ///< by what part of itself cot(alpha) has changed: Eq. (44)
-  Kappas grip;                       ///< kappa of the displaced geometry, as a part of that of the scene
+  Kappas kappa_ratio;                ///< kappa of the displaced geometry, as a part of that of the scene
 
   /// Begins without tension, with the geometry of the scene.
   void begin(const Source& source) {
@@ -314,8 +314,8 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     lean().bends.evaluate(*this, anchor, anchor.e, bend);
     for (int j = 0; j < this->joints; ++j) {
       const Real flat = source_->low.rho[j];
-      grip[j] = larger(Real(0), 1 + lean().grip_by_bend[j] * bend[j]);
-      if (!this->is_locked(j)) this->rho[j] = scaled(flat, grip[j]);
+      kappa_ratio[j] = larger(Real(0), 1 + lean().kappa_by_bend[j] * bend[j]);
+      if (!this->is_self_locking(j)) this->rho[j] = scaled(flat, kappa_ratio[j]);
     }
   }
 

@@ -155,7 +155,7 @@ struct FrictionElement {
   std::array<int, 2> segments{};  ///< before and after the joint, in the scene's numbering
   FrictionLaw law = FrictionLaw::point;
   Scalar mu = 0;
-  Grip<Scalar> grip;
+  FrictionLimit<Scalar> limit;
   JointFrame<Scalar, Dimension> frame;
 
   /// Joint `j` of cable `c`, both zero-based.
@@ -177,8 +177,8 @@ struct FrictionElement {
     made.segments = cable.joint_segments(j);
     made.law = cable.law;
     made.mu = static_cast<Scalar>(mu);
-    made.grip = {
-        static_cast<Scalar>(taut::grip(cable, mu, fine.cos_alpha, fine.sin_alpha, half_lengths).kappa)};
+    made.limit = {static_cast<Scalar>(
+        taut::friction_limit(cable, mu, fine.cos_alpha, fine.sin_alpha, half_lengths).kappa)};
     made.frame = JointFrame<Scalar, Dimension>::of(node1, node3, node2);
     return made;
   }

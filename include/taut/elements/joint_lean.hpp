@@ -26,8 +26,8 @@ struct JointLean {
   }
   /// By what part of itself kappa of Eq. (3) changes where the bend does by such a part: kappa = mu
   /// cot(alpha) of a point, kappa = tanh(mu (beta + k s) / 2) with beta = 2 atan(cot(alpha)) of a saddle.
-  static Scalar grip_by_bend(const FrictionElement<Scalar, Dimension>& joint) {
-    const Scalar kappa = joint.grip.kappa;
+  static Scalar kappa_by_bend(const FrictionElement<Scalar, Dimension>& joint) {
+    const Scalar kappa = joint.limit.kappa;
     if (joint.law == FrictionLaw::point || !(kappa > 0)) return 1;
     return (1 - kappa * kappa) * joint.mu * joint.frame.cos_alpha * joint.frame.sin_alpha / kappa;
   }

@@ -13,7 +13,7 @@ struct Alarm {
     sensor,       ///< a load cell at an anchored end contradicts the model by more than five sigma
     mu_band,      ///< mu is surely outside of what was known of it: `place` is a joint, or -1 for all
     stuck_joint,  ///< a joint holds back more than its mu allows: it does not slide though it should
-    elongation,   ///< the measured payout does not grow as the expected one, see ElongationCheck; as a
+    elongation,   ///< the measured extension does not grow as the expected one, see ElongationCheck; as a
                   ///< measurement, it contradicts the model by more than five sigma
     force_high,   ///< a segment is above its limit, or has not come back from there by AlarmLimits::band
     force_low,    ///< a segment is below its limit, or likewise; see ForceWatch for when that counts

@@ -104,7 +104,7 @@ class Belief {
   /// is known together stays known together: if variances grew one by one, each to that of its prior at most,
   /// a sum of unknowns would be taken for less known than it is, and its next reading for news of each of
   /// them. Cost: half the cube of the unknowns in use.
-  void loosen(Scalar times) {
+  void inflate(Scalar times) {
     Values R, column;  // of the prior, as readings of the unknowns themselves
     const Scalar part = times / (times - 1);
     auto& P = state_.covariance;

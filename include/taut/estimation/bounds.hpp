@@ -4,10 +4,10 @@
 #include <array>
 #include <limits>
 
-#include "taut/estimation/knowledge.hpp"
+#include "taut/estimation/friction_prior.hpp"
 #include "taut/estimation/readings.hpp"
 #include "taut/numerics/larger.hpp"
-#include "taut/tracking/moves.hpp"
+#include "taut/tracking/slip_variables.hpp"
 
 namespace taut {
 
@@ -34,15 +34,15 @@ struct BoundWidths {
 /// Whatever the history, every joint keeps rho T_big <= T_small with rho at the largest mu of its band. So a
 /// load cell bounds its segment, and a bound carries over a joint as T rho <= T' <= T / rho, Eq. (25); bounds
 /// from all load cells of the cable hold at once. They are as narrow as friction alone allows: some history
-/// leads to every force within them, on rigid saddles. A joint that is locked, or may be, carries nothing
-/// over.
+/// leads to every force within them, on rigid saddles. A joint that is self-locking, or may be, carries
+/// nothing over.
 ///
 /// `ranges` are those of all segments of the scene; the segments of cable `c` are filled. Returns whether any
 /// load cell was read. A range that is empty says that the readings contradict the band of mu.
 template <class CondensedType>
 bool find_bounds(
     const CondensedType& model,
-    const Knowledge<typename CondensedType::Scalar, typename CondensedType::Capacity>& knowledge,
+    const FrictionPrior<typename CondensedType::Scalar, typename CondensedType::Capacity>& prior,
     const std::array<EndReading<typename CondensedType::Scalar>, 2>& ends, int c,
     FixedArray<ForceRange<typename CondensedType::Scalar>, CondensedType::Capacity::segments>& ranges,
     const BoundWidths<typename CondensedType::Scalar>& widths = {}) {
@@ -53,9 +53,9 @@ bool find_bounds(
   if (cable.closed) return false;
 
   const auto least_rho = [&](int joint) {
-    if (model.is_locked(joint)) return Scalar(0);
-    const Real mu = knowledge.mu[joint] + static_cast<Real>(widths.mu * knowledge.mu_sd[c]);
-    return static_cast<Scalar>(larger(Real(0), knowledge.limit(c, joint, mu).rho));
+    if (model.is_self_locking(joint)) return Scalar(0);
+    const Real mu = prior.mu[joint] + static_cast<Real>(widths.mu * prior.mu_sd[c]);
+    return static_cast<Scalar>(larger(Real(0), prior.limit(c, joint, mu).rho));
   };
   const auto narrow = [&](int segment, Scalar least, Scalar most) {
     ForceRange<Scalar>& range = ranges[segment];
@@ -66,7 +66,7 @@ bool find_bounds(
   for (std::size_t end = 0; end < 2; ++end) {
     if (!ends[end].has_force) continue;
     any = true;
-    const LoadCell<Scalar>& cell = knowledge.cell[c][end];
+    const LoadCell<Scalar>& cell = prior.cell[c][end];
     const Scalar force = ends[end].force;
     const Scalar off = widths.sensor * (cell.sd + cell.zero_sd + (cell.gain_sd + cell.hysteresis_sd) * force);
     Scalar least = larger(Scalar(0), force / larger(cell.up, cell.down) - off),

@@ -12,7 +12,7 @@
 namespace taut {
 
 /// Drives the tracker to the loads of a row if nothing happens on the way but that one load changes. Returns
-/// false if and only if more does; then nothing was done. Cost: that of Tracker::goes_along().
+/// false if and only if more does; then nothing was done. Cost: that of Tracker::try_to_extend().
 template <class TrackerType, class Jacks, class SampleType>
 [[nodiscard]] bool try_extend(TrackerType& tracker, Jacks& jacks, const SampleType& given) {
   using Cap = typename TrackerType::Cap;
@@ -20,11 +20,11 @@ template <class TrackerType, class Jacks, class SampleType>
   if constexpr (Jacks::capacity == 1 && Cap::loads == 0) {
     if (jacks.empty() || jacks[0].locked) return false;
     const auto load = jacks[0].target();
-    if (!tracker.goes_along(0, load)) return false;
+    if (!tracker.try_to_extend(0, load)) return false;
     jacks[0].driven.force = load;
   } else {
     const auto to = jacks.target(given);
-    if (!tracker.goes_along(to)) return false;
+    if (!tracker.try_to_extend(to)) return false;
     jacks.arrive(to, load_patterns(tracker.model()));
   }
   return true;

@@ -10,16 +10,16 @@
 
 namespace taut {
 
-/// The payout of a jack that is expected in a row, at the best estimate of loads and unknowns.
+/// The extension of a jack that is expected in a row, at the best estimate of loads and unknowns.
 template <class Scalar>
-struct ExpectedPayout {
+struct ExpectedExtension {
   Scalar value = 0;        ///< [m]
   Scalar of_unknowns = 0;  ///< its variance by what is not known of constants [m^2]
   Scalar by_friction = 0;  ///< by the friction of all joints at once [m / unit of an unknown]
   Scalar of_loads = 0;     ///< its variance by the errors of the loads of this row [m^2]
 };
 
-/// Compares the increments of a measured stroke s with those of the expected payout E along one leg of a
+/// Compares the increments of a measured stroke s with those of the expected extension E along one leg of a
 /// jack: between two reversals or lock-offs, without what lies below AlarmLimits::initial_strain. From a row
 /// back to an earlier place of the leg, Eq. (40),
 ///     q = (s - s_0) / (E - E_0)
@@ -27,10 +27,10 @@ struct ExpectedPayout {
 /// until by less than half as many. Where a stroke is read from does not matter, nor slack that was taken out
 /// before.
 ///
-/// Readings are averaged over up to eight in a row between which the payout hardly goes on, and three earlier
-/// places are kept: where the leg began, and two that follow, so that a slope that changes late is seen over
-/// the last part of the leg, too. No place is kept while the slope is off. A plain value: it can be saved and
-/// read back byte by byte. Cost: some ten operations and a root for every place.
+/// Readings are averaged over up to eight in a row between which the extension hardly goes on, and three
+/// earlier places are kept: where the leg began, and two that follow, so that a slope that changes late is
+/// seen over the last part of the leg, too. No place is kept while the slope is off. A plain value: it can be
+/// saved and read back byte by byte. Cost: some ten operations and a root for every place.
 template <class Scalar>
 class ElongationCheck {
  public:
@@ -39,7 +39,7 @@ class ElongationCheck {
   /// The next stroke belongs to another leg.
   void begin_leg() { *this = ElongationCheck(); }
   /// Takes a stroke [m] with what was expected of it. Returns whether the slope is off. Always possible.
-  [[nodiscard]] bool take(Scalar stroke, const ExpectedPayout<Scalar>& expected,
+  [[nodiscard]] bool take(Scalar stroke, const ExpectedExtension<Scalar>& expected,
                           const AlarmLimits<Scalar>& limits) {
     const Scalar misfit = stroke - expected.value, sd = limits.stroke_sd;
     // What has gone on, or jumps away, is averaged with nothing before.
@@ -82,7 +82,7 @@ class ElongationCheck {
   /// Variance of E - E_0 by unknowns of which more may be known now, Eq. (41).
   static Scalar of_unknowns(const Place& here, const Place& before) {
     const Scalar now = here.of_unknowns, then = before.of_unknowns, most = std::sqrt(now * then);
-    // Without friction all unknowns scale the payout.
+    // Without friction all unknowns scale the extension.
     const Scalar common = here.by_friction == 0 ? most : now * (before.by_friction / here.by_friction);
     return larger(now + then - 2 * larger(-most, -larger(-most, -common)), Scalar(0));
   }

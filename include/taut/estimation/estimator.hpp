@@ -11,9 +11,9 @@
 #include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/force_watch.hpp"
 #include "taut/estimation/friction_filter.hpp"
+#include "taut/estimation/friction_prior.hpp"
 #include "taut/estimation/gauges.hpp"
 #include "taut/estimation/jack_loads.hpp"
-#include "taut/estimation/knowledge.hpp"
 #include "taut/estimation/monitoring.hpp"
 #include "taut/estimation/prediction.hpp"
 #include "taut/estimation/readings.hpp"
@@ -53,7 +53,7 @@ class Estimator : private CondensedType::Capacity::Account {
   using Cap = typename CondensedType::Capacity;
   using Account = typename Cap::Account;
   using TrackerType = Tracker<CondensedType, Parameters>;
-  using KnowledgeType = Knowledge<Scalar, Cap>;
+  using PriorType = FrictionPrior<Scalar, Cap>;
   using ReadingsType = Readings<Scalar, Cap>;
   using FilterType = FrictionFilter<CondensedType, Parameters, Further>;
   /// Loads of a jack that friction is taken to remember: where it reversed, was locked, or rested while one
@@ -87,15 +87,15 @@ class Estimator : private CondensedType::Capacity::Account {
 
   // Beginning.
 
-  /// Begins without loads, with friction as it is known beforehand. `condensed` and `knowledge` must outlive
+  /// Begins without loads, with friction as it is known beforehand. `condensed` and `prior` must outlive
   /// the estimator; `gauges`, a range of LoadCell, are the instruments whose readings take_segment(),
   /// take_strut() and take_stroke() are given. Fails with `capacity_exceeded` if and only if there are more
   /// unknown mu than Parameters, or more gauges, or unknowns of them, than Further (the amount is what is
   /// missing), else as Tracker::start() does. Cost: that of the prestrain.
   template <class Cells = NoGauges>
-  Progress<Scalar> start(const CondensedType& condensed, const KnowledgeType& knowledge,
+  Progress<Scalar> start(const CondensedType& condensed, const PriorType& prior,
                          const AlarmLimits<Scalar>& limits = {}, const Cells& gauges = {}) {
-    const Status known = begin(condensed, knowledge, limits, gauges);
+    const Status known = begin(condensed, prior, limits, gauges);
     if (!known) return {known, Scalar(0), 0};
     Account::begin(filter_);
     return tracker_.start(condensed, filter_.friction(linear_part(condensed)), load_errors());
@@ -135,9 +135,9 @@ class Estimator : private CondensedType::Capacity::Account {
   /// only if start() would, and with `bad_sample` if the state is none of this scene or was saved before
   /// start(); then only start() or another restore() may follow. Cost: that of one event.
   template <class Cells = NoGauges>
-  Status restore(const CondensedType& condensed, const KnowledgeType& knowledge, const State& state,
+  Status restore(const CondensedType& condensed, const PriorType& prior, const State& state,
                  const AlarmLimits<Scalar>& limits = {}, const Cells& gauges = {}) {
-    const Status known = begin(condensed, knowledge, limits, gauges);
+    const Status known = begin(condensed, prior, limits, gauges);
     if (!known) return known;
     jacks_.restore(state.jacks);
     filter_.restore(state.friction);
@@ -200,7 +200,7 @@ class Estimator : private CondensedType::Capacity::Account {
         corners.times_noise =
             larger(corners.times_noise, far_ends_.watch(e).follow_noise(given.force, readings.dt));
     }
-    if (corners.times_noise > 1) filter_.loosen(corners.times_noise);
+    if (corners.times_noise > 1) filter_.inflate(corners.times_noise);
     if (gauges_.size() > 0) follow_gauges(corners, readings.dt);
     look_ahead();
     for (int c = 0; c < model().cables.size(); ++c)
@@ -230,11 +230,11 @@ class Estimator : private CondensedType::Capacity::Account {
     };
     take_measurement(predict, reading, sd, Alarm::of(Alarm::Kind::strut, -1, strut));
   }
-  /// The stroke of a jack, read together with the last row: its payout since the start [m], with the standard
-  /// deviation `sd` > 0 of the reading and of what the elongation of the cable is uncertain by, that of E A.
-  /// A locked end, or one without a jack, tells nothing. After an advance() that came to its end and before
-  /// save(), once a jack; what contradicts raises Alarm::Kind::elongation, and nothing has changed. Cost: an
-  /// update, with at most four calls of Tracker::adjust().
+  /// The stroke of a jack, read together with the last row: its extension since the start [m], with the
+  /// standard deviation `sd` > 0 of the reading and of what the elongation of the cable is uncertain by, that
+  /// of E A. A locked end, or one without a jack, tells nothing. After an advance() that came to its end and
+  /// before save(), once a jack; what contradicts raises Alarm::Kind::elongation, and nothing has changed.
+  /// Cost: an update, with at most four calls of Tracker::adjust().
   void take_stroke(int cable, std::size_t end, Scalar reading, Scalar sd) {
     const int k = jacks_.find(cable, end);
     if (k < 0 || jacks_[k].locked) return;
@@ -299,9 +299,9 @@ class Estimator : private CondensedType::Capacity::Account {
   Scalar mu_deviation(int joint) const { return filter_.mu_deviation(joint); }
   /// The unknown that it depends on, as Capacity::Account counts those of friction, or -1.
   int friction_unknown(int joint) const { return filter_.unknown_of(joint); }
-  /// Slips, contact and friction forces, payouts, states and, if their rows are given, strut forces: as
-  /// Tracker::respond(), with tensions and payouts at the best estimate. Cost: a force a segment, and that of
-  /// Tracker::respond().
+  /// Slips, contact and friction forces, extensions, states and, if their rows are given, strut forces: as
+  /// Tracker::respond(), with tensions and extensions at the best estimate. Cost: a force a segment, and that
+  /// of Tracker::respond().
   void respond(Response<Scalar, Cap>& response,
                const typename CondensedType::Struts* struts = nullptr) const {
     if (!tracker_.is_started()) return;
@@ -309,12 +309,12 @@ class Estimator : private CondensedType::Capacity::Account {
     for (int i = 0; i < model().segments; ++i) response.tension[i] = force(i);
     model().resolve_joints(response);
     for (int k = 0; k < jacks_.size(); ++k) {
-      Scalar& payout = jacks_.in(response.payout, k);
-      payout = estimate_payout(tracker_, jacks_, filter_.belief(), k, payout);
+      Scalar& extension = jacks_.in(response.extension, k);
+      extension = estimate_extension(tracker_, jacks_, filter_.belief(), k, extension);
       // A strain is none.
       const int c = jacks_.end(k).cable(), p = drift_[c];
       if (p >= 0 && jacks_[k].locked && filter_.belief().mean(p) != 0)
-        payout -= tracker_.payout_sensitivity(p, c, jacks_.end(k).end) * filter_.belief().mean(p);
+        extension -= tracker_.extension_sensitivity(p, c, jacks_.end(k).end) * filter_.belief().mean(p);
     }
   }
   /// What is odd about the last row.
@@ -359,25 +359,25 @@ class Estimator : private CondensedType::Capacity::Account {
   }
 
   template <class Cells>
-  Status begin(const CondensedType& condensed, const KnowledgeType& knowledge,
-               const AlarmLimits<Scalar>& limits, const Cells& gauges) {
+  Status begin(const CondensedType& condensed, const PriorType& prior, const AlarmLimits<Scalar>& limits,
+               const Cells& gauges) {
     const auto& linear = linear_part(condensed);
     limits_ = limits;
     alarms_.clear();
     is_belief_fine_ = is_ahead_ = misfits_ = false;
     forces_.start();
-    jacks_.start(linear, knowledge);
-    Status known = filter_.start(linear, knowledge);
+    jacks_.start(linear, prior);
+    Status known = filter_.start(linear, prior);
     const auto corners = static_cast<std::size_t>(remembered_corners(load_patterns(linear)));
     for (std::size_t m = 0; m < corners; ++m)
       for (int k = 0; k < jacks_.size(); ++k) {
-        const bool has_noise = jacks_.in(knowledge.cell, k).sd > 0;
+        const bool has_noise = jacks_.in(prior.cell, k).sd > 0;
         jacks_[k].memory[m] = static_cast<std::int16_t>(has_noise ? filter_.add_load_error() : -1);
       }
     for (int c = 0; c < linear.cables.size(); ++c)
-      drift_[c] = static_cast<std::int16_t>(knowledge.drift_sd[c] > 0 ? filter_.add_load_error() : -1);
+      drift_[c] = static_cast<std::int16_t>(prior.drift_sd[c] > 0 ? filter_.add_load_error() : -1);
     for (int k = 0; k < jacks_.size(); ++k) {
-      const bool is_uncertain = knowledge.seating_sd[jacks_.end(k).cable()] > 0;
+      const bool is_uncertain = prior.seating_sd[jacks_.end(k).cable()] > 0;
       jacks_[k].seating = static_cast<std::int16_t>(is_uncertain ? filter_.add_load_error() : -1);
     }
     if (known) known = filter_.end(linear, [&](const auto& add) { return gauges_.start(gauges, add); });
@@ -774,29 +774,29 @@ class Estimator : private CondensedType::Capacity::Account {
     auto& jack = jacks_[k];
     if (jack.locked) return;
     if (!is_bedded(k)) return jack.elongation.begin_leg();
-    // Where a load may have turned, or was not read, so is the payout.
+    // Where a load may have turned, or was not read, so is the extension.
     const bool is_known = !jack.at.behind && !jack.at.refused && std::isfinite(stroke);
-    if (is_known ? jack.elongation.take(stroke, expected_payout(k), limits_) : jack.elongation.is_off())
+    if (is_known ? jack.elongation.take(stroke, expected_extension(k), limits_) : jack.elongation.is_off())
       alarms_.add(alarm_at(Alarm::Kind::elongation, jacks_.end(k)));
   }
   /// Whether a jack strains its cable by AlarmLimits::initial_strain. It carries at most a tenth of E A.
   bool is_bedded(int k) const { return jacks_[k].at.load >= 10 * limits_.initial_strain * most_force(k); }
-  ExpectedPayout<Scalar> expected_payout(int k) {
+  ExpectedExtension<Scalar> expected_extension(int k) {
     const auto& belief = filter_.belief();
     auto& prediction = filter_.prediction();
     predict_stroke(tracker_, jacks_.end(k), belief, jacks_.ends(), prediction);
     typename FilterType::JackReadings best;
-    ExpectedPayout<Scalar> payout;
+    ExpectedExtension<Scalar> extension;
     for (int i = 0; i < jacks_.size(); ++i) {
       best.add({jacks_[i].beyond(), Scalar(0)});
       const Scalar part = jacks_[i].locked ? Scalar(0) : prediction.by_jack[i] * jacks_[i].at.sd;
-      payout.of_loads += part * part;
+      extension.of_loads += part * part;
     }
     const Expected<Scalar> expected = belief.expect(prediction, best, Scalar(0));
-    payout.value = expected.value;
-    payout.of_unknowns = expected.variance;
-    for (int p = 0; p < belief.friction(); ++p) payout.by_friction += prediction.H[p];
-    return payout;
+    extension.value = expected.value;
+    extension.of_unknowns = expected.variance;
+    for (int p = 0; p < belief.friction(); ++p) extension.by_friction += prediction.H[p];
+    return extension;
   }
   void check_lift_off(int k, Scalar reading) {
     const EndType& at = jacks_.end(k);

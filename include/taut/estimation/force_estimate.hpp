@@ -59,10 +59,10 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
 /// `rows` are the CondensedStruts of the scene, `strut` has the number of the scene. The standard deviation
 /// has that of the loads, of friction and, at most, of its scatter. Cost: that of predict_strut(), and the
 /// square of the unknowns.
-template <class TrackerType, class StrutRows, class Jacks, class FilterType, class Knowledge>
+template <class TrackerType, class StrutRows, class Jacks, class FilterType, class PriorType>
 ForceEstimate<typename TrackerType::Scalar> estimate_strut(const TrackerType& tracker, const StrutRows& rows,
                                                            const Jacks& jacks, const FilterType& filter,
-                                                           const Knowledge& prior, int strut) {
+                                                           const PriorType& prior, int strut) {
   using Scalar = typename TrackerType::Scalar;
   const auto& belief = filter.belief();
   typename FilterType::PredictionType N;
@@ -72,21 +72,21 @@ ForceEstimate<typename TrackerType::Scalar> estimate_strut(const TrackerType& tr
   return {force, std::sqrt(larger(variance, Scalar(0)))};
 }
 
-/// The payout of jack `k` [m] at the best estimate of its load and of the unknowns, from that where the
+/// The extension of jack `k` [m] at the best estimate of its load and of the unknowns, from that where the
 /// tracker is. Cost: all that moves along the cables for every unknown that is not where the tracker is
 /// linearized.
 template <class TrackerType, class Jacks, class BeliefType>
-typename TrackerType::Scalar estimate_payout(const TrackerType& tracker, const Jacks& jacks,
-                                             const BeliefType& belief, int k,
-                                             typename TrackerType::Scalar of_tracker) {
+typename TrackerType::Scalar estimate_extension(const TrackerType& tracker, const Jacks& jacks,
+                                                const BeliefType& belief, int k,
+                                                typename TrackerType::Scalar of_tracker) {
   const int cable = jacks.end(k).cable();
   const std::size_t end = jacks.end(k).end;
-  auto payout = of_tracker;
+  auto extension = of_tracker;
   for (int p = 0; p < belief.carried(); ++p)
     if (belief.mean(p) != belief.linearized_at(p))
-      payout += tracker.payout_sensitivity(p, cable, end) * (belief.mean(p) - belief.linearized_at(p));
+      extension += tracker.extension_sensitivity(p, cable, end) * (belief.mean(p) - belief.linearized_at(p));
   const auto beyond = jacks[k].beyond();
-  return beyond == 0 ? payout : payout + tracker.payout_slope(cable, end) * beyond;
+  return beyond == 0 ? extension : extension + tracker.extension_slope(cable, end) * beyond;
 }
 
 }  // namespace taut

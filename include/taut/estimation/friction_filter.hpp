@@ -5,9 +5,9 @@
 #include <cstdint>
 
 #include "taut/estimation/belief.hpp"
+#include "taut/estimation/friction_prior.hpp"
 #include "taut/estimation/friction_scatter.hpp"
 #include "taut/estimation/instruments.hpp"
-#include "taut/estimation/knowledge.hpp"
 #include "taut/estimation/prediction.hpp"
 #include "taut/estimation/sliding_check.hpp"
 #include "taut/numerics/larger.hpp"
@@ -38,7 +38,7 @@ class FrictionFilter {
   using Cap = typename CondensedType::Capacity;
   using Linear = typename CondensedType::Linear;
   using TrackerType = Tracker<CondensedType, Parameters>;
-  using PriorType = Knowledge<Scalar, Cap>;
+  using PriorType = FrictionPrior<Scalar, Cap>;
   using BeliefType = Belief<Scalar, Parameters + Further, max_jacks<Cap>>;
   using PredictionType = typename BeliefType::PredictionType;
   using JackReadings = typename BeliefType::JackReadings;
@@ -70,7 +70,7 @@ class FrictionFilter {
       Real sum = 0;
       int free = 0;
       for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j) {
-        if (model.is_locked(j)) continue;
+        if (model.is_self_locking(j)) continue;
         sum += prior.mu[j];
         ++free;
       }
@@ -78,7 +78,7 @@ class FrictionFilter {
       const bool shared = prior.shared[c];
       const int common = shared ? add(sd) : -1;
       for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j) {
-        if (model.is_locked(j)) continue;
+        if (model.is_self_locking(j)) continue;
         const int p = shared ? common : add(sd);
         if (p < 0) continue;
         const Real weight = shared && sum > 0 ? prior.mu[j] * static_cast<Real>(free) / sum : Real(1);
@@ -156,8 +156,8 @@ class FrictionFilter {
 
   /// What is known of unknown `p` gives way to what is new, with this standard deviation.
   void renew(int p, Scalar sd) { belief_.renew(p, sd); }
-  /// Readings scatter more than they were taken to, see Belief::loosen().
-  void loosen(Scalar times) { belief_.loosen(times); }
+  /// Readings scatter more than they were taken to, see Belief::inflate().
+  void inflate(Scalar times) { belief_.inflate(times); }
   /// Begins a row: its measurements share the errors of the jacks' readings.
   void begin_row() { belief_.begin_row(); }
   /// Whether prediction() has a derivative to go by: all of `cable` must slide (-1: no cable does in
@@ -211,7 +211,7 @@ class FrictionFilter {
     belief_.renew(p, sd);
   }
   /// A cable is held from this end on now: from here on unknown `p` is the strain that it takes on by itself,
-  /// with the standard deviation of Knowledge::drift_sd. Cost: that of remember_reversal().
+  /// with the standard deviation of FrictionPrior::drift_sd. Cost: that of remember_reversal().
   Status remember_drift(TrackerType& tracker, int p, int cable, std::size_t end) {
     keep_what_is_known(tracker, p);
     belief_.renew(p, prior_->drift_sd[cable]);
@@ -301,7 +301,7 @@ class FrictionFilter {
     weight_[j] = weight;
     if (!(weight > 0)) return;
     // mu >= 0, and never quite locked.
-    const Real most_mu = (prior_->capstan[c] ? Real(6) : Real(0.98)) / prior_->grip[j];
+    const Real most_mu = (prior_->capstan[c] ? Real(6) : Real(0.98)) / prior_->contact_factor[j];
     const auto nominal = static_cast<Scalar>(prior_->mu[j]);
     belief_.bound(p, -nominal / weight, (static_cast<Scalar>(most_mu) - nominal) / weight);
   }
@@ -320,12 +320,12 @@ class FrictionFilter {
   }
   template <class CableLayout>
   void scatters(int c, const CableLayout& cable, int parameter) {
-    const auto grip = [&](int j) {
-      return unknown_of_[j] < 0 ? Scalar(0) : static_cast<Scalar>(prior_->grip[j]);
+    const auto contact_factor = [&](int j) {
+      return unknown_of_[j] < 0 ? Scalar(0) : static_cast<Scalar>(prior_->contact_factor[j]);
     };
     scatter_.find(
-        cable, parameter, [&](int j) { return grip(j) * weight_[j]; },
-        [&](int j) { return grip(j) * prior_->scatter[c] * static_cast<Scalar>(prior_->mu[j]); });
+        cable, parameter, [&](int j) { return contact_factor(j) * weight_[j]; },
+        [&](int j) { return contact_factor(j) * prior_->scatter[c] * static_cast<Scalar>(prior_->mu[j]); });
   }
   JointFriction<Real> friction_of(const Linear& model, int j, const Values& unknowns) const {
     const int p = unknown_of_[j];

@@ -20,8 +20,9 @@ template <class Scalar, class Cap>
 class FrictionScatter {
  public:
   /// Fills in the segments of a cable whose shared unknown is `parameter`; weight(j) is what mu of joint j
-  /// varies by with the unknown, times its grip, and deviation(j) the standard deviation of its mu about the
-  /// shared one, times its grip. Joints that cannot slide have zero. Cost: four passes over the joints.
+  /// varies by with the unknown, times its contact factor, and deviation(j) the standard deviation of its mu
+  /// about the shared one, times its contact factor. Joints that cannot slide have zero. Cost: four passes
+  /// over the joints.
   template <class CableLayout, class Weight, class Deviation>
   void find(const CableLayout& cable, int parameter, const Weight& weight, const Deviation& deviation) {
     Scalar all = 0, whole = 0;

@@ -59,19 +59,19 @@ class Instruments {
 };
 
 /// How many unknowns an Estimator of these cables needs room for: forces depend on those that are carried,
-/// readings alone on the further ones, without those of gauges. is_locked(joint) tells which joints have no
-/// friction to be found.
+/// readings alone on the further ones, without those of gauges. is_self_locking(joint) tells which joints
+/// have no friction to be found.
 struct UnknownCounts {
   int carried = 0, further = 0;
 };
-template <class Cables, class IsLocked, class KnowledgeType>
-constexpr UnknownCounts count_unknowns(const Cables& cables, const IsLocked& is_locked,
-                                       const KnowledgeType& known, int remembered_corners) {
+template <class Cables, class IsSelfLocking, class PriorType>
+constexpr UnknownCounts count_unknowns(const Cables& cables, const IsSelfLocking& is_self_locking,
+                                       const PriorType& known, int remembered_corners) {
   UnknownCounts count;
   int c = 0;
   for (const auto& cable : cables) {
     int free = 0;
-    for (int j = 0; j < cable.joints(); ++j) free += is_locked(cable.first_joint + j) ? 0 : 1;
+    for (int j = 0; j < cable.joints(); ++j) free += is_self_locking(cable.first_joint + j) ? 0 : 1;
     if (known.drift_sd[c] > 0) ++count.carried;
     if (known.mu_sd[c] > 0) count.carried += known.shared[c] && free > 1 ? 1 : free;
     for (std::size_t end = 0; end < 2 && !cable.closed; ++end) {

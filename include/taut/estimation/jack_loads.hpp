@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "taut/estimation/cable_end.hpp"
+#include "taut/estimation/friction_prior.hpp"
 #include "taut/estimation/jack_load.hpp"
-#include "taut/estimation/knowledge.hpp"
 #include "taut/scene/capacity.hpp"
 #include "taut/scene/path.hpp"
 #include "taut/scene/sample.hpp"
@@ -34,7 +34,7 @@ class JackLoads {
   };
 
   template <class CondensedType>
-  void start(const CondensedType& model, const Knowledge<Scalar, Cap>& prior) {
+  void start(const CondensedType& model, const FrictionPrior<Scalar, Cap>& prior) {
     ends_.clear();
     patterns_ = load_patterns(model);
     for_each_jacked_end(model.cables, [&](int c, std::size_t end) { ends_.add(CableEnd<Cap>::of(c, end)); });
@@ -68,7 +68,7 @@ class JackLoads {
     return -1;
   }
   /// Every load as the measurements of the row see it.
-  FixedList<JackReading<Scalar>, capacity> readings(const Knowledge<Scalar, Cap>& prior) const {
+  FixedList<JackReading<Scalar>, capacity> readings(const FrictionPrior<Scalar, Cap>& prior) const {
     FixedList<JackReading<Scalar>, capacity> all;
     for (int k = 0; k < size(); ++k) all.add(state_.jack[k].reading(in(prior.cell, k)));
     return all;

@@ -33,18 +33,18 @@ void predict_tension(const TrackerType& tracker, int segment, const BeliefType& 
   for (int k = 0; k < jacks.size(); ++k) prediction.by_jack[k] = tracker.slope(k, segment);
 }
 
-/// The stroke of a jack [m]: its payout since the start. The same arguments; Cost: all that moves along the
-/// cables once an unknown and jack.
+/// The stroke of a jack [m]: its extension since the start. The same arguments; Cost: all that moves along
+/// the cables once an unknown and jack.
 template <class TrackerType, class Cap, class BeliefType, class Jacks, class PredictionType>
 void predict_stroke(const TrackerType& tracker, const CableEnd<Cap>& at, const BeliefType& unknowns,
                     const Jacks& jacks, PredictionType& prediction) {
   using Scalar = typename TrackerType::Scalar;
-  const auto of = [&](const auto& moving) { return static_cast<Scalar>(at.in(moving.payout)); };
-  prediction.value = of(tracker.moves());
+  const auto of = [&](const auto& moving) { return static_cast<Scalar>(at.in(moving.extension)); };
+  prediction.value = of(tracker.slip_state());
   clear_further(unknowns, prediction);
-  for (int p = 0; p < unknowns.carried(); ++p) prediction.H[p] = of(tracker.move_sensitivity(p));
+  for (int p = 0; p < unknowns.carried(); ++p) prediction.H[p] = of(tracker.slip_sensitivity(p));
   for (int k = 0; k < jacks.size(); ++k)
-    prediction.by_jack[k] = of(tracker.move_slope(jacks[k].cable(), jacks[k].end));
+    prediction.by_jack[k] = of(tracker.slip_slope(jacks[k].cable(), jacks[k].end));
 }
 
 /// The axial force of a strut [N], tension positive. `rows` are the CondensedStruts of the scene, `strut` has
@@ -60,10 +60,10 @@ void predict_strut(const TrackerType& tracker, const StrutRows& rows, int strut,
       static_cast<Scalar>(number_of(rows, strut, model, tracker.loads(), tracker.elongations()));
   clear_further(unknowns, prediction);
   for (int p = 0; p < unknowns.carried(); ++p)
-    prediction.H[p] = static_cast<Scalar>(carried(tracker.elongations_by(tracker.move_sensitivity(p))));
+    prediction.H[p] = static_cast<Scalar>(carried(tracker.elongations_by(tracker.slip_sensitivity(p))));
   for (int k = 0; k < jacks.size(); ++k)
     prediction.by_jack[k] = static_cast<Scalar>(
-        carried(tracker.elongations_by(tracker.move_slope(jacks[k].cable(), jacks[k].end))));
+        carried(tracker.elongations_by(tracker.slip_slope(jacks[k].cable(), jacks[k].end))));
 }
 
 }  // namespace taut

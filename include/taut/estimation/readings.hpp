@@ -11,11 +11,11 @@ namespace taut {
 template <class Scalar>
 struct EndReading {
   bool has_force = false;   ///< a new reading of the load cell
-  bool has_stroke = false;  ///< a new reading of the payout
+  bool has_stroke = false;  ///< a new reading of the extension
   /// [N]; at an unlocked jack it drives the model, at an anchored end it is measured. At a locked end it is
   /// that of a jack put back on it, and tells when the wedge is free.
   Scalar force = 0;
-  Scalar stroke = 0;  ///< payout of a jacked end since the start [m]
+  Scalar stroke = 0;  ///< extension of a jacked end since the start [m]
 };
 
 /// A row of readings. The load factors and locks of `sample` hold; its jack forces have no meaning.

@@ -12,7 +12,7 @@ class SlidingCheck {
  public:
   template <class CondensedType>
   void start(const CondensedType& model) {
-    for (int j = 0; j < Cap::joints; ++j) can_slide_[j] = j < model.joints && !model.is_locked(j);
+    for (int j = 0; j < Cap::joints; ++j) can_slide_[j] = j < model.joints && !model.is_self_locking(j);
   }
   /// Whether friction is at its limit at every joint of cable `c` that can slide, but for those that stick
   /// for sure: holds(joint). Cost: one look a joint.

@@ -21,12 +21,12 @@ namespace taut {
 /// its load cell, which it would not say without load, and not more than the cable can carry. A jack that is
 /// not read pulls nothing. For who has nothing but the first row to tell whether cables were under load
 /// before.
-template <class CondensedType, class KnowledgeType, class Readings>
-bool is_under_load(const CondensedType& condensed, const KnowledgeType& knowledge, const Readings& readings) {
+template <class CondensedType, class PriorType, class Readings>
+bool is_under_load(const CondensedType& condensed, const PriorType& prior, const Readings& readings) {
   bool pulls = false;
   for_each_jacked_end(linear_part(condensed).cables, [&](int c, std::size_t end) {
     const auto& given = readings.ends[c][end];
-    const auto& cell = knowledge.cell[c][end];
+    const auto& cell = prior.cell[c][end];
     const auto least = 5 * std::sqrt(cell.zero_sd * cell.zero_sd + cell.sd * cell.sd);
     pulls |= given.has_force && given.force > least && given.force <= linear_part(condensed).most_force[c];
   });
@@ -65,10 +65,10 @@ class UnknownPast {
   /// Before the first row: cables are under load in it.
   void forget() { phase_ = Phase::begins; }
   /// Before every row: of the first one, is_under_load() decides.
-  template <class CondensedType, class KnowledgeType>
-  void look(const CondensedType& condensed, const KnowledgeType& knowledge, const Readings& readings) {
+  template <class CondensedType, class PriorType>
+  void look(const CondensedType& condensed, const PriorType& prior, const Readings& readings) {
     if (phase_ != Phase::unread) return;
-    phase_ = is_under_load(condensed, knowledge, readings) ? Phase::begins : Phase::known;
+    phase_ = is_under_load(condensed, prior, readings) ? Phase::begins : Phase::known;
   }
   /// Whether forces still depend on a past that is not known.
   bool is_unknown() const { return phase_ == Phase::begins || phase_ == Phase::open; }
@@ -92,12 +92,12 @@ class UnknownPast {
   }
   /// Follows a row that the other estimator follows, too; the first one from above. The arguments are those
   /// of Estimator::start() and advance(). Fails as start(), come_down() and advance() do.
-  template <class CondensedType, class KnowledgeType, class Limits, class Gauges>
-  Progress<Scalar> advance(const CondensedType& condensed, const KnowledgeType& knowledge,
-                           const Limits& limits, const Gauges& gauges, const Readings& readings,
+  template <class CondensedType, class PriorType, class Limits, class Gauges>
+  Progress<Scalar> advance(const CondensedType& condensed, const PriorType& prior, const Limits& limits,
+                           const Gauges& gauges, const Readings& readings,
                            int event_budget = EstimatorType::TrackerType::default_budget) {
     if (phase_ == Phase::open) return above_.advance(readings, event_budget);
-    Progress<Scalar> progress = above_.start(condensed, knowledge, limits, gauges);
+    Progress<Scalar> progress = above_.start(condensed, prior, limits, gauges);
     if (progress.status) progress = above_.come_down(readings);
     if (progress.status) phase_ = Phase::open;
     return progress;
@@ -151,12 +151,12 @@ class UnknownPast {
   State save() const { return above_.save(); }
   /// Goes on in this phase where save() was called; `state` counts only if has_above(phase). Fails as
   /// Estimator::restore() does.
-  template <class CondensedType, class KnowledgeType, class Limits, class Gauges>
-  Status restore(Phase phase, const State& state, const CondensedType& condensed,
-                 const KnowledgeType& knowledge, const Limits& limits, const Gauges& gauges) {
+  template <class CondensedType, class PriorType, class Limits, class Gauges>
+  Status restore(Phase phase, const State& state, const CondensedType& condensed, const PriorType& prior,
+                 const Limits& limits, const Gauges& gauges) {
     phase_ = phase;
     if (!has_above(phase)) return Status::success();
-    return above_.restore(condensed, knowledge, state, limits, gauges);
+    return above_.restore(condensed, prior, state, limits, gauges);
   }
 
  private:

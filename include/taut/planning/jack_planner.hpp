@@ -170,11 +170,11 @@ class JackPlanner {
     Scalar force = 0;  // of the jack
     FixedArray<Scalar, Cap::segments> tension;
     Scalar stroke = 0;
-    Real payout = 0;  // the same, as a lock-off holds it
+    Real extension = 0;  // the same, as a lock-off holds it
   };
   /// A point of a release, for a lock-off that draws in so much that the forces are those of a later one.
   struct Passed {
-    Scalar force = 0, payout = 0;
+    Scalar force = 0, extension = 0;
   };
   /// What the way of one move shows.
   struct Reach {
@@ -208,9 +208,9 @@ class JackPlanner {
     here_.force = static_cast<Scalar>(tracker_.loads().jack[cable_][end_].force);
     for (int i = 0; i < segments(); ++i) here_.tension[i] = tracker_.tension(i);
     if (!(seating_ > 0) && !(goal_.most_stroke > 0)) return;
-    here_.payout = tracker_.moves().payout[cable_][end_];
+    here_.extension = tracker_.slip_state().extension[cable_][end_];
     const int segment = model().cables[cable_].end_segment(end_);
-    here_.stroke = static_cast<Scalar>(here_.payout * tracker_.unstrained(cable_, segment));
+    here_.stroke = static_cast<Scalar>(here_.extension * tracker_.unstrained(cable_, segment));
   }
 
   // From task to task.
@@ -315,14 +315,14 @@ class JackPlanner {
       leg_ = Leg::to_second;
     } else {
       leg_ = Leg::from_turn;
-      turned_ = here_.payout;
+      turned_ = here_.extension;
       passed_.clear();
-      if (seating_ > 0) passed_.add({here_.force, static_cast<Scalar>(here_.payout)});
+      if (seating_ > 0) passed_.add({here_.force, static_cast<Scalar>(here_.extension)});
     }
   }
   /// Looks at the way from `before` to here. False if what follows is of no use.
   bool take_piece(const Point& before) {
-    if (seating_ > 0) passed_.add({here_.force, static_cast<Scalar>(here_.payout)});
+    if (seating_ > 0) passed_.add({here_.force, static_cast<Scalar>(here_.extension)});
     const Scalar most = part_within_limits(before), least = part_drawn_in(before);
     if (least <= most && (goes_down() || !(seating_ > 0))) {
       // With both turns given, there is one place where the wedge holds.
@@ -341,9 +341,9 @@ class JackPlanner {
     Scalar back = mix(before.force, here_.force, nearest.part);
     if (seating_ > 0)
       back = nearest.part > least || least == 0
-                 ? force_at(
-                       static_cast<Scalar>(seating_ + before.payout +
-                                           static_cast<Real>(nearest.part) * (here_.payout - before.payout)))
+                 ? force_at(static_cast<Scalar>(seating_ + before.extension +
+                                                static_cast<Real>(nearest.part) *
+                                                    (here_.extension - before.extension)))
                  : turn_;
     take(turn_, back, before, nearest);
   }
@@ -358,11 +358,11 @@ class JackPlanner {
   }
   Scalar worth(int moves) const { return static_cast<Scalar>(moves) * goal_.worth_a_move; }
   /// Of this release, where the jack had so much extension.
-  Scalar force_at(Scalar payout) const {
+  Scalar force_at(Scalar extension) const {
     for (int k = 1; k < passed_.size(); ++k) {
       const Passed &from = passed_[k - 1], &to = passed_[k];
-      if (to.payout <= payout && from.payout > payout)
-        return mix(from.force, to.force, (from.payout - payout) / (from.payout - to.payout));
+      if (to.extension <= extension && from.extension > extension)
+        return mix(from.force, to.force, (from.extension - extension) / (from.extension - to.extension));
     }
     return turn_;
   }
@@ -382,9 +382,9 @@ class JackPlanner {
   /// The part of a piece of a release behind which a wedge has been drawn in by the seating; above 1: none.
   Scalar part_drawn_in(const Point& before) const {
     const Real most = turned_ - seating_;
-    if (!(seating_ > 0) || before.payout <= most) return 0;
-    if (!(here_.payout <= most)) return 2;
-    return static_cast<Scalar>((before.payout - most) / (before.payout - here_.payout));
+    if (!(seating_ > 0) || before.extension <= most) return 0;
+    if (!(here_.extension <= most)) return 2;
+    return static_cast<Scalar>((before.extension - most) / (before.extension - here_.extension));
   }
   /// Whether some force has gone beyond its target by more than the best place of this leg is off.
   bool is_beyond() const {

@@ -16,10 +16,10 @@ struct Drive {
   /// A jacked end: the force is prescribed while jacking, the extension of the jack once locked.
   struct JackedEnd {
     bool locked = false;
-    Scalar force = 0;   ///< [N]
-    Scalar payout = 0;  ///< extension of the jack [m]
+    Scalar force = 0;      ///< [N]
+    Scalar extension = 0;  ///< extension of the jack [m]
     friend bool operator==(const JackedEnd& a, const JackedEnd& b) {
-      return a.locked == b.locked && a.force == b.force && a.payout == b.payout;
+      return a.locked == b.locked && a.force == b.force && a.extension == b.extension;
     }
   };
   FixedArray<Scalar, Cap::loads> factor;
@@ -39,7 +39,7 @@ struct Drive {
     for (int c = 0; c < Cap::cables; ++c)
       for (std::size_t end = 0; end < 2; ++end) {
         drive.jack[c][end].force = mix(a.jack[c][end].force, b.jack[c][end].force);
-        drive.jack[c][end].payout = mix(a.jack[c][end].payout, b.jack[c][end].payout);
+        drive.jack[c][end].extension = mix(a.jack[c][end].extension, b.jack[c][end].extension);
       }
     return drive;
   }
@@ -71,10 +71,10 @@ Status check_sample(const Cables& cables, int loads, const Sample<Scalar, Cap>& 
 /// in along the path; a released end starts at the force it has.
 ///
 /// `from` enters as the present drive, `to` as the goal of the path before (the same, if that was reached);
-/// force(c, end) and payout(c, end) tell what a jacked end has at present.
-template <class Cables, class Scalar, class Real, class Cap, class Force, class Payout>
-void set_path(const Cables& cables, int loads, const Sample<Scalar, Cap>& sample, Force force, Payout payout,
-              Drive<Real, Cap>& from, Drive<Real, Cap>& to) {
+/// force(c, end) and extension(c, end) tell what a jacked end has at present.
+template <class Cables, class Scalar, class Real, class Cap, class Force, class Extension>
+void set_path(const Cables& cables, int loads, const Sample<Scalar, Cap>& sample, Force force,
+              Extension extension, Drive<Real, Cap>& from, Drive<Real, Cap>& to) {
   for (int i = 0; i < loads; ++i) to.factor[i] = static_cast<Real>(sample.factor[i]);
   for_each_jacked_end(cables, [&](int c, std::size_t end) {
     const Jack<Scalar>& jack = sample.jack[c][end];
@@ -82,12 +82,12 @@ void set_path(const Cables& cables, int loads, const Sample<Scalar, Cap>& sample
     auto& goal = to.jack[c][end];
     goal.locked = jack.locked;
     if (jack.locked && !start.locked) {
-      start.payout = payout(c, end);
-      goal.payout = start.payout - static_cast<Real>(cables[c].seating);
+      start.extension = extension(c, end);
+      goal.extension = start.extension - static_cast<Real>(cables[c].seating);
     } else if (!jack.locked) {
       if (start.locked) start.force = force(c, end);
       goal.force = static_cast<Real>(jack.force);
-      start.payout = goal.payout = 0;
+      start.extension = goal.extension = 0;
     }
   });
 }

@@ -39,7 +39,7 @@ struct Response {
   FixedArray<Scalar, Cap::joints> contact;   ///< N = (T_j + T_j+1) cos(alpha) [N], >= 0
   FixedArray<Scalar, Cap::joints> friction;  ///< f = (T_j+1 - T_j) sin(alpha) [N]
   FixedArray<JointState, Cap::joints> state;
-  FixedArray<std::array<Scalar, 2>, Cap::cables> payout;  ///< extension of the jacks at start and end [m]
+  FixedArray<std::array<Scalar, 2>, Cap::cables> extension;  ///< extension of the jacks at start and end [m]
   FixedArray<Scalar, Cap::struts> strut;  ///< axial force of every strut [N], tension positive
 };
 

@@ -7,7 +7,7 @@
 
 #include "taut/numerics/complementarity.hpp"
 #include "taut/scene/path.hpp"
-#include "taut/scene/runs.hpp"
+#include "taut/scene/sliding_spans.hpp"
 #include "taut/scene/validation.hpp"
 #include "taut/stepwise/system.hpp"
 
@@ -16,8 +16,8 @@ namespace taut {
 /// Follows a scene from sample to sample with one or more global solves a load step.
 ///
 /// The reference that faster methods are measured against. Unknowns are totals, so nothing drifts; what a
-/// step hands to the next is where the joints rest and which runs are slack. The step size is the only source
-/// of error: within a step every joint slides one way at most.
+/// step hands to the next is where the joints rest and which spans are slack. The step size is the only
+/// source of error: within a step every joint slides one way at most.
 ///
 /// SceneType is a Scene<Real, Dimension, Cap>, which must outlive the solver; Scalar may be less precise than
 /// Real. The object holds all its storage, mostly the square of (Dimension x nodes + 2 x Dimension x joints)
@@ -34,7 +34,7 @@ class Stepwise {
     if (!valid) return valid;
     scene_ = &scene;
     system_.make(scene);
-    runs_.find(scene.cables, [this](int j) { return joint(j).grip.locked(); });
+    spans_.find(scene.cables, [this](int j) { return joint(j).limit.is_self_locking(); });
     now_ = {};
     rest_ = {};
     response_ = {};
@@ -57,8 +57,8 @@ class Stepwise {
     const auto force = [this](int c, std::size_t end) {
       return response_.tension[scene_->cables[c].end_segment(end)];
     };
-    const auto payout = [this](int c, std::size_t end) { return response_.payout[c][end]; };
-    set_path(scene_->cables, scene_->loads, sample, force, payout, from, goal_);
+    const auto extension = [this](int c, std::size_t end) { return response_.extension[c][end]; };
+    set_path(scene_->cables, scene_->loads, sample, force, extension, from, goal_);
     return follow(from, goal_, substeps);
   }
 
@@ -83,7 +83,7 @@ class Stepwise {
   struct Rest {
     Assumed assumed;
     FixedArray<Scalar, Cap::segments>
-        slack_force;  ///< of slack segments as bars, negative in sum over a run [N]
+        slack_force;  ///< of slack segments as bars, negative in sum over a span [N]
   };
 
   static constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
@@ -125,7 +125,7 @@ class Stepwise {
     Assumed trial = rest_.assumed;
     begin_ = rest_.assumed.v_s;
     tauten_jacked(trial, loads);
-    const int most = 16 + 2 * (joints() + runs_.size());
+    const int most = 16 + 2 * (joints() + spans_.size());
     int changed = -1;
     for (int iteration = 0; iteration < most; ++iteration) {
       const Status status = system_.solve(trial, loads);
@@ -147,7 +147,7 @@ class Stepwise {
     begin_ = rest_.assumed.v_s;
     tauten_jacked(trial, loads);
     int changed = -1;
-    for (int round = 0; round < 2 + 2 * runs_.size(); ++round) {
+    for (int round = 0; round < 2 + 2 * spans_.size(); ++round) {
       Status status = choose_slides(trial, loads);
       if (status) status = system_.solve(trial, loads);
       ++solves_;
@@ -164,7 +164,7 @@ class Stepwise {
   Status choose_slides(Assumed& trial, const Loads& loads) {
     FixedList<int, Cap::joints> able;
     for (int j = 0; j < joints(); ++j)
-      if (!joint(j).grip.locked() && trial.contact[j] != Contact::separated) {
+      if (!joint(j).limit.is_self_locking() && trial.contact[j] != Contact::separated) {
         able.add(j);
         trial.contact[j] = Contact::fixed;
         trial.v_s[j] = begin_[j];
@@ -212,7 +212,7 @@ class Stepwise {
   Scalar room(int j, int way, const Tensions& T) const {
     const auto& sides = joint(j).segments;
     const Scalar small = T[way == 0 ? sides[0] : sides[1]], big = T[way == 0 ? sides[1] : sides[0]];
-    return small - joint(j).grip.rho() * big;
+    return small - joint(j).limit.rho() * big;
   }
   Scalar slip_to_v_s(int j, Scalar slip) const {
     return -joint(j).frame.towards_2 * slip / joint(j).frame.sin_alpha;
@@ -233,7 +233,7 @@ class Stepwise {
       const auto& cable = scene_->cables[c];
       if (!is_jacked(c, 0, loads) || !is_jacked(c, 1, loads)) continue;
       Scalar carried = 1;
-      for (int j = 0; j < cable.joints(); ++j) carried *= joint(cable.first_joint + j).grip.rho();
+      for (int j = 0; j < cable.joints(); ++j) carried *= joint(cable.first_joint + j).limit.rho();
       const Scalar F0 = loads.jack[c][0].force, F1 = loads.jack[c][1].force;
       const Scalar tolerance = 64 * epsilon * std::fmax(F0, F1);
       if (F0 < carried * F1 - tolerance || F1 < carried * F0 - tolerance)
@@ -249,22 +249,22 @@ class Stepwise {
     return !cable.closed && cable.ends[end] == End::jacked && !loads.jack[c][end].locked;
   }
 
-  bool is_prescribed(const Run& run, const Loads& loads) const {
-    return system_.is_prescribed(run.segment(0), loads) ||
-           system_.is_prescribed(run.segment(run.count - 1), loads);
+  bool is_prescribed(const SlidingSpan& span, const Loads& loads) const {
+    return system_.is_prescribed(span.segment(0), loads) ||
+           system_.is_prescribed(span.segment(span.count - 1), loads);
   }
-  /// Nothing but friction holds the run along its path.
-  bool is_floating(const Run& run, const Loads& loads) const {
-    return run.ring || (run.count > 1 && system_.is_prescribed(run.segment(0), loads) &&
-                        system_.is_prescribed(run.segment(run.count - 1), loads));
+  /// Nothing but friction holds the span along its path.
+  bool is_floating(const SlidingSpan& span, const Loads& loads) const {
+    return span.ring || (span.count > 1 && system_.is_prescribed(span.segment(0), loads) &&
+                         system_.is_prescribed(span.segment(span.count - 1), loads));
   }
 
   /// Changes the assumptions that the solution contradicts. Returns a joint involved, or -1 if there is none.
   int review(Assumed& trial, const Loads& loads) {
     const Assumed solved = trial;
     int changed = -1;
-    for (int r = 0; r < runs_.size(); ++r)
-      if (review_run(trial, runs_[r], loads)) changed = larger(0, runs_[r].joint_near());
+    for (int r = 0; r < spans_.size(); ++r)
+      if (review_span(trial, spans_[r], loads)) changed = larger(0, spans_[r].joint_near());
     Scalar most = 0;
     for (int j = 0; j < joints(); ++j) {
       if (solved.contact[j] == Contact::separated || trial.contact[j] == Contact::separated) continue;
@@ -274,18 +274,18 @@ class Stepwise {
       if (violation > most) changed = j;
       most = std::fmax(most, violation);
     }
-    for (int r = 0; r < runs_.size(); ++r) keep_one_fixed(solved, trial, runs_[r], loads);
+    for (int r = 0; r < spans_.size(); ++r) keep_one_fixed(solved, trial, spans_[r], loads);
     return changed;
   }
 
   /// How much a joint's assumption is contradicted [N]; 0 if it holds. Table 2.
   Scalar review_joint(const Assumed& solved, int j, const Loads& loads) const {
-    if (joint(j).grip.locked()) return 0;
-    const Scalar limit = std::fmax(system_.friction_limit(j, solved, loads), Scalar(0));
+    if (joint(j).limit.is_self_locking()) return 0;
+    const Scalar limit = std::fmax(system_.limit_force(j, solved, loads), Scalar(0));
     // Without contact friction is zero whichever way the cable slides.
     if (solved.contact[j] == Contact::sliding && limit <= force_tolerance()) return 0;
     ContactTrial<Scalar> found;
-    // Whether the joint opens is decided by its run as a whole.
+    // Whether the joint opens is decided by its span as a whole.
     found.sigma_n = std::fmin(system_.internal_force(j, 0), Scalar(0));
     found.sigma_s = system_.internal_force(j, 1);
     found.dv_s = system_.tangential(j) - begin_[j];
@@ -308,13 +308,14 @@ class Stepwise {
     }
   }
 
-  /// A floating run in which every joint slides has no place of its own; the joint that slides least rests.
-  void keep_one_fixed(const Assumed& solved, Assumed& trial, const Run& run, const Loads& loads) const {
-    if (!is_floating(run, loads) || run.joints() == 0) return;
+  /// A floating span in which every joint slides has no place of its own; the joint that slides least rests.
+  void keep_one_fixed(const Assumed& solved, Assumed& trial, const SlidingSpan& span,
+                      const Loads& loads) const {
+    if (!is_floating(span, loads) || span.joints() == 0) return;
     int least = -1;
     Scalar smallest = std::numeric_limits<Scalar>::max();
-    for (int i = 0; i < run.joints(); ++i) {
-      const int j = run.joint(i);
+    for (int i = 0; i < span.joints(); ++i) {
+      const int j = span.joint(i);
       if (trial.contact[j] != Contact::sliding) return;
       const bool slid = solved.contact[j] == Contact::sliding;
       const Scalar motion = slid ? std::fabs(system_.tangential(j) - begin_[j]) * system_.softer_segment(j)
@@ -328,26 +329,26 @@ class Stepwise {
     trial.v_s[least] = begin_[least];
   }
 
-  /// Taut runs must be stretched, slack ones too long.
-  bool review_run(Assumed& trial, const Run& run, const Loads& loads) {
-    if (is_prescribed(run, loads)) return false;
+  /// Taut spans must be stretched, slack ones too long.
+  bool review_span(Assumed& trial, const SlidingSpan& span, const Loads& loads) {
+    if (is_prescribed(span, loads)) return false;
     Scalar excess = 0, flexibility = 0;
-    for (int i = 0; i < run.count; ++i) {
-      const int segment = run.segment(i);
+    for (int i = 0; i < span.count; ++i) {
+      const int segment = span.segment(i);
       excess += system_.bar_force(segment, loads) / axial(segment);
       flexibility += Scalar(1) / axial(segment);
     }
-    const bool slack = trial.slack[run.segment(0)];
+    const bool slack = trial.slack[span.segment(0)];
     const Scalar mean = excess / flexibility;
     if (slack ? mean <= force_tolerance() : mean >= -force_tolerance()) return false;
-    set_slack(trial, run, !slack);
-    if (slack) rest_where_it_closed(trial, run, loads);
+    set_slack(trial, span, !slack);
+    if (slack) rest_where_it_closed(trial, span, loads);
     return true;
   }
 
-  void set_slack(Assumed& trial, const Run& run, bool slack) const {
-    for (int i = 0; i < run.count; ++i) trial.slack[run.segment(i)] = slack;
-    const auto& cable = scene_->cables[run.cable];
+  void set_slack(Assumed& trial, const SlidingSpan& span, bool slack) const {
+    for (int i = 0; i < span.count; ++i) trial.slack[span.segment(i)] = slack;
+    const auto& cable = scene_->cables[span.cable];
     for (int k = 0; k < cable.joints(); ++k) {
       const int j = cable.first_joint + k;
       const bool open = trial.slack[joint(j).segments[0]] && trial.slack[joint(j).segments[1]];
@@ -359,36 +360,36 @@ class Stepwise {
   }
 
   /// Table 1, separated to fixed: the cable comes to rest where it was at the part of the step at which the
-  /// run had its unstressed length; then no segment is strained, which gives the slip of every joint.
-  void rest_where_it_closed(Assumed& trial, const Run& run, const Loads& loads) {
-    const bool was_slack = rest_.assumed.slack[run.segment(0)];
+  /// span had its unstressed length; then no segment is strained, which gives the slip of every joint.
+  void rest_where_it_closed(Assumed& trial, const SlidingSpan& span, const Loads& loads) {
+    const bool was_slack = rest_.assumed.slack[span.segment(0)];
     if (!was_slack) {
-      for (int i = 0; i < run.joints(); ++i) trial.v_s[run.joint(i)] = rest_.assumed.v_s[run.joint(i)];
+      for (int i = 0; i < span.joints(); ++i) trial.v_s[span.joint(i)] = rest_.assumed.v_s[span.joint(i)];
       return;
     }
     Scalar before = 0, after = 0;
-    for (int i = 0; i < run.count; ++i) {
-      const int segment = run.segment(i);
+    for (int i = 0; i < span.count; ++i) {
+      const int segment = span.segment(i);
       before += rest_.slack_force[segment] / axial(segment);
       after += system_.bar_force(segment, loads) / axial(segment);
     }
     const Scalar part = before < after ? -before / (after - before) : Scalar(0);
     const auto strain_length = [&](int i) {
-      const int segment = run.segment(i);
+      const int segment = span.segment(i);
       const Scalar start = rest_.slack_force[segment];
       return (start + part * (system_.bar_force(segment, loads) - start)) / axial(segment);
     };
-    lay_unstrained(trial, run, loads, strain_length);
+    lay_unstrained(trial, span, loads, strain_length);
   }
 
-  /// A jack that takes hold of a slack run draws it straight.
+  /// A jack that takes hold of a slack span draws it straight.
   void tauten_jacked(Assumed& trial, const Loads& loads) {
-    for (int r = 0; r < runs_.size(); ++r) {
-      const Run& run = runs_[r];
-      if (!trial.slack[run.segment(0)] || !is_prescribed(run, loads)) continue;
-      set_slack(trial, run, false);
-      lay_unstrained(trial, run, loads, [&](int i) {
-        const int segment = run.segment(i);
+    for (int r = 0; r < spans_.size(); ++r) {
+      const SlidingSpan& span = spans_[r];
+      if (!trial.slack[span.segment(0)] || !is_prescribed(span, loads)) continue;
+      set_slack(trial, span, false);
+      lay_unstrained(trial, span, loads, [&](int i) {
+        const int segment = span.segment(i);
         return rest_.slack_force[segment] / axial(segment);
       });
     }
@@ -397,16 +398,16 @@ class Stepwise {
   /// Slips that leave no segment strained, given the elongation of each without slip [m]; from the end that
   /// is not a jack.
   template <class Lengths>
-  void lay_unstrained(Assumed& trial, const Run& run, const Loads& loads, Lengths elongation) {
-    const int last = run.count - 1;
+  void lay_unstrained(Assumed& trial, const SlidingSpan& span, const Loads& loads, Lengths elongation) {
+    const int last = span.count - 1;
     Scalar slip = 0;
-    if (!run.ring && system_.is_prescribed(run.segment(0), loads)) {
-      for (int i = last; i > 0; --i) set_slip(trial, run.joint(i - 1), slip += elongation(i));
+    if (!span.ring && system_.is_prescribed(span.segment(0), loads)) {
+      for (int i = last; i > 0; --i) set_slip(trial, span.joint(i - 1), slip += elongation(i));
       return;
     }
-    if (run.ring) slip = response_.slip[run.joint(last)];
-    for (int i = 0; i < last; ++i) set_slip(trial, run.joint(i), slip -= elongation(i));
-    if (run.ring) set_slip(trial, run.joint(last), response_.slip[run.joint(last)]);
+    if (span.ring) slip = response_.slip[span.joint(last)];
+    for (int i = 0; i < last; ++i) set_slip(trial, span.joint(i), slip -= elongation(i));
+    if (span.ring) set_slip(trial, span.joint(last), response_.slip[span.joint(last)]);
   }
   void set_slip(Assumed& trial, int j, Scalar slip) { begin_[j] = trial.v_s[j] = slip_to_v_s(j, slip); }
 
@@ -420,8 +421,9 @@ class Stepwise {
     for (int j = 0; j < joints(); ++j) commit_joint(trial, j);
     rest_.assumed.slack = trial.slack;
     for (int i = 0; i < scene_->struts.size(); ++i) response_.strut[i] = system_.strut_force(i);
-    for_each_jacked_end(scene_->cables,
-                        [&](int c, std::size_t end) { response_.payout[c][end] = payout(c, end, loads); });
+    for_each_jacked_end(scene_->cables, [&](int c, std::size_t end) {
+      response_.extension[c][end] = extension(c, end, loads);
+    });
     for (int i = 0; i < scene_->nodes.size(); ++i)
       for (int axis = 0; axis < dimension; ++axis)
         displacement_[i][static_cast<std::size_t>(axis)] = system_.node_displacement(i, axis);
@@ -452,19 +454,19 @@ class Stepwise {
   }
 
   /// What the jack has drawn out: the elongation that its force asks for and the structure does not give.
-  Scalar payout(int c, std::size_t end, const Loads& loads) const {
-    if (loads.jack[c][end].locked) return loads.jack[c][end].payout;
+  Scalar extension(int c, std::size_t end, const Loads& loads) const {
+    if (loads.jack[c][end].locked) return loads.jack[c][end].extension;
     const int segment = scene_->cables[c].end_segment(end);
     const Scalar drawn = (loads.jack[c][end].force - system_.bar_force(segment, loads)) / axial(segment);
     // On a cable of one segment with two jacks the end takes what the start does not.
     const bool shared = scene_->cables[c].segments() == 1 && end == 1 && !loads.jack[c][0].locked &&
                         scene_->cables[c].ends[0] == End::jacked;
-    return shared ? drawn - response_.payout[c][0] : drawn;
+    return shared ? drawn - response_.extension[c][0] : drawn;
   }
 
   const SceneType* scene_ = nullptr;
   System<Scalar, SceneType> system_;
-  Runs<Cap> runs_;
+  SlidingSpans<Cap> spans_;
   Slides slides_;
   Loads now_, goal_;
   Rest rest_;

@@ -91,8 +91,9 @@ class System {
   Scalar tangential(int joint) const { return relative(joint, 1).value(); }
   /// Force in a segment under the situation: elastic, prescribed or none [N].
   Scalar tension(int segment, const Assumed& assumed, const Loads& loads) const {
-    const Law law = law_of(segment, assumed, loads);
-    return law == Law::elastic ? bar_force(segment, loads) : prescribed_force(segment, law, loads);
+    const TensionConstraint law = law_of(segment, assumed, loads);
+    return law == TensionConstraint::elastic ? bar_force(segment, loads)
+                                             : prescribed_force(segment, law, loads);
   }
   bool is_prescribed(int segment, const Loads& loads) const { return jack_of(segment, loads) != nullptr; }
 
@@ -102,7 +103,7 @@ class System {
   static constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
   static constexpr Scalar accepted = sizeof(Scalar) == sizeof(float) ? Scalar(2e-6) : Scalar(2e-12);
   static constexpr int max_corrections = 12;
-  enum class Law { elastic, prescribed, slack };
+  enum class TensionConstraint { elastic, prescribed, slack };
 
   int segments() const { return scene_->prestrain.size(); }
   int joints() const { return scene_->mu.size(); }
@@ -120,12 +121,12 @@ class System {
     return nullptr;
   }
 
-  Law law_of(int segment, const Assumed& assumed, const Loads& loads) const {
-    if (is_prescribed(segment, loads)) return Law::prescribed;
-    return assumed.slack[segment] ? Law::slack : Law::elastic;
+  TensionConstraint law_of(int segment, const Assumed& assumed, const Loads& loads) const {
+    if (is_prescribed(segment, loads)) return TensionConstraint::prescribed;
+    return assumed.slack[segment] ? TensionConstraint::slack : TensionConstraint::elastic;
   }
-  Scalar prescribed_force(int segment, Law law, const Loads& loads) const {
-    return law == Law::prescribed ? jack_of(segment, loads)->force : Scalar(0);
+  Scalar prescribed_force(int segment, TensionConstraint law, const Loads& loads) const {
+    return law == TensionConstraint::prescribed ? jack_of(segment, loads)->force : Scalar(0);
   }
 
   Word displacement(int node, int axis) const {
@@ -150,7 +151,7 @@ class System {
     const auto& bar = elements_.segments[segment];
     Word stretch = elongation(bar);
     for (std::size_t end = 0; end < 2; ++end)
-      if (bar.joints[end] < 0) stretch += Word{loads.jack[bar.cable][end].payout, 0};
+      if (bar.joints[end] < 0) stretch += Word{loads.jack[bar.cable][end].extension, 0};
     return bar.axial * stretch + Word{locked_in_force(segment, loads), 0};
   }
   /// Force at zero elongation: prestrain and temperature [N].
@@ -230,7 +231,7 @@ class System {
               numbering_.displacement(K.node(column), K.axis(column)), static_cast<Scalar>(K(row, column)));
     }
     for (int i = 0; i < segments(); ++i)
-      if (law_of(i, assumed, loads) == Law::elastic)
+      if (law_of(i, assumed, loads) == TensionConstraint::elastic)
         add_element(bar_unknowns(elements_.segments[i]), elements_.segments[i].stiffness());
     set_scales();
     for (int joint = 0; joint < joints(); ++joint) add_joint(joint, assumed, loads);
@@ -302,9 +303,9 @@ class System {
   void add_capstan_limit(int joint, const Assumed& assumed, const Loads& loads) {
     const auto& element = elements_.joints[joint];
     const int row = numbering_.internal_force(joint, 1);
-    const Scalar limit = assumed.direction[joint] * element.grip.kappa * element.frame.sin_alpha;
+    const Scalar limit = assumed.direction[joint] * element.limit.kappa * element.frame.sin_alpha;
     for (const int segment : element.segments) {
-      if (law_of(segment, assumed, loads) != Law::elastic) continue;
+      if (law_of(segment, assumed, loads) != TensionConstraint::elastic) continue;
       const auto& bar = elements_.segments[segment];
       for (int axis = 0; axis < dimension; ++axis) {
         const Scalar change = limit * bar.axial * bar.line.direction[axis];
@@ -402,7 +403,7 @@ class System {
         push(numbering_.displacement(element.node, axis), -along[axis] * sigma);
       }
       if (i == 1 && assumed.contact[joint] == Contact::sliding) {
-        correction_[row] = friction_limit(joint, assumed, loads) * assumed.direction[joint] - sigma;
+        correction_[row] = limit_force(joint, assumed, loads) * assumed.direction[joint] - sigma;
         violation = std::fmax(violation, std::fabs(correction_[row]));
       } else {
         const Word rest{i == 1 ? assumed.v_s[joint] : Scalar(0), 0};
@@ -415,10 +416,10 @@ class System {
 
  public:
   /// Largest tangential force (paper, Eq. (24)) or the capstan's [N].
-  Scalar friction_limit(int joint, const Assumed& assumed, const Loads& loads) const {
+  Scalar limit_force(int joint, const Assumed& assumed, const Loads& loads) const {
     const auto& element = elements_.joints[joint];
     if (element.law == FrictionLaw::point) return -element.mu * internal_force(joint, 0);
-    return element.grip.kappa * element.frame.sin_alpha *
+    return element.limit.kappa * element.frame.sin_alpha *
            (tension(element.segments[0], assumed, loads) + tension(element.segments[1], assumed, loads));
   }
 
@@ -473,7 +474,7 @@ class System {
         strained = std::fmax(strained, beam.largest_deformation(beam_displacements(beam)));
       }
     for (int i = 0; i < segments(); ++i)
-      if (law_of(i, assumed, loads) == Law::elastic)
+      if (law_of(i, assumed, loads) == TensionConstraint::elastic)
         strained = std::fmax(strained, std::fabs(bar_elongation(i)));
     const bool resolved = strained <= std::sqrt(epsilon) * most;
     return Status::at(resolved ? Code::mechanism : Code::ill_conditioned, Place::node, mover);

@@ -1,4 +1,4 @@
-// The moves at work with their laws, and how they follow: a factorization that grows with them.
+// The slip variables at work with their laws, and how they follow: a factorization that grows with them.
 #pragma once
 
 #include <cmath>
@@ -8,17 +8,17 @@
 #include "taut/numerics/bits.hpp"
 #include "taut/numerics/bordered_lu.hpp"
 #include "taut/numerics/larger.hpp"
-#include "taut/tracking/moves.hpp"
+#include "taut/tracking/slip_variables.hpp"
 
 namespace taut {
 
-/// The moves that are not frozen, each with the law that it obeys, in the order in which they entered.
+/// The slips that are not frozen, each with the law that it obeys, in the order in which they entered.
 ///
-/// With R the coefficients of the laws and W the tensions that unit moves make, settle() solves
-/// R W m = due - R T, Eq. (12). The factors of R W are those of the order of entry: a move that enters costs
-/// one row and one column, and factors made anew in the same order have the same bits.
+/// With R the coefficients of the laws and W the tensions that unit slips make, settle() solves
+/// R W m = due - R T, Eq. (12). The factors of R W are those of the order of entry: a slip variable that
+/// enters costs one row and one column, and factors made anew in the same order have the same bits.
 ///
-/// On a structure every move changes every tension: BorderedLu. Between rigid saddles a segment knows
+/// On a structure every slip changes every tension: BorderedLu. Between rigid saddles a segment knows
 /// nothing of the others, and each chain of segments linked by sliding joints has one unknown.
 template <class CondensedType, class Laws>
 class ActiveSet {
@@ -28,8 +28,8 @@ class ActiveSet {
   /// Laws are linear in the tensions: no more of them can be independent.
   static constexpr int capacity = Cap::segments;
   using Tensions = FixedArray<Real, Cap::segments>;
-  using Moves = FixedArray<Real, capacity>;
-  using Actives = FixedList<Active, capacity>;
+  using Values = FixedArray<Real, capacity>;
+  using ActiveConstraints = FixedList<ActiveConstraint, capacity>;
 
   /// Begins with an empty set, and looks the model through once. The model must outlive it.
   void begin(const CondensedType& model) {
@@ -50,12 +50,12 @@ class ActiveSet {
   }
   int size() const { return active_.size(); }
   bool is_full() const { return size() >= model_->segments; }
-  const Active& operator[](int i) const { return active_[i]; }
-  const Actives& actives() const { return active_; }
+  const ActiveConstraint& operator[](int i) const { return active_[i]; }
+  const ActiveConstraints& actives() const { return active_; }
 
-  /// Adds a move at the end. False, and nothing is changed, if its law does not depend on it while all others
-  /// follow: their combination moves freely. Structure: O(size^2), saddles: O(segments).
-  bool append(const Laws& laws, const Active& active, Real least_pivot = singular) {
+  /// Adds a slip variable at the end. False, and nothing is changed, if its law does not depend on it while
+  /// all others follow: their combination moves freely. Structure: O(size^2), saddles: O(segments).
+  bool append(const Laws& laws, const ActiveConstraint& active, Real least_pivot = singular) {
     if (is_full()) return false;
     if (is_chains()) {
       if (closes_a_loop(active)) return false;
@@ -67,7 +67,7 @@ class ActiveSet {
     }
   }
   void set_pair(int i, int pair) { active_[i].pair = static_cast<std::int16_t>(pair); }
-  /// Takes a move away: O(size^3) at worst, for the oldest of many.
+  /// Takes a slip variable away: O(size^3) at worst, for the oldest of many.
   bool remove(const Laws& laws, int i) {
     return remove_if(laws, [i](int k) { return k == i; });
   }
@@ -78,35 +78,35 @@ class ActiveSet {
   bool remove_if(const Laws& laws, Leaves leaves) {
     int first = 0;
     while (first < size() && !leaves(first)) ++first;
-    Actives later;
+    ActiveConstraints later;
     for (int k = first + 1; k < size(); ++k)
       if (!leaves(k)) later.add(active_[k]);
     truncate(first);
     if (is_chains()) {
-      for (const Active& each : later) active_.add(each);
+      for (const ActiveConstraint& each : later) active_.add(each);
       renumber();
       return true;
     } else {
       return append_by_pivot(laws, later);
     }
   }
-  /// Keeps the first `count` moves.
+  /// Keeps the first `count` slip variables.
   void truncate(int count) {
     while (size() > count) active_.drop_last();
     renumber();
   }
-  /// Lets the moves follow until their laws are what is due [N]: T and `moves` (as they are ordered here)
+  /// Lets the slips follow until their laws are what is due [N]: T and `values` (as they are ordered here)
   /// change. At most `passes` of iterative refinement; each O(size^2 + segments^2), between saddles
   /// O(segments).
-  void settle(const Laws& laws, const Moves& due, Tensions& T, Moves& moves, int passes = 1) const {
+  void settle(const Laws& laws, const Values& due, Tensions& T, Values& values, int passes = 1) const {
     if (size() == 0) return;
     Real most = 0;
     for (int i = 0; i < model_->segments; ++i) most = larger(most, std::fabs(T[i]));
     for (int i = 0; i < size(); ++i) most = larger(most, std::fabs(due[i]));
     if (is_chains())
-      settle_chains(laws, due, T, moves);
+      settle_chains(laws, due, T, values);
     else
-      settle_all(laws, due, T, moves, passes);
+      settle_all(laws, due, T, values, passes);
     // What a law gives outright has no rounding. More than rounding must be seen by whoever tests the laws.
     for (int i = 0; i < size(); ++i) {
       Real& on = T[active_[i].slides() ? 0 : active_[i].on];
@@ -125,29 +125,30 @@ class ActiveSet {
     if (held_ == 0) return;
     for (int i = 0; i < model_->segments; ++i) T[i] += held_ * model_->coupling(i, i) * e[i];
   }
-  /// Adds the tensions that a move makes.
-  void carry(const Move& move, Real by, Tensions& T) const {
-    carry(move.lengthened, by, T);
-    if (move.shortened >= 0) carry(move.shortened, -by, T);
+  /// Adds the tensions that a slip variable makes.
+  void carry(const SlipVariable& variable, Real by, Tensions& T) const {
+    carry(variable.lengthened, by, T);
+    if (variable.shortened >= 0) carry(variable.shortened, -by, T);
   }
   /// Adds the tensions that an elongation of one segment makes.
   void carry(int segment, Real by, Tensions& T) const {
     model_->coupling.add(model_->segments, segment, by, T);
     if (is_held()) T[segment] += held_ * model_->coupling(segment, segment) * by;
   }
-  /// What an elongation by an active move is in its own segment [N/m].
-  Real stiffness(int i) const { return stiffness(active_[i].move); }
-  Real stiffness(const Move& move) const {
-    const Real before = model_->coupling(move.lengthened, move.lengthened);
+  /// What an elongation by an active variable is in its own segment [N/m].
+  Real stiffness(int i) const { return stiffness(active_[i].variable); }
+  Real stiffness(const SlipVariable& variable) const {
+    const Real before = model_->coupling(variable.lengthened, variable.lengthened);
     if (is_positive(before)) return before;
-    const Real after = move.shortened < 0 ? Real(0) : model_->coupling(move.shortened, move.shortened);
+    const Real after =
+        variable.shortened < 0 ? Real(0) : model_->coupling(variable.shortened, variable.shortened);
     return after > 0 ? after : stiffest_;
   }
   /// One over that [m/N], without a division.
-  Real flexibility(const Move& move) const {
-    const Real before = flexibility_[move.lengthened];
+  Real flexibility(const SlipVariable& variable) const {
+    const Real before = flexibility_[variable.lengthened];
     if (is_positive(before)) return before;
-    const Real after = move.shortened < 0 ? Real(0) : flexibility_[move.shortened];
+    const Real after = variable.shortened < 0 ? Real(0) : flexibility_[variable.shortened];
     return after > 0 ? after : Real(1) / stiffest_;
   }
   /// The largest of a segment in its own direction [N/m]; 1 where statics give all forces, and lengths none.
@@ -176,21 +177,23 @@ class ActiveSet {
 
   // A structure.
 
-  Real entry(const Laws& laws, int law, const Active& active) const {
-    const Law<Real> row = laws.of(active_[law]);
-    const Move& move = active.move;
-    const Real by = resistance(*model_, row, move);
-    return (is_held() ? by + held_ * alone(row, move) : by) * flexibility(move);
+  Real entry(const Laws& laws, int law, const ActiveConstraint& active) const {
+    const TensionConstraint<Real> row = laws.of(active_[law]);
+    const SlipVariable& variable = active.variable;
+    const Real by = resistance(*model_, row, variable);
+    return (is_held() ? by + held_ * alone(row, variable) : by) * flexibility(variable);
   }
-  /// What a move changes a law by through the segments' own stiffness.
-  Real alone(const Law<Real>& law, const Move& move) const {
+  /// What a slip variable changes a law by through the segments' own stiffness.
+  Real alone(const TensionConstraint<Real>& law, const SlipVariable& variable) const {
     const auto own = [&](int segment) {
-      const Real by = segment == move.lengthened ? Real(1) : segment == move.shortened ? Real(-1) : Real(0);
+      const Real by = segment == variable.lengthened  ? Real(1)
+                      : segment == variable.shortened ? Real(-1)
+                                                      : Real(0);
       return by * model_->coupling(segment, segment);
     };
     return law.second < 0 ? own(law.first) : own(law.first) - law.weight * own(law.second);
   }
-  bool append_row(const Laws& laws, const Active& active, Real least_pivot) {
+  bool append_row(const Laws& laws, const ActiveConstraint& active, Real least_pivot) {
     const int n = size();
     active_.add(active);
     const Real pivot = factors_.append([&](int i) { return entry(laws, i, active); },
@@ -202,26 +205,27 @@ class ActiveSet {
   }
   /// In second-order theory: an equilibrium from which a jack or a joint that slides runs away by itself is
   /// none. Where a cable has no tension its nodes may hang free.
-  static bool is_to_resist(const Active& active) {
-    return CondensedType::has_level && (active.slides() || active.move.kind == Move::Kind::payout);
+  static bool is_to_resist(const ActiveConstraint& active) {
+    return CondensedType::has_level &&
+           (active.slides() || active.variable.kind == SlipVariable::Kind::extension);
   }
-  static Real signed_by_law(const Laws& laws, const Active& active, Real pivot) {
-    return laws.of(active).first == active.move.lengthened ? pivot : -pivot;
+  static Real signed_by_law(const Laws& laws, const ActiveConstraint& active, Real pivot) {
+    return laws.of(active).first == active.variable.lengthened ? pivot : -pivot;
   }
-  bool append_by_pivot(const Laws& laws, Actives& later) {
+  bool append_by_pivot(const Laws& laws, ActiveConstraints& later) {
     for (int rounds = 0, count = later.size(); rounds <= count && !later.empty(); ++rounds) {
-      Actives deferred;
-      for (const Active& each : later)
+      ActiveConstraints deferred;
+      for (const ActiveConstraint& each : later)
         if (!append(laws, each, rounds == 0 ? small : singular)) deferred.add(each);
       later = deferred;
     }
     return later.empty();
   }
   /// Once with the springs, or, to the last digit, without them: iterative refinement.
-  void settle_all(const Laws& laws, const Moves& due, Tensions& T, Moves& moves, int passes) const {
+  void settle_all(const Laws& laws, const Values& due, Tensions& T, Values& values, int passes) const {
     Real before = (std::numeric_limits<Real>::max)();
     for (int pass = 0; pass < passes; ++pass) {
-      Moves change;
+      Values change;
       Real most = 0, off = 0;
       for (int i = 0; i < size(); ++i) {
         change[i] = due[i] - laws.of(active_[i]).of(T);
@@ -234,9 +238,9 @@ class ActiveSet {
       Tensions e;
       e.fill(Real(0));
       for (int i = 0; i < size(); ++i) {
-        const Real by = change[i] * flexibility(active_[i].move);
-        moves[i] += by;
-        active_[i].move.impose(by, e);
+        const Real by = change[i] * flexibility(active_[i].variable);
+        values[i] += by;
+        active_[i].variable.impose(by, e);
       }
       if (passes == 1)
         carry(e, T);
@@ -248,8 +252,8 @@ class ActiveSet {
   // Between rigid saddles.
 
   struct Links {
-    FixedArray<std::int16_t, has_chains ? Cap::segments : 0> fixed;   // move whose law gives the tension
-    FixedArray<std::int16_t, has_chains ? Cap::segments : 0> length;  // move that is no slip
+    FixedArray<std::int16_t, has_chains ? Cap::segments : 0> fixed;   // variable whose law gives the tension
+    FixedArray<std::int16_t, has_chains ? Cap::segments : 0> length;  // variable that is no slip
     FixedArray<std::int16_t, has_chains ? Cap::joints : 0> slip;
   };
 
@@ -260,12 +264,12 @@ class ActiveSet {
       links_.slip.fill(-1);
       for (int i = 0; i < size(); ++i) {
         const auto number = static_cast<std::int16_t>(i);
-        const Active& active = active_[i];
+        const ActiveConstraint& active = active_[i];
         if (!active.slides()) links_.fixed[active.on] = number;
-        if (active.move.kind != Move::Kind::slip)
-          links_.length[active.move.lengthened] = number;
+        if (active.variable.kind != SlipVariable::Kind::slip)
+          links_.length[active.variable.lengthened] = number;
         else if constexpr (Cap::joints > 0)
-          links_.slip[active.move.index] = number;
+          links_.slip[active.variable.index] = number;
       }
     } else {
       factors_.truncate(size());
@@ -303,11 +307,11 @@ class ActiveSet {
     return slip >= 0 && active_[slip].slides() ? slip : -1;
   }
   /// Whether two laws would give the tension of one chain, or a ring slide as a whole.
-  bool closes_a_loop(const Active& active) const {
+  bool closes_a_loop(const ActiveConstraint& active) const {
     if (!active.slides()) return links_.fixed[active.on] >= 0 || chain_is_fixed(active.on);
-    const Move& move = active.move;
-    if (chain_is_fixed(move.lengthened) && chain_is_fixed(move.shortened)) return true;
-    return same_chain(move.lengthened, move.shortened);
+    const SlipVariable& variable = active.variable;
+    if (chain_is_fixed(variable.lengthened) && chain_is_fixed(variable.shortened)) return true;
+    return same_chain(variable.lengthened, variable.shortened);
   }
   template <class Visit>
   void for_each_chain(const Row& row, Visit visit) const {
@@ -345,7 +349,7 @@ class ActiveSet {
     }
     return same;
   }
-  void settle_chains(const Laws& laws, const Moves& due, Tensions& T, Moves& moves) const {
+  void settle_chains(const Laws& laws, const Values& due, Tensions& T, Values& values) const {
     Tensions e;
     e.fill(Real(0));
     for (int c = 0; c < model_->cables.size(); ++c) {
@@ -354,14 +358,14 @@ class ActiveSet {
       for (int a = 0; a < row.count;) {
         int b = a;
         while (slip_after(row, b) >= 0) ++b;
-        follow(row, a, b, e, moves);
+        follow(row, a, b, e, values);
         a = b + 1;
       }
     }
   }
   /// T_i = ratio_i tau + offset_i along a chain. A law gives one of them; if none does, the elongations
   /// cancel: Eq. (13).
-  void settle_chain(const Laws& laws, const Row& row, int a, int b, const Moves& due, Tensions& T,
+  void settle_chain(const Laws& laws, const Row& row, int a, int b, const Values& due, Tensions& T,
                     Tensions& e) const {
     Real weights = 0, sum = 0, tau = 0;
     bool found = false;
@@ -388,7 +392,7 @@ class ActiveSet {
         }
         if (i == b) break;
         const int k = ratio_after(row, i);
-        const Real rho = laws.rho(active_[k].move.index);
+        const Real rho = laws.rho(active_[k].variable.index);
         const bool forward = active_[k].sense > 0;
         const Real next = forward ? Real(1) / rho : rho;
         ratio *= next;
@@ -396,26 +400,26 @@ class ActiveSet {
       }
     }
   }
-  /// The moves that give segments a to b, linked by active slips, their elongations.
-  void follow(const Row& row, int a, int b, const Tensions& e, Moves& moves) const {
+  /// The slips that give segments a to b, linked by active slips, their elongations.
+  void follow(const Row& row, int a, int b, const Tensions& e, Values& values) const {
     int at = b;
     for (int i = a; i <= b; ++i)
       if (links_.length[row.segment(i)] >= 0) at = i;
     Real before = 0, after = 0;
     for (int i = a; i < at; ++i) {
       before += e[row.segment(i)];
-      moves[slip_after(row, i)] += before;
+      values[slip_after(row, i)] += before;
     }
     for (int i = b; i > at; --i) {
       after += e[row.segment(i)];
-      moves[slip_after(row, i - 1)] -= after;
+      values[slip_after(row, i - 1)] -= after;
     }
     const int length = links_.length[row.segment(at)];
-    if (length >= 0) moves[length] += before + after + e[row.segment(at)];
+    if (length >= 0) values[length] += before + after + e[row.segment(at)];
   }
 
   const CondensedType* model_ = nullptr;
-  Actives active_;
+  ActiveConstraints active_;
   Real held_ = 0, stiffest_ = 0;
   Tensions flexibility_;  // of every segment in its own direction [m/N], 0 if statics give its force
   Links links_;

@@ -1,4 +1,4 @@
-// While no state changes, tensions and moves are affine in the inputs: this is that map.
+// While no state changes, tensions and slips are affine in the inputs: this is that map.
 #pragma once
 
 #include <cmath>
@@ -9,22 +9,22 @@
 
 namespace taut {
 
-/// T = base + sum of (input - anchor) x column, and the same for the active moves.
+/// T = base + sum of (input - anchor) x column, and the same for the active variables.
 ///
-/// Made from totals whenever the set of active moves changes: with R the laws' coefficients, W the columns of
-/// the moves, T0 the tensions at the anchor and s what the laws are to be, the moves change by
-/// m = (R W)^-1 (s - R T0), and T = T0 + W m.
+/// Made from totals whenever the set of active variables changes: with R the laws' coefficients, W the
+/// columns of the slips, T0 the tensions at the anchor and s what the laws are to be, the slips change by m =
+/// (R W)^-1 (s - R T0), and T = T0 + W m.
 template <class CondensedType, class Laws>
 class AffineMap {
  public:
   using Scalar = typename CondensedType::Scalar;
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
-  static constexpr int max_active = max_active_moves<Cap>;
+  static constexpr int max_active = max_active_constraints<Cap>;
   static constexpr int max_inputs = Cap::loads + max_jacks<Cap> + 1;
   using Set = ActiveSet<CondensedType, Laws>;
   using Tensions = FixedArray<Real, Cap::segments>;
-  using Moves = FixedArray<Real, max_active>;
+  using Values = FixedArray<Real, max_active>;
   using Inputs = FixedArray<Real, max_inputs>;
   /// Tensions in the scene's scalar.
   using Rounded = FixedArray<Scalar, Cap::segments>;
@@ -35,7 +35,7 @@ class AffineMap {
     set_.begin(model);
     clear();
   }
-  /// No move is at work, and nothing comes in.
+  /// No slip variable is at work, and nothing comes in.
   void clear() {
     set_.clear();
     inputs_.clear();
@@ -44,37 +44,37 @@ class AffineMap {
   void clear_inputs() { inputs_.clear(); }
   void add_input(Input::Kind kind, int index) { inputs_.add({kind, static_cast<std::int16_t>(index)}); }
 
-  /// The moves at work; whoever changes them makes the map anew.
+  /// The slip variables at work; whoever changes them makes the map anew.
   Set& set() { return set_; }
   bool is_held() const { return set_.is_held(); }
   int active() const { return set_.size(); }
-  const Move& move(int i) const { return set_[i].move; }
-  const typename Set::Actives& actives() const { return set_.actives(); }
+  const SlipVariable& variable(int i) const { return set_[i].variable; }
+  const typename Set::ActiveConstraints& actives() const { return set_.actives(); }
   int inputs() const { return inputs_.size(); }
   const Input& input(int k) const { return inputs_[k]; }
   bool has_slack() const { return has_slack_; }
 
-  /// Makes the map for the moves of the set. `T` are the tensions of all moves as they are at the anchor,
-  /// `moves` the active ones, `anchor` the inputs. differentiate(settle) is called last: settle(due, T,
-  /// moves) lets the active moves follow until their laws are what is due.
+  /// Makes the map for the slips of the set. `T` are the tensions of all slips as they are at the anchor,
+  /// `values` the active ones, `anchor` the inputs. differentiate(settle) is called last: settle(due, T,
+  /// values) lets the active variables follow until their laws are what is due.
   template <class Differentiate>
-  void make(const Laws& laws, const Tensions& T, const Moves& moves, const Inputs& anchor,
+  void make(const Laws& laws, const Tensions& T, const Values& values, const Inputs& anchor,
             Differentiate differentiate) {
     has_slack_ = false;
-    for (const Active& active : actives())
-      has_slack_ = has_slack_ || active.move.kind == Move::Kind::slack_length;
+    for (const ActiveConstraint& active : actives())
+      has_slack_ = has_slack_ || active.variable.kind == SlipVariable::Kind::slack_length;
     anchor_ = anchor;
     base_ = T;
-    base_moves_ = moves;
-    Moves due;
+    base_values_ = values;
+    Values due;
     due.fill(Real(0));
     for (int k = 0; k < inputs(); ++k)
       if (inputs_[k].kind == Input::Kind::jack_force) due[row_of_jack(inputs_[k].index)] = anchor[k];
-    set_.settle(laws, due, base_, base_moves_, most_passes);
+    set_.settle(laws, due, base_, base_values_, most_passes);
     for (int k = 0; k < inputs(); ++k) make_column(laws, k);
     round_columns();
     differentiate(
-        [&](const Moves& given, Tensions& follow, Moves& by) { set_.settle(laws, given, follow, by); });
+        [&](const Values& given, Tensions& follow, Values& by) { set_.settle(laws, given, follow, by); });
   }
 
   const Tensions& base() const { return base_; }
@@ -93,37 +93,37 @@ class AffineMap {
     for (int k = 0; k < inputs(); ++k)
       for (int i = 0; i < model_->segments; ++i) rates[i] += dx[k] * column_[k][i];
   }
-  Real active_move(int i, const Inputs& x) const {
-    Real at = base_moves_[i];
-    for (int k = 0; k < inputs(); ++k) at += (x[k] - anchor_[k]) * column_moves_[k][i];
+  Real value(int i, const Inputs& x) const {
+    Real at = base_values_[i];
+    for (int k = 0; k < inputs(); ++k) at += (x[k] - anchor_[k]) * column_values_[k][i];
     return at;
   }
-  /// What a unit of input `k` moves active move `i` by.
-  Real column_move(int k, int i) const { return column_moves_[k][i]; }
+  /// What a unit of input `k` adds to active variable `i`.
+  Real column_value(int k, int i) const { return column_values_[k][i]; }
   /// Rate along a direction `dx` of the inputs.
-  Real move_rate(int i, const Inputs& dx) const {
+  Real value_rate(int i, const Inputs& dx) const {
     Real rate = 0;
-    for (int k = 0; k < inputs(); ++k) rate += dx[k] * column_moves_[k][i];
+    for (int k = 0; k < inputs(); ++k) rate += dx[k] * column_values_[k][i];
     return rate;
   }
-  /// What an elongation by an active move is in its own segment [N/m].
+  /// What an elongation by an active variable is in its own segment [N/m].
   Real stiffness(int i) const { return set_.stiffness(i); }
 
-  /// Whether every move keeps the sign it must have when input `k` alone grows, or shrinks.
+  /// Whether every slip variable keeps the sign it must have when input `k` alone grows, or shrinks.
   bool keeps(int k, bool up) const { return up ? keeps_if_up_[k] : keeps_if_down_[k]; }
-  /// Whether every move keeps the sign it must have going along `dx`, give or take `tolerance` [N].
+  /// Whether every slip variable keeps the sign it must have going along `dx`, give or take `tolerance` [N].
   bool goes_on(const Inputs& dx, Real tolerance) const {
     for (int i = 0; i < active(); ++i)
       if (!goes_on(i, dx, tolerance)) return false;
     return true;
   }
   bool goes_on(int i, const Inputs& dx, Real tolerance) const {
-    return static_cast<Real>(set_[i].sense) * move_rate(i, dx) * stiffness(i) >= -tolerance;
+    return static_cast<Real>(set_[i].sense) * value_rate(i, dx) * stiffness(i) >= -tolerance;
   }
-  /// By how much tensions at `x` miss the laws of the active moves [N]: more than rounding if Real has too
-  /// few digits.
+  /// By how much tensions at `x` miss the laws of the active variables [N]: more than rounding if Real has
+  /// too few digits.
   Real law_violation(const Laws& laws, const Tensions& T, const Inputs& x) const {
-    Moves off;
+    Values off;
     for (int i = 0; i < active(); ++i) off[i] = laws.of(set_[i]).of(T);
     for (int k = 0; k < inputs(); ++k)
       if (inputs_[k].kind == Input::Kind::jack_force) off[row_of_jack(inputs_[k].index)] -= x[k];
@@ -131,10 +131,10 @@ class AffineMap {
     for (int i = 0; i < active(); ++i) most = larger(most, std::fabs(off[i]));
     return most;
   }
-  /// Whether at `x` every slack run still has length to spare.
+  /// Whether at `x` every slack span still has length to spare.
   bool stays_slack(const Inputs& x) const {
     for (int i = 0; i < active(); ++i)
-      if (move(i).kind == Move::Kind::slack_length && active_move(i, x) < 0) return false;
+      if (variable(i).kind == SlipVariable::Kind::slack_length && value(i, x) < 0) return false;
     return true;
   }
 
@@ -148,9 +148,10 @@ class AffineMap {
       return rounded_[k];
   }
 
-  static Move payout_move(const CondensedType& model, int index) {
+  static SlipVariable extension_variable(const CondensedType& model, int index) {
     const auto& cable = model.cables[index / 2];
-    return Move::of(Move::Kind::payout, index, cable.end_segment(static_cast<std::size_t>(index % 2)));
+    return SlipVariable::of(SlipVariable::Kind::extension, index,
+                            cable.end_segment(static_cast<std::size_t>(index % 2)));
   }
 
  private:
@@ -169,22 +170,22 @@ class AffineMap {
     Tensions& column = column_[k];
     column.fill(Real(0));
     const Input& input = inputs_[k];
-    Moves due;
+    Values due;
     due.fill(Real(0));
     if (input.kind == Input::Kind::load) column = model_->load[input.index];
     if (input.kind == Input::Kind::prestrain) column = model_->prestrain;
-    if (input.kind == Input::Kind::payout) {
+    if (input.kind == Input::Kind::extension) {
       Tensions e;
       e.fill(Real(0));
-      payout_move(*model_, input.index).impose(Real(1), e);
+      extension_variable(*model_, input.index).impose(Real(1), e);
       model_->coupling.add(model_->segments, e, column);
     }
     if (input.kind == Input::Kind::jack_force) due[row_of_jack(input.index)] = 1;
-    column_moves_[k].fill(Real(0));
-    set_.settle(laws, due, column, column_moves_[k], most_passes);
+    column_values_[k].fill(Real(0));
+    set_.settle(laws, due, column, column_values_[k], most_passes);
     keeps_if_up_[k] = keeps_if_down_[k] = true;
     for (int i = 0; i < active(); ++i) {
-      const Real along = static_cast<Real>(set_[i].sense) * column_moves_[k][i];
+      const Real along = static_cast<Real>(set_[i].sense) * column_values_[k][i];
       keeps_if_up_[k] = keeps_if_up_[k] && along >= 0;
       keeps_if_down_[k] = keeps_if_down_[k] && along <= 0;
     }
@@ -192,7 +193,7 @@ class AffineMap {
 
   int row_of_jack(int index) const {
     for (int i = 0; i < active(); ++i)
-      if (move(i).kind == Move::Kind::payout && move(i).index == index) return i;
+      if (variable(i).kind == SlipVariable::Kind::extension && variable(i).index == index) return i;
     return 0;
   }
 
@@ -201,9 +202,9 @@ class AffineMap {
   FixedList<Input, max_inputs> inputs_;
   Inputs anchor_;
   Tensions base_;
-  Moves base_moves_;
+  Values base_values_;
   FixedArray<Tensions, max_inputs> column_;
-  FixedArray<Moves, max_inputs> column_moves_;
+  FixedArray<Values, max_inputs> column_values_;
   FixedArray<bool, max_inputs> keeps_if_up_;
   FixedArray<bool, max_inputs> keeps_if_down_;
   bool has_slack_ = false;

@@ -4,18 +4,18 @@
 #include <cstdint>
 
 #include "taut/scene/path.hpp"
-#include "taut/tracking/moves.hpp"
+#include "taut/tracking/slip_variables.hpp"
 
 namespace taut {
 
-/// What a decision may try and take back: modes of joints and of runs, the parts of cables between anchors,
+/// What a decision may try and take back: modes of joints and of spans, the parts of cables between anchors,
 /// jacks and self-locking joints, and all that has moved.
 template <class Real, class Cap>
 struct CableModes {
   FixedArray<JointState, Cap::joints> slides;  ///< stick, or the way: its friction is at this limit
   FixedList<std::int16_t, Cap::joints> order;  ///< joints that slide, as they began
-  FixedArray<bool, Cap::segments> slack;       ///< of runs: without tension, with length to spare
-  Moving<Real, Cap> moved;  ///< slips, extensions and slack lengths where the piece was begun
+  FixedArray<bool, Cap::segments> slack;       ///< of spans: without tension, with length to spare
+  SlipState<Real, Cap> moved;  ///< slips, extensions and slack lengths where the piece was begun
 
   friend bool operator==(const CableModes& a, const CableModes& b) {
     return a.slides == b.slides && a.order == b.order && a.slack == b.slack && a.moved == b.moved;
@@ -36,8 +36,8 @@ struct CableState : CableModes<typename CondensedType::Real, typename CondensedT
   Loads now;   ///< load factors, jack forces and locked extensions reached
   Loads goal;  ///< the end of the path that was asked for
 
-  FixedArray<bool, Cap::segments> rests;  ///< of runs: without tension since its jacks are at zero
-  FixedArray<std::int16_t, Cap::segments> representative;  ///< of runs: the segment with the largest tension
+  FixedArray<bool, Cap::segments> rests;  ///< of spans: without tension since its jacks are at zero
+  FixedArray<std::int16_t, Cap::segments> representative;  ///< of spans: the segment with the largest tension
 
   // The present affine piece.
   Loads built;                            ///< the loads there

@@ -5,7 +5,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "taut/scene/runs.hpp"
+#include "taut/scene/sliding_spans.hpp"
 #include "taut/status.hpp"
 #include "taut/tracking/affine_map.hpp"
 #include "taut/tracking/cable_state.hpp"
@@ -23,10 +23,10 @@ struct CableSystem {
   using Cap = typename CondensedType::Capacity;
   using Model = CondensedType;
   using Loads = Drive<Real, Cap>;
-  using Laws = JointLaws<CondensedType, (Parameters > 0)>;
+  using Laws = JointConstraints<CondensedType, (Parameters > 0)>;
   using Map = AffineMap<CondensedType, Laws>;
   using Derivatives = Sensitivity<CondensedType, Laws, Parameters>;
-  using Moving = taut::Moving<Real, Cap>;
+  using SlipState = taut::SlipState<Real, Cap>;
   using Tensions = typename Map::Tensions;
   using Inputs = typename Map::Inputs;
   using State = CableState<CondensedType, Map::max_inputs>;
@@ -44,7 +44,7 @@ struct CableSystem {
 
   State state;
   const CondensedType* model = nullptr;
-  Runs<Cap> runs;
+  SlidingSpans<Cap> spans;
   Laws laws;
   FixedList<JackedEnd, max_jacks<Cap>> jacks;
   FixedArray<std::int16_t, 2 * Cap::cables> number;  ///< of an end among the jacks, or -1
@@ -53,16 +53,16 @@ struct CableSystem {
   Map map;
   struct Nothing {};
   std::conditional_t<is_adjustable, Derivatives, Nothing> derivatives;
-  Tensions total;          ///< tensions from all moves, made by the last test of forces [N]
+  Tensions total;          ///< tensions from all slips, made by the last test of forces [N]
   Tensions force;          ///< where the last event, or the last call with events, ended [N]
   Real push = 0;           ///< largest change of force that the path would make with every joint stuck [N]
-  bool is_set_up = false;  ///< the moves of the map are those of the present modes
+  bool is_set_up = false;  ///< the slips of the map are those of the present modes
   bool has_redundant_jack = false;  ///< a cable of one segment has two jacks at work
 
   /// Begins without loads; the goal is the prestrain.
   void begin(const CondensedType& condensed) {
     model = &condensed;
-    runs.find(condensed.cables, [&condensed](int j) { return condensed.is_locked(j); });
+    spans.find(condensed.cables, [&condensed](int j) { return condensed.is_self_locking(j); });
     jacks.clear();
     number.fill(-1);
     for_each_jacked_end(condensed.cables, [&](int c, std::size_t end) {
@@ -71,8 +71,8 @@ struct CableSystem {
     laws.find(condensed);
     state = {};
     state.goal.prestrain = 1;
-    for (int r = 0; r < runs.size(); ++r)
-      state.representative[r] = static_cast<std::int16_t>(runs[r].segment(0));
+    for (int r = 0; r < spans.size(); ++r)
+      state.representative[r] = static_cast<std::int16_t>(spans[r].segment(0));
     force = {};
     find_redundant_jack();
     map.begin(condensed);
@@ -108,18 +108,19 @@ struct CableSystem {
   }
   int input_of(int jack) const { return state.has_map ? jacks[jack].input : -1; }
 
-  /// A run that ends in an unlocked jack cannot go slack: the jack draws it straight.
-  bool is_jacked(const Run& run) const {
+  /// A span that ends in an unlocked jack cannot go slack: the jack draws it straight.
+  bool is_jacked(const SlidingSpan& span) const {
     for (const JackedEnd& jack : jacks)
-      if (pulls(jack, run)) return true;
+      if (pulls(jack, span)) return true;
     return false;
   }
-  bool pulls(const JackedEnd& jack, const Run& run) const {
-    if (jack.cable != run.cable || state.goal.jack[jack.cable][jack.end].locked) return false;
+  bool pulls(const JackedEnd& jack, const SlidingSpan& span) const {
+    if (jack.cable != span.cable || state.goal.jack[jack.cable][jack.end].locked) return false;
     const int segment = model->cables[jack.cable].end_segment(jack.end);
-    return segment == run.segment(0) || segment == run.segment(run.count - 1);
+    return segment == span.segment(0) || segment == span.segment(span.count - 1);
   }
-  /// On a cable of one segment with two jacks at work the start's payout rests, and the end's does for both.
+  /// On a cable of one segment with two jacks at work the start's extension rests, and the end's does for
+  /// both.
   bool is_redundant(int c, std::size_t end) const {
     return end == 0 && model->cables[c].segments() == 1 && model->cables[c].ends[1] == End::jacked &&
            !state.goal.jack[c][0].locked && !state.goal.jack[c][1].locked;
@@ -134,11 +135,11 @@ struct CableSystem {
     const Real F0 = state.goal.jack[c][0].force, F1 = state.goal.jack[c][1].force;
     return std::fabs(F0 - F1) <= Real(64) * tolerance * larger(F0, F1);
   }
-  bool is_slack(int segment) const { return state.slack[runs.of(segment)]; }
-  /// Locked joints never do; in a run without tension they move as they must.
+  bool is_slack(int segment) const { return state.slack[spans.of(segment)]; }
+  /// Self-locking joints never do; in a span without tension they move as they must.
   bool can_slide(int joint) const {
-    const int run = runs.of(laws.sides(joint)[0]);
-    return !model->is_locked(joint) && !state.slack[run] && !state.rests[run];
+    const int span = spans.of(laws.sides(joint)[0]);
+    return !model->is_self_locking(joint) && !state.slack[span] && !state.rests[span];
   }
 
   /// Without friction it slides both ways, and its law always holds.
@@ -159,22 +160,22 @@ struct CableSystem {
     return Status::at(code, Place::none, -1);
   }
 
-  // Moves.
+  // Slips.
 
-  /// Slips, payouts and slack lengths at the end of the path followed.
-  Moving moves() const {
-    Moving moving = state.moved;
+  /// Slips, extensions and slack lengths at the end of the path followed.
+  SlipState slip_state() const {
+    SlipState moving = state.moved;
     if (!state.has_map) return moving;
     Inputs x;
     values(state.now, x);
-    for (int i = 0; i < map.active(); ++i) moving.of(map.move(i)) = map.active_move(i, x);
+    for (int i = 0; i < map.active(); ++i) moving.of(map.variable(i)) = map.value(i, x);
     for (const JackedEnd& jack : jacks)
       if (state.goal.jack[jack.cable][jack.end].locked)
-        moving.payout[jack.cable][jack.end] = state.now.jack[jack.cable][jack.end].payout;
+        moving.extension[jack.cable][jack.end] = state.now.jack[jack.cable][jack.end].extension;
     return moving;
   }
 
-  /// Takes the moves where they are, to make another map from.
+  /// Takes the slips where they are, to make another map from.
   void freeze() {
     if (!state.has_map) return;
     if constexpr (is_adjustable) {
@@ -182,7 +183,7 @@ struct CableSystem {
       values(state.now, x);
       derivatives.freeze(map, x, state.last);
     }
-    state.moved = moves();
+    state.moved = slip_state();
   }
   void stop(int joint) {
     if (state.slides[joint] == JointState::stick) return;
@@ -196,7 +197,7 @@ struct CableSystem {
     state.has_map = false;
     state.has_range = false;
   }
-  /// Other moves are at work from here on.
+  /// Other slip variables are at work from here on.
   void drop_set() {
     is_set_up = false;
     drop_map();
@@ -206,7 +207,7 @@ struct CableSystem {
     if (input.kind == Input::Kind::load) return loads.factor[input.index];
     if (input.kind == Input::Kind::prestrain) return loads.prestrain;
     const auto& jack = loads.jack[input.index / 2][static_cast<std::size_t>(input.index % 2)];
-    return input.kind == Input::Kind::jack_force ? jack.force : jack.payout;
+    return input.kind == Input::Kind::jack_force ? jack.force : jack.extension;
   }
   void values(const Loads& loads, Inputs& x) const {
     for (int k = 0; k < map.inputs(); ++k) x[k] = value(map.input(k), loads);
@@ -227,7 +228,7 @@ struct CableSystem {
 
   /// Tensions from the present loads and everything that has moved.
   Tensions totals() const { return totals(state.moved); }
-  Tensions totals(const Moving& moved) const {
+  Tensions totals(const SlipState& moved) const {
     Tensions T;
     T.fill(Real(0));
     for (int i = 0; i < model->segments; ++i) {
@@ -251,16 +252,16 @@ struct CableSystem {
     for (const JackedEnd& jack : jacks) {
       const auto& start = state.now.jack[jack.cable][jack.end];
       const auto& goal = state.goal.jack[jack.cable][jack.end];
-      if (goal.locked) e[model->cables[jack.cable].end_segment(jack.end)] += goal.payout - start.payout;
+      if (goal.locked) e[model->cables[jack.cable].end_segment(jack.end)] += goal.extension - start.extension;
     }
     model->coupling.add(model->segments, e, rates);
   }
-  /// Adds the tensions that moves make.
+  /// Adds the tensions that slips make.
   template <class Moved>
   void carry(const Moved& moved, Tensions& T) const {
     model->coupling.add(model->segments, elongations_by(moved), T);
   }
-  /// Elongations that moves, or derivatives of moves, impose on the segments [m].
+  /// Elongations that slips, or derivatives of slips, impose on the segments [m].
   template <class Moved>
   Tensions elongations_by(const Moved& moved) const {
     Tensions e;
@@ -273,9 +274,9 @@ struct CableSystem {
     for (int j = 0; j < joints(); ++j) laws.slip(j).impose(static_cast<Real>(moved.slip[j]), e);
     for (const JackedEnd& jack : jacks)
       e[model->cables[jack.cable].end_segment(jack.end)] +=
-          static_cast<Real>(moved.payout[jack.cable][jack.end]);
-    for (int r = 0; r < runs.size(); ++r)
-      if (state.slack[r]) e[runs[r].segment(0)] += static_cast<Real>(moved.slack_length[r]);
+          static_cast<Real>(moved.extension[jack.cable][jack.end]);
+    for (int r = 0; r < spans.size(); ++r)
+      if (state.slack[r]) e[spans[r].segment(0)] += static_cast<Real>(moved.slack_length[r]);
   }
 
   // What is rounding.
@@ -298,7 +299,7 @@ struct CableSystem {
       const auto& goal = state.goal.jack[jack.cable][jack.end];
       const int segment = model->cables[jack.cable].end_segment(jack.end);
       measure(goal.force, goal.force - start.force);
-      const Real drawn = model->coupling(segment, segment) * (goal.payout - start.payout);
+      const Real drawn = model->coupling(segment, segment) * (goal.extension - start.extension);
       measure(drawn, drawn);
     }
   }

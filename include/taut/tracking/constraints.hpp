@@ -1,12 +1,12 @@
-// From modes to constraints: which tension every active move keeps, and the affine map of the piece.
+// From modes to constraints: which tension every active variable keeps, and the affine map of the piece.
 #pragma once
 
 #include "taut/tracking/cable_system.hpp"
 
 namespace taut {
 
-/// Puts the active moves of the present modes at work, Eq. (9): a joint that slides keeps T_small = rho
-/// T_big, an unlocked jack its force, a slack run no tension. Then makes the affine map of the piece from
+/// Puts the active variables of the present modes at work, Eq. (9): a joint that slides keeps T_small = rho
+/// T_big, an unlocked jack its force, a slack span no tension. Then makes the affine map of the piece from
 /// totals, Eqs. (12) and (14).
 template <class Cables>
 class Constraints {
@@ -23,18 +23,18 @@ class Constraints {
   explicit Constraints(Cables& cables)
       : cables_(cables),
         model_(*cables.model),
-        runs_(cables.runs),
+        spans_(cables.spans),
         laws_(cables.laws),
         state_(cables.state),
         map_(cables.map) {}
 
-  /// Puts the moves of the present states at work, in their order. Where laws imply one another, a node is
+  /// Puts the slips of the present states at work, in their order. Where laws imply one another, a node is
   /// held by its cables alone; weak springs then choose among its places, and forces do not depend on them.
   bool set_up() {
     cables_.is_set_up = add_all(Real(0)) || add_all(held_at_zero);
     return cables_.is_set_up;
   }
-  /// Puts the active moves at work only if every pivot keeps digits: a guess is not worth less.
+  /// Puts the active variables at work only if every pivot keeps digits: a guess is not worth less.
   bool set_up_soundly() {
     cables_.is_set_up = add_all(Real(0), sound_pivot);
     return cables_.is_set_up;
@@ -56,7 +56,7 @@ class Constraints {
     map_.tension_rates(dx, rate);
     return !(map_.law_violation(laws_, rate, dx) > Real(1e-9) * larger(cables_.push, state_.peak));
   }
-  /// Makes the map of the moves at work from totals; they must be frozen at the present state. `has_total`:
+  /// Makes the map of the slips at work from totals; they must be frozen at the present state. `has_total`:
   /// the totals were made there by the last test of forces.
   void rebuild(bool has_total = false) {
     for (int i = 0; i < model_.loads; ++i) state_.has_load[i] = state_.now.factor[i] != state_.goal.factor[i];
@@ -68,12 +68,12 @@ class Constraints {
     for (int i = 0; i < model_.loads; ++i)
       if (state_.has_load[i]) map_.add_input(Input::Kind::load, i);
     if (state_.now.prestrain != state_.goal.prestrain) map_.add_input(Input::Kind::prestrain, 0);
-    typename Map::Moves moves;
-    for (int i = 0; i < map_.active(); ++i) moves[i] = state_.moved.of(map_.move(i));
+    typename Map::Values values;
+    for (int i = 0; i < map_.active(); ++i) values[i] = state_.moved.of(map_.variable(i));
     Inputs x;
     cables_.values(state_.now, x);
     if (!has_total) cables_.total = cables_.totals();
-    map_.make(laws_, cables_.total, moves, x, [&](const auto& settle) { differentiate(settle); });
+    map_.make(laws_, cables_.total, values, x, [&](const auto& settle) { differentiate(settle); });
     state_.has_map = true;
     state_.built = state_.now;
   }
@@ -81,7 +81,7 @@ class Constraints {
  private:
   /// Of a segment's own stiffness, in decisions from zero tension.
   static constexpr Real held_at_zero = Real(1e-8);
-  /// Pivots of the moves at work, of the largest entry in row and column: none is left; so many digits are
+  /// Pivots of the slips at work, of the largest entry in row and column: none is left; so many digits are
   /// kept.
   static constexpr Real least_pivot = Real(1e-12), sound_pivot = Real(1e-4);
 
@@ -94,8 +94,8 @@ class Constraints {
   bool add_equalities() {
     for (const JackedEnd& jack : cables_.jacks)
       if (!add_jack(jack.cable, jack.end)) return false;
-    for (int r = 0; r < runs_.size(); ++r)
-      if (state_.slack[r] ? !add_slack_run(r) : state_.rests[r] && !add_resting_run(r)) return false;
+    for (int r = 0; r < spans_.size(); ++r)
+      if (state_.slack[r] ? !add_slack_span(r) : state_.rests[r] && !add_resting_span(r)) return false;
     // Where another law says the same already, there is nothing to add.
     for (int j = 0; j < cables_.joints(); ++j)
       if (cables_.glides(j) && cables_.can_slide(j))
@@ -118,46 +118,49 @@ class Constraints {
   bool add_jack(int c, std::size_t end) {
     if (state_.goal.jack[c][end].locked || cables_.is_redundant(c, end)) return true;
     const auto on = static_cast<std::int16_t>(model_.cables[c].end_segment(end));
-    return map_.set().append(laws_, {Map::payout_move(model_, 2 * c + static_cast<int>(end)), on, 0, -1});
+    return map_.set().append(laws_,
+                             {Map::extension_variable(model_, 2 * c + static_cast<int>(end)), on, 0, -1});
   }
   void add_jack_input(int c, std::size_t end) {
     const int index = 2 * c + static_cast<int>(end);
     const auto& start = state_.now.jack[c][end];
     const auto& goal = state_.goal.jack[c][end];
     if (!goal.locked && !cables_.is_redundant(c, end)) map_.add_input(Input::Kind::jack_force, index);
-    if (goal.locked && start.payout != goal.payout) map_.add_input(Input::Kind::payout, index);
+    if (goal.locked && start.extension != goal.extension) map_.add_input(Input::Kind::extension, index);
   }
   /// Its tensions are zero; its slips and its slack length follow. A ring keeps the slip of one joint: it
   /// may turn freely.
-  bool add_slack_run(int r) {
-    const Run& run = runs_[r];
-    for (int i = 0; i < run.count; ++i) {
-      const bool last = i == run.count - 1;
-      const Move move =
-          last ? Move::of(Move::Kind::slack_length, r, run.segment(0)) : laws_.slip(run.joint(i));
-      if (!map_.set().append(laws_, {move, static_cast<std::int16_t>(run.segment(i)), 0, -1})) return false;
+  bool add_slack_span(int r) {
+    const SlidingSpan& span = spans_[r];
+    for (int i = 0; i < span.count; ++i) {
+      const bool last = i == span.count - 1;
+      const SlipVariable variable =
+          last ? SlipVariable::of(SlipVariable::Kind::slack_length, r, span.segment(0))
+               : laws_.slip(span.joint(i));
+      if (!map_.set().append(laws_, {variable, static_cast<std::int16_t>(span.segment(i)), 0, -1}))
+        return false;
     }
     return true;
   }
   /// Its jacks keep the end segments at zero, its slips all others. Between two jacks the cable may move as a
   /// whole; one joint keeps its place.
-  bool add_resting_run(int r) {
-    const Run& run = runs_[r];
+  bool add_resting_span(int r) {
+    const SlidingSpan& span = spans_[r];
     bool at_start = false, at_end = false;
     for (const JackedEnd& jack : cables_.jacks) {
-      at_start = at_start || (cables_.pulls(jack, run) && jack.end == 0);
-      at_end = at_end || (cables_.pulls(jack, run) && jack.end == 1);
+      at_start = at_start || (cables_.pulls(jack, span) && jack.end == 0);
+      at_end = at_end || (cables_.pulls(jack, span) && jack.end == 1);
     }
-    for (int i = at_start && at_end ? 1 : 0; i < run.joints(); ++i)
-      if (!map_.set().append(laws_, {laws_.slip(run.joint(i)),
-                                     static_cast<std::int16_t>(run.segment(at_end ? i : i + 1)), 0, -1}))
+    for (int i = at_start && at_end ? 1 : 0; i < span.joints(); ++i)
+      if (!map_.set().append(laws_, {laws_.slip(span.joint(i)),
+                                     static_cast<std::int16_t>(span.segment(at_end ? i : i + 1)), 0, -1}))
         return false;
     return true;
   }
 
   Cables& cables_;
   const typename Cables::Model& model_;
-  const Runs<Cap>& runs_;
+  const SlidingSpans<Cap>& spans_;
   const Laws& laws_;
   State& state_;
   Map& map_;

@@ -5,15 +5,15 @@
 
 namespace taut {
 
-/// What ends a piece of the path: a joint at its limit, a run that goes slack, or one that is taut again.
+/// What ends a piece of the path: a joint at its limit, a span that goes slack, or one that is taut again.
 template <class Real>
 struct Ending {
   SlipMode next;
-  std::int16_t run = -1, slack = -1;  ///< the run; the active move of its slack length
-  Real falling = 0;                   ///< rate of what reached zero
-  Real step = 1;                      ///< where, as a part of what was left of the path
-  bool has_total = false;             ///< the forces there were tested: their totals are known
-  bool ends_level = false;            ///< second-order theory: the level has changed by a step
+  std::int16_t span = -1, slack = -1;  ///< the span; the active variable of its slack length
+  Real falling = 0;                    ///< rate of what reached zero
+  Real step = 1;                       ///< where, as a part of what was left of the path
+  bool has_total = false;              ///< the forces there were tested: their totals are known
+  bool ends_level = false;             ///< second-order theory: the level has changed by a step
 };
 
 /// Looks along the present piece, Eq. (15); changes nothing but derivatives.
@@ -33,7 +33,7 @@ class EventSearch {
   explicit EventSearch(Cables& cables)
       : cables_(cables),
         model_(*cables.model),
-        runs_(cables.runs),
+        spans_(cables.spans),
         laws_(cables.laws),
         state_(cables.state),
         map_(cables.map) {}
@@ -44,7 +44,7 @@ class EventSearch {
     map_.tension_rates(dx, rate);
     Real step = 1;
     ending = {};
-    const auto shorten = [&](Real room, Real falling, const SlipMode& next, int run, int slack) {
+    const auto shorten = [&](Real room, Real falling, const SlipMode& next, int span, int slack) {
       // At the limit, and held there by decide(), or beyond it at the end of the path by no more than equal
       // forces differ: what is left is rounding.
       const bool is_held =
@@ -53,31 +53,31 @@ class EventSearch {
       if (room <= cables_.force_tolerance() && is_held) return;
       if (falling >= 0 || room > -falling * step) return;
       step = room > 0 ? room / -falling : Real(0);
-      ending = {next, static_cast<std::int16_t>(run), static_cast<std::int16_t>(slack), falling, step};
+      ending = {next, static_cast<std::int16_t>(span), static_cast<std::int16_t>(slack), falling, step};
     };
     for (int j = 0; j < cables_.joints(); ++j) {
       if (state_.slides[j] != JointState::stick || !cables_.can_slide(j) || cables_.glides(j)) continue;
       for (const JointState way : {JointState::forward, JointState::backward}) {
         const SlipMode mode = SlipMode::of(j, way);
-        const Law<Real> limit = laws_.limit(mode);
+        const TensionConstraint<Real> limit = laws_.limit(mode);
         shorten(limit.of(cables_.force), limit.of(rate), mode, -1, -1);
       }
     }
-    for (int r = 0; r < runs_.size(); ++r) {
+    for (int r = 0; r < spans_.size(); ++r) {
       const int segment = state_.representative[r];
       if (!state_.slack[r]) shorten(cables_.force[segment], rate[segment], {}, r, -1);
     }
     Inputs x;
     cables_.values(state_.now, x);
     for (int i = 0; i < map_.active(); ++i)
-      if (map_.move(i).kind == Move::Kind::slack_length)
-        shorten(map_.stiffness(i) * map_.active_move(i, x), map_.stiffness(i) * map_.move_rate(i, dx), {},
-                map_.move(i).index, i);
+      if (map_.variable(i).kind == SlipVariable::Kind::slack_length)
+        shorten(map_.stiffness(i) * map_.value(i, x), map_.stiffness(i) * map_.value_rate(i, dx), {},
+                map_.variable(i).index, i);
     if constexpr (Cables::Model::has_level) shorten_to_level(rate, step, ending);
     return step;
   }
 
-  /// Largest change of a tension, or of what a slack run's slack length stands for, along the whole path
+  /// Largest change of a tension, or of what a slack span's slack length stands for, along the whole path
   /// [N].
   Real change(const Inputs& dx) const {
     Tensions rate;
@@ -85,8 +85,8 @@ class EventSearch {
     Real most = 0;
     for (int i = 0; i < model_.segments; ++i) most = larger(most, std::fabs(rate[i]));
     for (int i = 0; i < map_.active(); ++i)
-      if (map_.move(i).kind == Move::Kind::slack_length)
-        most = larger(most, std::fabs(map_.stiffness(i) * map_.move_rate(i, dx)));
+      if (map_.variable(i).kind == SlipVariable::Kind::slack_length)
+        most = larger(most, std::fabs(map_.stiffness(i) * map_.value_rate(i, dx)));
     return most;
   }
   /// How much later the piece would end if friction were other.
@@ -94,14 +94,15 @@ class EventSearch {
     if (!(-ending.falling > cables_.rate_tolerance())) return;
     if (ending.slack >= 0)
       cables_.derivatives.find_saltation_of_move(map_, x, ending.slack, ending.falling);
-    else if (ending.run >= 0)
-      cables_.derivatives.find_saltation(
-          map_, x, cables_.force, Law<Real>::on(state_.representative[ending.run]), -1, ending.falling);
+    else if (ending.span >= 0)
+      cables_.derivatives.find_saltation(map_, x, cables_.force,
+                                         TensionConstraint<Real>::on(state_.representative[ending.span]), -1,
+                                         ending.falling);
     else if (ending.next.joint >= 0)
       cables_.derivatives.find_saltation(map_, x, cables_.force, laws_.limit(ending.next), ending.next.joint,
                                          ending.falling);
   }
-  /// Whether the forces obey the laws of all moves at work, friction where joints stick, and T >= 0: no state
+  /// Whether the forces obey the laws of all slips at work, friction where joints stick, and T >= 0: no state
   /// is shown that was not tested.
   Status check_forces() const {
     Real most = state_.peak;
@@ -116,7 +117,7 @@ class EventSearch {
     for (int i = 0; i < model_.segments; ++i)
       if (!(cables_.force[i] >= least)) return broken;
     for (int j = 0; j < cables_.joints(); ++j) {
-      if (model_.is_locked(j)) continue;
+      if (model_.is_self_locking(j)) continue;
       for (const JointState way : {JointState::forward, JointState::backward})
         if (!(laws_.limit(SlipMode::of(j, way)).of(cables_.force) >= least)) return broken;
     }
@@ -146,9 +147,9 @@ class EventSearch {
   }
   /// `mechanism`, at a joint of a span that should hold its node and has no tension.
   Status free_node() const {
-    for (int r = 0; r < runs_.size(); ++r)
-      if ((state_.slack[r] || state_.rests[r]) && runs_[r].joint_near() >= 0)
-        return cables_.at_joint(Code::mechanism, runs_[r].joint_near());
+    for (int r = 0; r < spans_.size(); ++r)
+      if ((state_.slack[r] || state_.rests[r]) && spans_[r].joint_near() >= 0)
+        return cables_.at_joint(Code::mechanism, spans_[r].joint_near());
     return cables_.at_joint(Code::mechanism, 0);
   }
 
@@ -174,10 +175,10 @@ class EventSearch {
   /// Of the largest force: what may be lost where a cable moves much further than it stretches.
   static constexpr Real rounded_totals = Real(1e-10);
 
-  /// Whether the tensions are those of all moves, which stay known: where slack cables alone hold a node, it
-  /// goes so far away that rounding of the moves shows.
+  /// Whether the tensions are those of all slips, which stay known: where slack cables alone hold a node, it
+  /// goes so far away that rounding of the slips shows.
   bool is_in_equilibrium(Real tolerated) const {
-    cables_.total = cables_.totals(cables_.moves());
+    cables_.total = cables_.totals(cables_.slip_state());
     for (int i = 0; i < model_.segments; ++i)
       if (!(std::fabs(cables_.total[i] - cables_.force[i]) <= tolerated)) return false;
     return true;
@@ -185,7 +186,7 @@ class EventSearch {
 
   Cables& cables_;
   const typename Cables::Model& model_;
-  const Runs<Cap>& runs_;
+  const SlidingSpans<Cap>& spans_;
   const Laws& laws_;
   State& state_;
   Map& map_;

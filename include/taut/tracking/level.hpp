@@ -63,13 +63,13 @@ class Level<SecondOrder<Scalar, Cap>> {
   template <class Loads>
   void come_to(Real sum, const Loads& drive, const typename Model::Tensions& e) {
     before_ = model_.anchor;
-    const auto before = model_.grip;
+    const auto before = model_.kappa_ratio;
     model_.come_to(sum, drive, e);
     grow_from(before);
   }
   /// To the step before the last come_to().
   void go_back() {
-    const auto before = model_.grip;
+    const auto before = model_.kappa_ratio;
     model_.anchor = before_;
     model_.make();
     grow_from(before);
@@ -79,9 +79,9 @@ class Level<SecondOrder<Scalar, Cap>> {
   /// Friction of the scene's geometry in the displaced one.
   JointFriction<Real> leant(int joint, JointFriction<Real> given) const {
     const Real kappa = kappa_of(given.rho);
-    given.rho = Model::scaled(given.rho, model_.grip[joint]);
+    given.rho = Model::scaled(given.rho, model_.kappa_ratio[joint]);
     const Real ratio = (1 + kappa) / (1 + kappa_of(given.rho));
-    given.slope *= model_.grip[joint] * ratio * ratio;
+    given.slope *= model_.kappa_ratio[joint] * ratio * ratio;
     return given;
   }
   void save(Reached& reached) const { reached.anchor = model_.anchor; }
@@ -100,7 +100,8 @@ class Level<SecondOrder<Scalar, Cap>> {
 
  private:
   void grow_from(const typename Model::Kappas& before) {
-    for (int j = 0; j < model_.joints; ++j) growth_[j] = before[j] > 0 ? model_.grip[j] / before[j] : Real(1);
+    for (int j = 0; j < model_.joints; ++j)
+      growth_[j] = before[j] > 0 ? model_.kappa_ratio[j] / before[j] : Real(1);
   }
 
   const Source* source_ = nullptr;

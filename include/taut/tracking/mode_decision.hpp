@@ -8,12 +8,12 @@
 
 namespace taut {
 
-/// Decides the modes of all joints and runs for the next piece of the path, and makes its map.
+/// Decides the modes of all joints and spans for the next piece of the path, and makes its map.
 ///
-/// An ordinary event goes on from the modes of the piece before: one pivot of ModeSolver. Runs at zero
-/// tension are tried pulled straight toward their jacks, then decided from nothing, Eqs. (10) and (11), with
-/// one covering vector after the other. Where rates contradict, all forces are found a little further on,
-/// from the modes of the piece before or from nothing, and taken if they are near. Where nothing is, the
+/// An ordinary event goes on from the modes of the piece before: one pivot of ModeSolver. SlidingSpans at
+/// zero tension are tried pulled straight toward their jacks, then decided from nothing, Eqs. (10) and (11),
+/// with one covering vector after the other. Where rates contradict, all forces are found a little further
+/// on, from the modes of the piece before or from nothing, and taken if they are near. Where nothing is, the
 /// reason is returned.
 template <class Cables>
 class ModeDecision {
@@ -34,7 +34,7 @@ class ModeDecision {
   explicit ModeDecision(Cables& cables)
       : cables_(cables),
         model_(*cables.model),
-        runs_(cables.runs),
+        spans_(cables.spans),
         laws_(cables.laws),
         state_(cables.state),
         map_(cables.map),
@@ -86,7 +86,7 @@ class ModeDecision {
     const Status pulled = events_.pulled_through();
     return pulled ? why : pulled;
   }
-  /// After the model has changed under the same loads, with all moves frozen: finds all forces anew, near
+  /// After the model has changed under the same loads, with all slips frozen: finds all forces anew, near
   /// those of before.
   Status find_again() {
     free_joint_ = doubtful_joint_ = -1;
@@ -124,45 +124,45 @@ class ModeDecision {
   /// The segment with the largest tension stands for its span: behind many joints near to self-locking the
   /// others are rounding.
   void find_representatives() {
-    for (int r = 0; r < runs_.size(); ++r) {
-      int most = runs_[r].segment(0);
-      for (int i = 1; i < runs_[r].count; ++i)
-        if (cables_.force[runs_[r].segment(i)] > cables_.force[most]) most = runs_[r].segment(i);
+    for (int r = 0; r < spans_.size(); ++r) {
+      int most = spans_[r].segment(0);
+      for (int i = 1; i < spans_[r].count; ++i)
+        if (cables_.force[spans_[r].segment(i)] > cables_.force[most]) most = spans_[r].segment(i);
       state_.representative[r] = static_cast<std::int16_t>(most);
     }
   }
   /// A jack at zero that stays there leaves its span slack: no segment has tension, the cable moves over
   /// every joint as the structure does, and what is too long is the jack's.
   void find_resting() {
-    for (int r = 0; r < runs_.size(); ++r) {
-      bool rests =
-          cables_.is_jacked(runs_[r]) && cables_.force[state_.representative[r]] <= cables_.force_tolerance();
+    for (int r = 0; r < spans_.size(); ++r) {
+      bool rests = cables_.is_jacked(spans_[r]) &&
+                   cables_.force[state_.representative[r]] <= cables_.force_tolerance();
       for (const JackedEnd& jack : cables_.jacks)
-        if (cables_.pulls(jack, runs_[r]))
+        if (cables_.pulls(jack, spans_[r]))
           rests = rests && state_.now.jack[jack.cable][jack.end].force <= cables_.force_tolerance() &&
                   state_.goal.jack[jack.cable][jack.end].force <= cables_.force_tolerance();
       if (rests == state_.rests[r]) continue;
       cables_.freeze();
       state_.rests[r] = rests;
       cables_.drop_set();
-      for (int i = 0; rests && i < runs_[r].joints(); ++i) cables_.stop(runs_[r].joint(i));
-      if (!rests) forget_rest(runs_[r]);
+      for (int i = 0; rests && i < spans_[r].joints(); ++i) cables_.stop(spans_[r].joint(i));
+      if (!rests) forget_rest(spans_[r]);
     }
   }
   /// While a span rests its joints follow a jack's error as they need not when it pulls; a strut that only
   /// its cable holds goes far then.
-  void forget_rest(const Run& run) {
+  void forget_rest(const SlidingSpan& span) {
     if constexpr (Cables::is_adjustable && Cables::Model::has_level)
       cables_.derivatives.for_each([&](auto& moved, int) {
-        for (int i = 0; i < run.joints(); ++i) moved.slip[run.joint(i)] = 0;
+        for (int i = 0; i < span.joints(); ++i) moved.slip[span.joint(i)] = 0;
       });
     else
-      static_cast<void>(run);
+      static_cast<void>(span);
   }
   /// Spans that are wholly at zero, where what follows is decided from nothing.
   bool find_zero(const Ending& ending, Spans& zero) const {
     bool any = false;
-    for (int r = 0; r < runs_.size(); ++r) {
+    for (int r = 0; r < spans_.size(); ++r) {
       zero[r] = !state_.rests[r] && is_at_zero(r, ending);
       any = any || zero[r];
     }
@@ -170,8 +170,8 @@ class ModeDecision {
   }
   bool is_at_zero(int r, const Ending& ending) const {
     if (!state_.slack[r]) return cables_.force[state_.representative[r]] <= cables_.force_tolerance();
-    const bool closes = ending.slack >= 0 && ending.run == r;
-    return closes || slack_length(r) * model_.coupling(runs_[r].segment(0), runs_[r].segment(0)) <=
+    const bool closes = ending.slack >= 0 && ending.span == r;
+    return closes || slack_length(r) * model_.coupling(spans_[r].segment(0), spans_[r].segment(0)) <=
                          cables_.force_tolerance();
   }
   Real slack_length(int r) const {
@@ -179,8 +179,8 @@ class ModeDecision {
     Inputs x;
     cables_.values(state_.now, x);
     for (int i = 0; i < map_.active(); ++i)
-      if (map_.move(i).kind == Move::Kind::slack_length && map_.move(i).index == r)
-        return map_.active_move(i, x);
+      if (map_.variable(i).kind == SlipVariable::Kind::slack_length && map_.variable(i).index == r)
+        return map_.value(i, x);
     return 0;
   }
   /// Whether the rates under the present map agree with its states: v >= 0 where it slides, w >= 0 at the
@@ -201,13 +201,13 @@ class ModeDecision {
   SlipModes at_limit(const SlipMode& next, const Spans& zero) const {
     SlipModes modes;
     for (int j = 0; j < cables_.joints(); ++j) {
-      if (model_.is_locked(j) || cables_.glides(j)) continue;
+      if (model_.is_self_locking(j) || cables_.glides(j)) continue;
       const auto& sides = laws_.sides(j);
-      const int run = runs_.of(sides[0]);
-      if (!zero[run] && !cables_.can_slide(j)) continue;
+      const int span = spans_.of(sides[0]);
+      if (!zero[span] && !cables_.can_slide(j)) continue;
       const SlipMode ahead = SlipMode::of(j, JointState::forward),
                      back = SlipMode::of(j, JointState::backward);
-      if (zero[run]) {
+      if (zero[span]) {
         modes.add(ahead);
         modes.add(back);
         continue;
@@ -249,12 +249,12 @@ class ModeDecision {
     const Real now = state_.now.jack[jack.cable][jack.end].force;
     return totally ? now : state_.goal.jack[jack.cable][jack.end].force - now;
   }
-  void dues(bool totally, typename Map::Moves& due) const {
+  void dues(bool totally, typename Map::Values& due) const {
     due.fill(Real(0));
     for (int i = 0; i < map_.active(); ++i) {
-      const Move& move = map_.move(i);
-      if (move.kind == Move::Kind::payout)
-        due[i] = due_at(cables_.jacks[cables_.number[move.index]], totally);
+      const SlipVariable& variable = map_.variable(i);
+      if (variable.kind == SlipVariable::Kind::extension)
+        due[i] = due_at(cables_.jacks[cables_.number[variable.index]], totally);
     }
   }
   /// What slides, begun from what slid: an ordinary event is one pivot. From rates, or from all forces.
@@ -263,7 +263,7 @@ class ModeDecision {
   [[gnu::noinline]] bool go_on(const SlipModes& modes, bool totally, const Spans* tightening = nullptr,
                                bool is_mapped = false) {
     Tensions stuck;
-    typename Map::Moves due;
+    typename Map::Values due;
     typename Solver::Response mapped;
     find_stuck(totally, stuck);
     dues(totally, due);
@@ -271,7 +271,7 @@ class ModeDecision {
       Inputs dx;
       cables_.directions(dx);
       map_.tension_rates(dx, mapped.T);
-      for (int i = 0; i < map_.active(); ++i) mapped.moves[i] = map_.move_rate(i, dx);
+      for (int i = 0; i < map_.active(); ++i) mapped.values[i] = map_.value_rate(i, dx);
     }
     Solver solver;
     solver.begin(model_, laws_, map_.set());
@@ -283,7 +283,7 @@ class ModeDecision {
       return false;
     }
     for (int i = 0; tightening != nullptr && i < model_.segments; ++i)
-      if ((*tightening)[runs_.of(i)] && !(solver.rates()[i] > Real(16) * cables_.rate_tolerance()))
+      if ((*tightening)[spans_.of(i)] && !(solver.rates()[i] > Real(16) * cables_.rate_tolerance()))
         return false;
     read_slides();
     return true;
@@ -300,16 +300,16 @@ class ModeDecision {
     state_.slides.fill(JointState::stick);
     state_.order.clear();
     for (int i = 0; i < map_.active(); ++i) {
-      const Active& active = map_.actives()[i];
+      const ActiveConstraint& active = map_.actives()[i];
       if (!active.slides() || active.sense == 0) continue;
-      state_.slides[active.move.index] = active.sense > 0 ? JointState::forward : JointState::backward;
-      state_.order.add(active.move.index);
+      state_.slides[active.variable.index] = active.sense > 0 ? JointState::forward : JointState::backward;
+      state_.order.add(active.variable.index);
     }
   }
 
   // From nothing.
 
-  /// What slides and what is slack, begun from nothing. The moves must be frozen.
+  /// What slides and what is slack, begun from nothing. The slips must be frozen.
   Status begin_anew(const Spans& zero, const SlipModes& modes) {
     // A strut that only friction holds sideways has two answers; the one from which it does not run away
     // sticks.
@@ -331,15 +331,15 @@ class ModeDecision {
   /// tension.
   [[gnu::noinline]] bool pull_straight(const Spans& zero, const SlipModes& modes, bool slides) {
     const Modes before = state_;
-    for (int r = 0; r < runs_.size(); ++r) {
+    for (int r = 0; r < spans_.size(); ++r) {
       if (!zero[r]) continue;
       state_.slack[r] = false;
       state_.moved.slack_length[r] = 0;
       // From the jacks outward: the joints that leave first are the last of the set, and little is made anew.
       for (const std::size_t end : {std::size_t(0), std::size_t(1)})
-        for (int k = 0; slides && k < runs_[r].count; ++k) {
-          const int i = end == 0 ? k : runs_[r].count - 1 - k;
-          const Pull pull = pull_on(runs_[r], i, false);
+        for (int k = 0; slides && k < spans_[r].count; ++k) {
+          const int i = end == 0 ? k : spans_[r].count - 1 - k;
+          const Pull pull = pull_on(spans_[r], i, false);
           if (pull.jack != nullptr && pull.jack->end == end) slide_toward(pull, r, i);
         }
     }
@@ -354,7 +354,7 @@ class ModeDecision {
     return false;
   }
   void slide_toward(const Pull& pull, int r, int segment) {
-    for_each_joint_toward(*pull.jack, runs_[r], segment, [&](int joint, JointState way) {
+    for_each_joint_toward(*pull.jack, spans_[r], segment, [&](int joint, JointState way) {
       if (cables_.glides(joint) || state_.slides[joint] == way) return;
       if (state_.slides[joint] == JointState::stick) state_.order.add(static_cast<std::int16_t>(joint));
       state_.slides[joint] = way;
@@ -364,17 +364,17 @@ class ModeDecision {
   [[gnu::noinline]] bool solve_anew(const Spans& zero, const SlipModes& modes, bool totally,
                                     int covering = 0) {
     const auto was_slack = state_.slack;
-    for (int r = 0; r < runs_.size(); ++r)
+    for (int r = 0; r < spans_.size(); ++r)
       if (zero[r]) state_.slack[r] = false;
     bool solved = constraints_.set_up_equalities();
     if (solved) {
       Tensions stuck;
-      typename Map::Moves due;
+      typename Map::Values due;
       find_stuck(totally, stuck);
       dues(totally, due);
       Solver solver;
       solver.begin(model_, laws_, map_.set(), covering);
-      for (int r = 0; r < runs_.size(); ++r)
+      for (int r = 0; r < spans_.size(); ++r)
         if (zero[r]) add_span(r, totally, solver);
       for (const SlipMode& each : modes) solver.add_slip(each);
       solved = solver.solve(stuck, due, nothing(totally), false) == Solver::Outcome::solved;
@@ -397,23 +397,23 @@ class ModeDecision {
   /// Segments of a span at zero, but for those that a jack gives their tension; joints without friction make
   /// one of two.
   void add_span(int r, bool totally, Solver& solver) const {
-    const Run& run = runs_[r];
-    for (int i = 0; i < run.count; ++i) {
-      if (i > 0 && cables_.glides(run.joint(i - 1))) continue;
-      const Pull pull = pull_on(run, i, totally);
+    const SlidingSpan& span = spans_[r];
+    for (int i = 0; i < span.count; ++i) {
+      if (i > 0 && cables_.glides(span.joint(i - 1))) continue;
+      const Pull pull = pull_on(span, i, totally);
       // Where statics give its force, no length does.
-      if (!(model_.coupling(run.segment(i), run.segment(i)) > 0)) continue;
-      if (!pull.is_direct) solver.add_segment(run.segment(i), larger(Real(0), pull.least));
+      if (!(model_.coupling(span.segment(i), span.segment(i)) > 0)) continue;
+      if (!pull.is_direct) solver.add_segment(span.segment(i), larger(Real(0), pull.least));
     }
   }
   /// The jack that gives a segment of a span at zero the larger tension, by what friction leaves of its force
   /// on the way; `on_the_way(joint, way)` is called for every joint there.
-  Pull pull_on(const Run& run, int i, bool totally) const {
+  Pull pull_on(const SlidingSpan& span, int i, bool totally) const {
     Pull strongest;
     for (const JackedEnd& jack : cables_.jacks) {
-      if (!cables_.pulls(jack, run)) continue;
+      if (!cables_.pulls(jack, span)) continue;
       Pull pull{&jack, due_at(jack, totally), true};
-      for_each_joint_toward(jack, run, i, [&](int joint, JointState) {
+      for_each_joint_toward(jack, span, i, [&](int joint, JointState) {
         pull.least *= laws_.rho(joint);
         pull.is_direct = pull.is_direct && cables_.glides(joint);
       });
@@ -423,16 +423,16 @@ class ModeDecision {
     return strongest;
   }
   template <class Visit>
-  void for_each_joint_toward(const JackedEnd& jack, const Run& run, int i, Visit visit) const {
+  void for_each_joint_toward(const JackedEnd& jack, const SlidingSpan& span, int i, Visit visit) const {
     if (jack.end == 0)
-      for (int k = i; k > 0; --k) visit(run.joint(k - 1), JointState::backward);
+      for (int k = i; k > 0; --k) visit(span.joint(k - 1), JointState::backward);
     else
-      for (int k = i; k < run.count - 1; ++k) visit(run.joint(k), JointState::forward);
+      for (int k = i; k < span.count - 1; ++k) visit(span.joint(k), JointState::forward);
   }
   /// Takes over what was decided. What a segment of a jacked span has too much goes out through the jack,
   /// over all joints on the way.
   void adopt(const Solver& solver, const Spans& zero, bool totally) {
-    for (int r = 0; r < runs_.size(); ++r)
+    for (int r = 0; r < spans_.size(); ++r)
       if (zero[r]) state_.moved.slack_length[r] = 0;
     read_slides();
     FixedArray<Real, Cap::joints> flow;
@@ -444,15 +444,15 @@ class ModeDecision {
         flow[pair.index] += pair.way == JointState::forward ? solver.value(p) : -solver.value(p);
         continue;
       }
-      const int r = runs_.of(pair.index);
+      const int r = spans_.of(pair.index);
       int i = 0;
-      while (runs_[r].segment(i) != pair.index) ++i;
-      const Pull pull = pull_on(runs_[r], i, totally);
+      while (spans_[r].segment(i) != pair.index) ++i;
+      const Pull pull = pull_on(spans_[r], i, totally);
       if (pull.jack == nullptr) {
         state_.slack[r] = true;
         continue;
       }
-      for_each_joint_toward(*pull.jack, runs_[r], i, [&](int joint, JointState way) {
+      for_each_joint_toward(*pull.jack, spans_[r], i, [&](int joint, JointState way) {
         if (cables_.glides(joint)) return;
         flow[joint] += way == JointState::forward ? solver.value(p) : -solver.value(p);
         if (state_.slides[joint] == JointState::stick) state_.order.add(static_cast<std::int16_t>(joint));
@@ -464,7 +464,7 @@ class ModeDecision {
     const auto slid = state_.order;
     state_.order.clear();
     for (const std::int16_t j : slid) {
-      if (state_.slack[runs_.of(laws_.sides(j)[0])])
+      if (state_.slack[spans_.of(laws_.sides(j)[0])])
         state_.slides[j] = JointState::stick;
       else
         state_.order.add(j);
@@ -485,7 +485,7 @@ class ModeDecision {
       state_.now = before;
     return status;
   }
-  /// All forces at the present loads, if they are near those of before. The moves must be frozen; where
+  /// All forces at the present loads, if they are near those of before. The slips must be frozen; where
   /// nothing is near, all is as before.
   Status find_near(Status why, Real nearby_part) {
     const Tensions forces = cables_.force;
@@ -510,7 +510,7 @@ class ModeDecision {
   /// All forces at the present loads, by Lemke's path from nothing.
   bool find_from_nothing() {
     Spans all;
-    for (int r = 0; r < runs_.size(); ++r) {
+    for (int r = 0; r < spans_.size(); ++r) {
       all[r] = !state_.rests[r];
       if (all[r]) state_.moved.slack_length[r] = 0;
     }
@@ -519,13 +519,13 @@ class ModeDecision {
     return true;
   }
   /// All forces at the present loads, by Lemke's path from the present modes: slack spans stay slack.
-  /// `has_map`: the moves are those of the map.
+  /// `has_map`: the slips are those of the map.
   bool go_on_totally(bool has_map) {
     // Not frozen for good: the map may be refused.
-    if (has_map) state_.moved = cables_.moves();
+    if (has_map) state_.moved = cables_.slip_state();
     cables_.drop_map();
     Spans taut;
-    for (int r = 0; r < runs_.size(); ++r) taut[r] = !state_.rests[r] && !state_.slack[r];
+    for (int r = 0; r < spans_.size(); ++r) taut[r] = !state_.rests[r] && !state_.slack[r];
     if (!constraints_.set_up() || !go_on(all_limits(taut), true)) return false;
     constraints_.rebuild();
     cables_.find_forces();
@@ -535,7 +535,7 @@ class ModeDecision {
   SlipModes all_limits(const Spans& spans) const {
     SlipModes modes;
     for (int j = 0; j < cables_.joints(); ++j) {
-      if (model_.is_locked(j) || cables_.glides(j) || !spans[runs_.of(laws_.sides(j)[0])]) continue;
+      if (model_.is_self_locking(j) || cables_.glides(j) || !spans[spans_.of(laws_.sides(j)[0])]) continue;
       modes.add(SlipMode::of(j, JointState::forward));
       modes.add(SlipMode::of(j, JointState::backward));
     }
@@ -551,15 +551,15 @@ class ModeDecision {
     Inputs x;
     cables_.values(state_.now, x);
     for (int i = 0; i < map_.active(); ++i)
-      if (map_.move(i).kind == Move::Kind::slack_length &&
-          map_.stiffness(i) * map_.active_move(i, x) < -cables_.force_tolerance())
+      if (map_.variable(i).kind == SlipVariable::Kind::slack_length &&
+          map_.stiffness(i) * map_.value(i, x) < -cables_.force_tolerance())
         return false;
     return events_.check_forces().ok();
   }
 
   Cables& cables_;
   const typename Cables::Model& model_;
-  const Runs<Cap>& runs_;
+  const SlidingSpans<Cap>& spans_;
   const Laws& laws_;
   State& state_;
   Map& map_;

@@ -18,9 +18,10 @@ namespace taut {
 ///
 /// Lemke's path (Cottle, Pang and Stone, The Linear Complementarity Problem, 4.4): a covering variable z
 /// makes the point feasible, and one pair after the other changes sides until z is zero. Among ties
-/// perturbation() decides. No M is made: a column is what a move does through the factors of the set, those
-/// of the piece before serve on, and a slip that would make them singular waits for another. In the form with
-/// the tensions of all spans at zero as unknowns, M = [F, -U; R, 0] gives z'Mz = T'FT + sum (1 - rho) v T_big
+/// perturbation() decides. No M is made: a column is what a slip variable does through the factors of the
+/// set, those of the piece before serve on, and a slip that would make them singular waits for another. In
+/// the form with the tensions of all spans at zero as unknowns, M = [F, -U; R, 0] gives z'Mz = T'FT + sum (1
+/// - rho) v T_big
 /// >= 0: copositive, and q'z >= 0 where that vanishes; the path then ends in a solution (theorem 4.4.13).
 /// That covers every start from zero tension for rho in (0, 1] and jacks that satisfy the cones. It does not
 /// cover rates of spans under tension, where friction may leave no rate at all: then the path ends on a ray.
@@ -31,7 +32,7 @@ class ModeSolver {
   using Cap = typename CondensedType::Capacity;
   using Set = ActiveSet<CondensedType, Laws>;
   using Tensions = typename Set::Tensions;
-  using Moves = typename Set::Moves;
+  using Values = typename Set::Values;
   static constexpr int max_pairs = Cap::segments + 2 * Cap::joints;
 
   enum class Outcome : std::uint8_t {
@@ -49,13 +50,13 @@ class ModeSolver {
     SlipMode slip() const { return {index, way}; }
   };
 
-  /// Tensions and moves of the set, or their rates.
+  /// Tensions and slips of the set, or their rates.
   struct Response {
     Tensions T;
-    Moves moves;
+    Values values;
   };
 
-  /// Begins with no pair. `set` has the moves that follow whatever happens, and the slips that go on for
+  /// Begins with no pair. `set` has the slips that follow whatever happens, and the slips that go on for
   /// sure. `covering` is the number of the covering vector: where one path ends on a ray, one with another
   /// vector may end in a solution.
   void begin(const CondensedType& model, const Laws& laws, Set& set, int covering = 0) {
@@ -91,7 +92,7 @@ class ModeSolver {
   /// At most most_pivots() of all pairs, each with two or three solutions of the set. On success the set has
   /// the slips that slide and the segments that go slack. `known`: where all goes on with the set as it is,
   /// if that has been worked out.
-  Outcome solve(const Tensions& stuck, const Moves& due, Real none, bool go_on,
+  Outcome solve(const Tensions& stuck, const Values& due, Real none, bool go_on,
                 const Response* known = nullptr) {
     due_ = &due;
     none_ = none;
@@ -128,13 +129,15 @@ class ModeSolver {
   /// A covering variable that is so small a part of what it was at first is zero.
   static constexpr Real rounding = Real(1e-12);
 
-  // Pairs as moves and rows.
+  // Pairs as slip variables and rows.
 
-  Active active_of(int p) const {
+  ActiveConstraint active_of(int p) const {
     const Pair& pair = pairs_[p];
-    Active active = pair.is_segment()
-                        ? Active{Move::of(Move::Kind::slack_length, pair.index, pair.index), pair.index, 0}
-                        : laws_->sliding(pair.slip());
+    ActiveConstraint active =
+        pair.is_segment()
+            ? ActiveConstraint{SlipVariable::of(SlipVariable::Kind::slack_length, pair.index, pair.index),
+                               pair.index, 0}
+            : laws_->sliding(pair.slip());
     active.pair = static_cast<std::int16_t>(p);
     return active;
   }
@@ -143,9 +146,9 @@ class ModeSolver {
     const Pair& pair = pairs_[p];
     return pair.is_segment() ? T[pair.index] : laws_->limit(pair.slip()).of(T);
   }
-  Real stiffness(const Active& active) const { return set_->stiffness(active.move); }
+  Real stiffness(const ActiveConstraint& active) const { return set_->stiffness(active.variable); }
   /// The elongation of a segment that changes its own tension by one [m/N].
-  Real unit(int p) const { return set_->flexibility(active_of(p).move); }
+  Real unit(int p) const { return set_->flexibility(active_of(p).variable); }
   /// Symmetric scaling to a unit diagonal: what a unit of the covering variable adds to a row [-].
   Real cover(int p) const {
     if (!covers_[p]) return 0;
@@ -153,14 +156,14 @@ class ModeSolver {
     return scale(p) * (Real(1) + Real(3) * scattered<Real>(p + covering_ * max_pairs));
   }
   Real scale(int p) const { return scale_[segment_of(p)]; }
-  /// Which its move lengthens: moves that lengthen the same one have the same stiffness.
+  /// Which its slip variable lengthens: those that lengthen the same one have the same stiffness.
   int segment_of(int p) const {
     return pairs_[p].is_segment() ? pairs_[p].index : laws_->sides(pairs_[p].index)[0];
   }
   Real perturbation(int p) const { return scale(p) * taut::perturbation<Real>(p); }
   /// Scales need no more digits than a float has, whose roots cost one instruction.
   static Real root(Real x) { return static_cast<Real>(std::sqrt(static_cast<float>(x))); }
-  static Real sign(const Active& active) { return active.sense < 0 ? Real(-1) : Real(1); }
+  static Real sign(const ActiveConstraint& active) { return active.sense < 0 ? Real(-1) : Real(1); }
 
   // The start.
 
@@ -171,12 +174,12 @@ class ModeSolver {
     for (int p = 0; p < pairs_.size(); ++p)
       if (pairs_[p].is_segment() && !enter(p)) return false;
     T_ = stuck;
-    Moves moves, dues;
-    moves.fill(Real(0));
+    Values values, dues;
+    values.fill(Real(0));
     dues.fill(Real(0));
     for (int i = 0; i < set_->size(); ++i) dues[i] = i < equalities_ ? (*due_)[i] : least_[(*set_)[i].on];
-    set_->settle(*laws_, dues, T_, moves);
-    keep_values(moves, value_, Real(1));
+    set_->settle(*laws_, dues, T_, values);
+    keep_values(values, value_, Real(1));
     return true;
   }
   /// `any`: whether a limit is violated then.
@@ -185,33 +188,33 @@ class ModeSolver {
     for (int i = equalities_; i < set_->size(); ++i) name((*set_)[i], i);
     for (int rounds = set_->size() - equalities_; rounds >= 0; --rounds) {
       T_ = stuck;
-      Moves moves;
-      moves.fill(Real(0));
+      Values values;
+      values.fill(Real(0));
       if (known != nullptr) {
         T_ = known->T;
-        moves = known->moves;
+        values = known->values;
         known = nullptr;
       } else {
-        set_->settle(*laws_, *due_, T_, moves);
+        set_->settle(*laws_, *due_, T_, values);
       }
       // From the last one on, so that the factors of the first are kept.
       int gone = set_->size();
       any = false;
       for (int i = set_->size() - 1; i >= equalities_; --i) {
-        const Active& active = (*set_)[i];
-        if (sign(active) * moves[i] * stiffness(active) >= -none_) continue;
+        const ActiveConstraint& active = (*set_)[i];
+        if (sign(active) * values[i] * stiffness(active) >= -none_) continue;
         any = true;
         gone = i;
       }
       if (!any) {
-        keep_values(moves, value_, Real(1));
+        keep_values(values, value_, Real(1));
         break;
       }
       FixedArray<bool, Set::capacity> leaves;
       leaves.fill(false);
       for (int i = gone; i < set_->size(); ++i) {
-        const Active& active = (*set_)[i];
-        leaves[i] = sign(active) * moves[i] * stiffness(active) < -none_;
+        const ActiveConstraint& active = (*set_)[i];
+        leaves[i] = sign(active) * values[i] * stiffness(active) < -none_;
       }
       if (!set_->remove_if(*laws_, [&](int i) { return leaves[i]; })) return false;
       place_.fill(inactive);
@@ -225,18 +228,18 @@ class ModeSolver {
     return true;
   }
   /// Finds the pair of a slip that is in the set.
-  void name(const Active& active, int at) {
+  void name(const ActiveConstraint& active, int at) {
     for (int p = 0; p < pairs_.size(); ++p)
-      if (!pairs_[p].is_segment() && pairs_[p].index == active.move.index &&
+      if (!pairs_[p].is_segment() && pairs_[p].index == active.variable.index &&
           (pairs_[p].way == JointState::forward) == (active.sense > 0)) {
         set_->set_pair(at, p);
         place_[p] = 0;
       }
   }
-  void keep_values(const Moves& moves, FixedArray<Real, max_pairs>& values, Real times) {
+  void keep_values(const Values& values, FixedArray<Real, max_pairs>& of_pair, Real times) {
     for (int i = equalities_; i < set_->size(); ++i) {
-      const Active& active = (*set_)[i];
-      if (active.pair >= 0) values[active.pair] += times * sign(active) * moves[i] * stiffness(active);
+      const ActiveConstraint& active = (*set_)[i];
+      if (active.pair >= 0) of_pair[active.pair] += times * sign(active) * values[i] * stiffness(active);
     }
   }
   /// The second part of all values.
@@ -245,14 +248,14 @@ class ModeSolver {
     if (covers_all_) {
       for (int p = 0; p < pairs_.size(); ++p)
         if (pairs_[p].is_segment()) set_->carry(pairs_[p].index, -perturbation(p) * unit(p), T_tie_);
-      Moves moves, dues;
-      moves.fill(Real(0));
+      Values values, dues;
+      values.fill(Real(0));
       dues.fill(Real(0));
-      set_->settle(*laws_, dues, T_tie_, moves);
-      keep_values(moves, tie_, Real(1));
+      set_->settle(*laws_, dues, T_tie_, values);
+      keep_values(values, tie_, Real(1));
     }
     for (int i = equalities_; i < set_->size(); ++i) {
-      const Active& active = (*set_)[i];
+      const ActiveConstraint& active = (*set_)[i];
       if (active.slides()) tie_[active.pair] = perturbation(active.pair);
     }
   }
@@ -262,7 +265,7 @@ class ModeSolver {
   /// At first the response to the covering variable alone: there is one storage for both.
   struct Direction : Response {
     Real z = 0, entering = 0, pending = 0;
-    bool enters = false;  // the entering move, rather than its row
+    bool enters = false;  // the entering variable, rather than its row
     int pair = -1;
   };
   Outcome follow_path() {
@@ -286,9 +289,9 @@ class ModeSolver {
     }
     bool leaves_set = false;
     for (int i = equalities_; i < set_->size(); ++i) {
-      const Active& active = (*set_)[i];
+      const ActiveConstraint& active = (*set_)[i];
       if (active.pair < 0) continue;
-      const Real by = sign(active) * direction.moves[i] * stiffness(active);
+      const Real by = sign(active) * direction.values[i] * stiffness(active);
       if (value_[active.pair] < -none_ && by > 0 &&
           is_first(value_[active.pair], tie_[active.pair], by, needed, needed_tie)) {
         leaving = active.pair;
@@ -319,17 +322,17 @@ class ModeSolver {
     return pairs_[p].is_segment() ? of_tensions - least_[pairs_[p].index] : of_tensions + cover(p) * z_;
   }
 
-  void respond(const Active& to, Response& response) const {
+  void respond(const ActiveConstraint& to, Response& response) const {
     response.T.fill(Real(0));
-    set_->carry(to.move, sign(to) * set_->flexibility(to.move), response.T);
+    set_->carry(to.variable, sign(to) * set_->flexibility(to.variable), response.T);
     settle_rates(response, false);
   }
   void respond_to_cover(Response& response) const {
     response.T.fill(Real(0));
-    response.moves.fill(Real(0));
+    response.values.fill(Real(0));
     bool any = covers_all_;
     for (int i = equalities_; i < set_->size(); ++i) {
-      const Active& active = (*set_)[i];
+      const ActiveConstraint& active = (*set_)[i];
       any = any || (active.slides() && active.pair >= 0 && covers_[active.pair]);
     }
     if (!any) return;
@@ -339,14 +342,14 @@ class ModeSolver {
     settle_rates(response, true);
   }
   void settle_rates(Response& response, bool is_cover) const {
-    Moves dues;
+    Values dues;
     dues.fill(Real(0));
     for (int i = equalities_; is_cover && i < set_->size(); ++i) {
-      const Active& active = (*set_)[i];
+      const ActiveConstraint& active = (*set_)[i];
       if (active.slides() && active.pair >= 0) dues[i] = -cover(active.pair);
     }
-    response.moves.fill(Real(0));
-    set_->settle(*laws_, dues, response.T, response.moves);
+    response.values.fill(Real(0));
+    set_->settle(*laws_, dues, response.T, response.values);
   }
   /// What a unit of the covering variable adds to the row itself.
   Real direct(int p) const { return pairs_[p].is_segment() ? Real(0) : cover(p); }
@@ -407,10 +410,10 @@ class ModeSolver {
     direction.entering = by_entering;
     direction.pending = by_pending;
     for (int i = 0; i < model_->segments; ++i) direction.T[i] *= by_z;
-    for (int i = 0; i < set_->size(); ++i) direction.moves[i] *= by_z;
+    for (int i = 0; i < set_->size(); ++i) direction.values[i] *= by_z;
     const auto add_other = [&](Real times) {
       axpy(model_->segments, times, &other.T[0], &direction.T[0]);
-      axpy(set_->size(), times, &other.moves[0], &direction.moves[0]);
+      axpy(set_->size(), times, &other.values[0], &direction.values[0]);
     };
     if (direction.enters) add_other(by_entering);
     if (!is_pending_) return true;
@@ -435,9 +438,9 @@ class ModeSolver {
       if (is_first) blocking = {what, pair, step, step_tie, value / -rate};
     };
     for (int i = equalities_; i < set_->size(); ++i) {
-      const Active& active = (*set_)[i];
+      const ActiveConstraint& active = (*set_)[i];
       if (active.pair < 0) continue;
-      const Real rate = sign(active) * direction.moves[i] * stiffness(active);
+      const Real rate = sign(active) * direction.values[i] * stiffness(active);
       consider(value_[active.pair], tie_[active.pair], rate, Leaves::active, active.pair);
     }
     if (is_pending_) consider(value_[pending_], tie_[pending_], direction.pending, Leaves::pending, pending_);
@@ -472,8 +475,8 @@ class ModeSolver {
   void step_along(const Direction& direction, const Blocking& blocking) {
     axpy(model_->segments, blocking.step, &direction.T[0], &T_[0]);
     axpy(model_->segments, blocking.step_tie, &direction.T[0], &T_tie_[0]);
-    keep_values(direction.moves, value_, blocking.step);
-    keep_values(direction.moves, tie_, blocking.step_tie);
+    keep_values(direction.values, value_, blocking.step);
+    keep_values(direction.values, tie_, blocking.step_tie);
     z_ += blocking.step * direction.z;
     z_tie_ += blocking.step_tie * direction.z;
     if (is_pending_) {
@@ -544,8 +547,8 @@ class ModeSolver {
   FixedArray<Real, max_pairs> value_, tie_;  // of h and v [N]; the second part decides among ties
   Tensions least_;                           // L
   Tensions T_, T_tie_;
-  const Moves* due_ = nullptr;
-  int equalities_ = 0;  // the first moves of the set: they follow whatever happens
+  const Values* due_ = nullptr;
+  int equalities_ = 0;  // the first slips of the set: they follow whatever happens
   int pending_ = 0;     // a slip that is at work but would make the set singular
   int pivots_ = 0;
   int covering_ = 0;

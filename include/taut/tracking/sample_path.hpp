@@ -64,11 +64,11 @@ class SamplePath {
     return true;
   }
   /// Goes to the sample if one load alone changes, and stays within the range that is known.
-  [[nodiscard]] bool goes_along(Cables& cables, const Sample<Scalar, Cap>& sample) {
+  [[nodiscard]] bool try_to_extend(Cables& cables, const Sample<Scalar, Cap>& sample) {
     return only_ > 0 && stays_in_range(cables, sample);
   }
   /// Goes to this force of a jack, by its number, if it alone changes and stays within the range.
-  [[nodiscard]] bool goes_along(Cables& cables, int jack, Scalar force) {
+  [[nodiscard]] bool try_to_extend(Cables& cables, int jack, Scalar force) {
     return only_ > 0 && cables.jacks[jack].input == only_ - 1 && goes_to(cables, force);
   }
   /// Whether the force of an unlocked jack can go there, all else left as it is, without a change of modes; a
@@ -249,7 +249,7 @@ class SamplePath {
       range_ = {1, -1};
       return;
     }
-    // A slack run has limits of its own.
+    // A slack span has limits of its own.
     if (live != 1 || cables.map.has_slack()) {
       only_ = 0;
       return;
@@ -267,7 +267,7 @@ class SamplePath {
                column[small] - rho_[j] * column[big]);
       }
     }
-    for (int r = 0; r < cables.runs.size(); ++r) {
+    for (int r = 0; r < cables.spans.size(); ++r) {
       const int segment = cables.state.representative[r];
       narrow(constant_[segment] - least_tension(r), column[segment]);
     }
@@ -295,7 +295,7 @@ class SamplePath {
       for (int i = 0; i < cables.model->segments; ++i) T[i] += dx * column[i];
     }
   }
-  /// The friction cones, and T >= 0: with something to slip_margin where a joint sticks or a run is taut,
+  /// The friction cones, and T >= 0: with something to slip_margin where a joint sticks or a span is taut,
   /// give or take rounding where a law holds them at the limit.
   bool is_within_limits(const Cables& cables, const Rounded& T) const {
     return are_joints_within(cables, T) && are_taut(cables, T, false) && is_at_level(cables, T);
@@ -316,7 +316,7 @@ class SamplePath {
   static Scalar least_sum(const Cables& cables) { return static_cast<Scalar>(cables.model->least_sum); }
   static Scalar most_sum(const Cables& cables) { return static_cast<Scalar>(cables.model->most_sum); }
   bool are_taut(const Cables& cables, const Rounded& T, bool may_rest) const {
-    for (int r = 0; r < cables.runs.size(); ++r)
+    for (int r = 0; r < cables.spans.size(); ++r)
       if (!(T[cables.state.representative[r]] >= least_tension(r)) && !(may_rest && cables.state.rests[r]))
         return false;
     return true;
@@ -345,7 +345,7 @@ class SamplePath {
     }
     return bits >= 0;
   }
-  Scalar least_tension(int run) const { return may_be_zero_[run] ? -margin_ : margin_; }
+  Scalar least_tension(int span) const { return may_be_zero_[span] ? -margin_ : margin_; }
   void set_limits(const Cables& cables) {
     margin_ = quick_tolerance * static_cast<Scalar>(cables.state.peak);
     for (int j = 0; j < cables.joints(); ++j)
@@ -353,8 +353,8 @@ class SamplePath {
           cables.state.slides[j] == JointState::stick && cables.can_slide(j) && !cables.glides(j) ? margin_
                                                                                                   : -margin_;
     has_resting_ = false;
-    for (int r = 0; r < cables.runs.size(); ++r) {
-      may_be_zero_[r] = cables.state.slack[r] || cables.is_jacked(cables.runs[r]);
+    for (int r = 0; r < cables.spans.size(); ++r) {
+      may_be_zero_[r] = cables.state.slack[r] || cables.is_jacked(cables.spans[r]);
       has_resting_ = has_resting_ || cables.state.rests[r];
     }
   }
@@ -363,10 +363,10 @@ class SamplePath {
   FixedArray<Scalar, Cap::joints> rho_;
   Rounded constant_;                             // the map's base and all inputs that do not change
   FixedArray<Scalar, Cap::joints> slip_margin_;  // least T_small - rho T_big of every joint
-  FixedArray<bool, Cap::segments> may_be_zero_;  // of runs
+  FixedArray<bool, Cap::segments> may_be_zero_;  // of spans
   Scalar margin_ = 0;                            // what is to be left where nothing is at its limit
   Given at_, anchor_;
-  Given least_;  // a jack does not push, and takes a resting run along only in an event
+  Given least_;  // a jack does not push, and takes a resting span along only in an event
   FixedArray<int, Cap::loads> load_input_;  // in the map, or -1
   std::array<Scalar, 2> range_{};           // of the only live input, from its anchor: within all limits
   int only_ = 0;                            // that input, counted from 1, or 0

@@ -1,4 +1,4 @@
-// How tensions and moves change with friction that is not known, carried through stick and slip.
+// How tensions and slips change with friction that is not known, carried through stick and slip.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ struct JackError {
   Scalar proportional = 0;
 };
 
-/// Derivatives of everything that moves along the cables, and of the tensions, with respect to `Parameters`
+/// Derivatives of everything that slips along the cables, and of the tensions, with respect to `Parameters`
 /// numbers on which the friction of the joints, or the force of a jack, depends; all other loads are fixed.
 ///
 /// The segment at a jack has the jack's force, and its derivative. A sliding joint keeps T_small = rho T_big,
@@ -33,12 +33,12 @@ class Sensitivity {
   using Cap = typename CondensedType::Capacity;
   using Map = AffineMap<CondensedType, Laws>;
   using Tensions = typename Map::Tensions;
-  using Moves = typename Map::Moves;
+  using Values = typename Map::Values;
   using Inputs = typename Map::Inputs;
 
-  /// What is kept from map to map: derivatives of the moves where they froze.
+  /// What is kept from map to map: derivatives of the slips where they froze.
   struct Frozen {
-    FixedArray<Moving<Scalar, Cap>, Parameters> derivative;
+    FixedArray<SlipState<Scalar, Cap>, Parameters> derivative;
     int used = 0;  ///< parameters
   };
 
@@ -70,23 +70,23 @@ class Sensitivity {
     for (int p = 0; p < frozen_.used; ++p) change(frozen_.derivative[p], p);
   }
 
-  /// Of the map that was just made; settle(due, T, moves) lets its active moves follow until their laws give
-  /// what is due, carry(moved, T) adds the tensions of everything that has moved.
+  /// Of the map that was just made; settle(due, T, values) lets its active variables follow until their laws
+  /// give what is due, carry(moved, T) adds the tensions of everything that has moved.
   template <class Settle, class Carry>
   void make(const Map& map, Settle settle, Carry carry) {
     for (int p = 0; p < frozen_.used; ++p) {
       Tensions T;
       T.fill(Real(0));
       carry(frozen_.derivative[p], T);
-      Moves moves;
-      for (int i = 0; i < map.active(); ++i) moves[i] = static_cast<Real>(of_move(map.move(i), p));
-      settle(due(map, p, map.base(), error_at_anchor(map, p)), T, moves);
-      store(map, T, moves, base_[p], base_moves_[p]);
+      Values values;
+      for (int i = 0; i < map.active(); ++i) values[i] = static_cast<Real>(of_variable(map.variable(i), p));
+      settle(due(map, p, map.base(), error_at_anchor(map, p)), T, values);
+      store(map, T, values, base_[p], base_values_[p]);
       for (int k = 0; k < map.inputs(); ++k) {
         T.fill(Real(0));
-        moves.fill(Real(0));
-        settle(due(map, p, map.column(k), error_by_input(map, p, k)), T, moves);
-        store(map, T, moves, column_[p][k], column_moves_[p][k]);
+        values.fill(Real(0));
+        settle(due(map, p, map.column(k), error_by_input(map, p, k)), T, values);
+        store(map, T, values, column_[p][k], column_values_[p][k]);
       }
     }
   }
@@ -106,17 +106,18 @@ class Sensitivity {
   }
 
   /// Derivatives of everything that has moved, at inputs `x`.
-  Moving<Scalar, Cap> moves(const Map& map, int p, const Inputs& x) const {
+  SlipState<Scalar, Cap> slip_state(const Map& map, int p, const Inputs& x) const {
     if (p >= frozen_.used) return {};
-    Moving<Scalar, Cap> moving = frozen_.derivative[p];
-    for (int i = 0; i < map.active(); ++i) moving.of(map.move(i)) = static_cast<Scalar>(move(map, p, i, x));
+    SlipState<Scalar, Cap> moving = frozen_.derivative[p];
+    for (int i = 0; i < map.active(); ++i)
+      moving.of(map.variable(i)) = static_cast<Scalar>(derivative(map, p, i, x));
     return moving;
   }
 
   /// At inputs `x` a law that falls at the rate `falling` along `direction` reached its limit. `joint` is
   /// whose limit it is, or -1.
-  void find_saltation(const Map& map, const Inputs& x, const Tensions& T, const Law<Real>& law, int joint,
-                      Real falling) {
+  void find_saltation(const Map& map, const Inputs& x, const Tensions& T, const TensionConstraint<Real>& law,
+                      int joint, Real falling) {
     for (int p = 0; p < frozen_.used; ++p) {
       Real change = static_cast<Real>(tension(map, p, law.first, x, map.anchor()));
       if (law.second >= 0)
@@ -125,10 +126,11 @@ class Sensitivity {
       event_shift_[p] = -change / falling;
     }
   }
-  /// At inputs `x` the active move `i` came to its end at the rate `falling`: by how much later if friction
-  /// were other.
+  /// At inputs `x` the active variable `i` came to its end at the rate `falling`: by how much later if
+  /// friction were other.
   void find_saltation_of_move(const Map& map, const Inputs& x, int i, Real falling) {
-    for (int p = 0; p < frozen_.used; ++p) event_shift_[p] = -move(map, p, i, x) * map.stiffness(i) / falling;
+    for (int p = 0; p < frozen_.used; ++p)
+      event_shift_[p] = -derivative(map, p, i, x) * map.stiffness(i) / falling;
   }
   /// From here on parameter `p` is by how much further input `k` went before it turned, or before its jack
   /// was locked.
@@ -136,18 +138,18 @@ class Sensitivity {
     use(p);
     frozen_.derivative[p] = {};
     for (int i = 0; i < map.active(); ++i)
-      of_move(map.move(i), p) = static_cast<Scalar>(map.column_move(k, i));
+      of_variable(map.variable(i), p) = static_cast<Scalar>(map.column_value(k, i));
   }
   /// From here on parameter `p` is by how much less cable an end holds that is locked; `jack` is
   /// 2 x cable + end.
   void draw_in(int p, int jack) {
     use(p);
     frozen_.derivative[p] = {};
-    frozen_.derivative[p].payout[jack / 2][static_cast<std::size_t>(jack % 2)] = -1;
+    frozen_.derivative[p].extension[jack / 2][static_cast<std::size_t>(jack % 2)] = -1;
   }
   /// From here on parameter `p` is the strain that a cable takes on by itself while the end `jack` of it,
-  /// 2 x cable + end, is locked: to forces it is what slips and a payout would be that take as much of every
-  /// segment, Eq. (38). `length` are those of the segments [m].
+  /// 2 x cable + end, is locked: to forces it is what slips and an extension would be that take as much of
+  /// every segment, Eq. (38). `length` are those of the segments [m].
   template <class CableLayout, class Lengths>
   void strain(int p, const CableLayout& cable, const Lengths& length, int jack) {
     use(p);
@@ -160,7 +162,7 @@ class Sensitivity {
       const int i = from_start ? k : n - 1 - k;
       beyond += length[cable.first_segment + i];
       if (k + 1 == n)
-        moved.payout[jack / 2][static_cast<std::size_t>(jack % 2)] = -beyond;
+        moved.extension[jack / 2][static_cast<std::size_t>(jack % 2)] = -beyond;
       else
         moved.slip[cable.first_joint + (from_start ? i : i - 1)] = from_start ? -beyond : beyond;
     }
@@ -172,21 +174,21 @@ class Sensitivity {
   void freeze(const Map& map, const Inputs& x, const Inputs& direction) {
     for (int p = 0; p < frozen_.used; ++p)
       for (int i = 0; i < map.active(); ++i)
-        of_move(map.move(i), p) =
-            static_cast<Scalar>(move(map, p, i, x) + event_shift_[p] * map.move_rate(i, direction));
+        of_variable(map.variable(i), p) =
+            static_cast<Scalar>(derivative(map, p, i, x) + event_shift_[p] * map.value_rate(i, direction));
   }
 
  private:
   void use(int parameter) {
     if (parameter >= frozen_.used) frozen_.used = parameter + 1;
   }
-  Scalar& of_move(const Move& move, int p) { return frozen_.derivative[p].of(move); }
+  Scalar& of_variable(const SlipVariable& variable, int p) { return frozen_.derivative[p].of(variable); }
 
-  /// dm/dp of an active move.
-  Real move(const Map& map, int p, int i, const Inputs& x) const {
-    Real at = static_cast<Real>(base_moves_[p][i]);
+  /// dm/dp of an active variable.
+  Real derivative(const Map& map, int p, int i, const Inputs& x) const {
+    Real at = static_cast<Real>(base_values_[p][i]);
     for (int k = 0; k < map.inputs(); ++k)
-      at += (x[k] - map.anchor()[k]) * static_cast<Real>(column_moves_[p][k][i]);
+      at += (x[k] - map.anchor()[k]) * static_cast<Real>(column_values_[p][k][i]);
     return at;
   }
   bool is_force_of(const Input& input, int p) const {
@@ -206,26 +208,27 @@ class Sensitivity {
                                                                : Real(0);
   }
   /// What the laws' derivatives are to be: rho' T_big of every sliding joint, and that of the jack's force.
-  Moves due(const Map& map, int p, const Tensions& T, Real of_jack) const {
-    Moves values;
+  Values due(const Map& map, int p, const Tensions& T, Real of_jack) const {
+    Values values;
     values.fill(Real(0));
     if (of_jack != 0)
       for (int i = 0; i < map.active(); ++i)
-        if (map.move(i).kind == Move::Kind::payout && map.move(i).index == error_[p].jack)
+        if (map.variable(i).kind == SlipVariable::Kind::extension && map.variable(i).index == error_[p].jack)
           values[i] = of_jack;
     if constexpr (Cap::joints > 0) {
       for (int i = 0; i < map.active(); ++i) {
-        const Active& active = map.actives()[i];
+        const ActiveConstraint& active = map.actives()[i];
         if (!active.slides()) continue;
-        if (parameter_[active.move.index] == p) values[i] = slope_[active.move.index] * T[active.big()];
+        if (parameter_[active.variable.index] == p)
+          values[i] = slope_[active.variable.index] * T[active.big()];
       }
     }
     return values;
   }
-  void store(const Map& map, const Tensions& T, const Moves& moves, FixedArray<Scalar, Cap::segments>& into,
-             FixedArray<Scalar, Map::max_active>& moves_into) const {
+  void store(const Map& map, const Tensions& T, const Values& values, FixedArray<Scalar, Cap::segments>& into,
+             FixedArray<Scalar, Map::max_active>& values_into) const {
     for (int i = 0; i < Cap::segments; ++i) into[i] = static_cast<Scalar>(T[i]);
-    for (int i = 0; i < map.active(); ++i) moves_into[i] = static_cast<Scalar>(moves[i]);
+    for (int i = 0; i < map.active(); ++i) values_into[i] = static_cast<Scalar>(values[i]);
   }
 
   Frozen frozen_;
@@ -235,9 +238,9 @@ class Sensitivity {
   FixedArray<Real, Parameters>
       event_shift_;  // by how much of what was left of the path the event comes later
   FixedArray<FixedArray<Scalar, Cap::segments>, Parameters> base_;
-  FixedArray<FixedArray<Scalar, Map::max_active>, Parameters> base_moves_;
+  FixedArray<FixedArray<Scalar, Map::max_active>, Parameters> base_values_;
   FixedArray<FixedArray<FixedArray<Scalar, Cap::segments>, Map::max_inputs>, Parameters> column_;
-  FixedArray<FixedArray<FixedArray<Scalar, Map::max_active>, Map::max_inputs>, Parameters> column_moves_;
+  FixedArray<FixedArray<FixedArray<Scalar, Map::max_active>, Map::max_inputs>, Parameters> column_values_;
 };
 
 /// Of a tracker whose friction is known: nothing is carried, and nothing done for it.

@@ -27,8 +27,8 @@ class SecondOrderCondensation {
   /// if given, receives the rows for the displacements that were chosen in it. Costs eight
   /// condensations, each with a solve more for every strut and beam, and three ways to the target.
   Status run(const SceneType& scene, const Sample<Scalar, Cap>& target, Model& condensed,
-             typename Model::Struts* struts = nullptr, const Real* substructure_geometry = nullptr,
-             LevelDisplacements<Scalar, Cap>* displacements = nullptr) {
+              typename Model::Struts* struts = nullptr, const Real* substructure_geometry = nullptr,
+              LevelDisplacements<Scalar, Cap>* displacements = nullptr) {
     geometry_ = {};
     geometry_.substructure_entries = substructure_geometry;
     find_guess(scene, target);

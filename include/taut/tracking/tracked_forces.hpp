@@ -1,4 +1,4 @@
-// What a tracker answers: forces, moves, joint states, and how they change with the jack's force.
+// What a tracker answers: forces, slips, joint states, and how they change with the jack's force.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace taut {
 
 /// The state that a Tracker has reached. Nothing here changes it; every function may be called from an
-/// interrupt that does not interrupt the tracker itself. Forces [N], moves [m].
+/// interrupt that does not interrupt the tracker itself. Forces [N], slips [m].
 template <class CondensedType, int Parameters>
 class TrackedForces {
  public:
@@ -18,7 +18,7 @@ class TrackedForces {
   using Model = typename CondensedType::AtLevel;
   using Cables = CableSystem<Model, Parameters>;
   using Loads = typename Cables::Loads;
-  using Moving = typename Cables::Moving;
+  using SlipState = typename Cables::SlipState;
   using Tensions = typename Cables::Tensions;
 
   /// Whether the joint slides, or slid before the load came to rest.
@@ -48,10 +48,10 @@ class TrackedForces {
   }
 
   /// Slips, extensions of the jacks and slack lengths [m]. O(segments x inputs).
-  Moving moves() const { return cables_.moves(); }
-  /// Elongations that the moves impose on the segments [m], for CondensedRows.
-  Tensions elongations() const { return cables_.elongations_by(moves()); }
-  /// Elongations that derivatives of the moves impose.
+  SlipState slip_state() const { return cables_.slip_state(); }
+  /// Elongations that the slips impose on the segments [m], for CondensedRows.
+  Tensions elongations() const { return cables_.elongations_by(slip_state()); }
+  /// Elongations that derivatives of the slips impose.
   template <class Moved>
   Tensions elongations_by(const Moved& moved) const {
     return cables_.elongations_by(moved);
@@ -62,21 +62,21 @@ class TrackedForces {
     return k < 0 ? Scalar(0) : cables_.map.rounded_column(k)[segment];
   }
   /// Derivative of a jack's extension with respect to its force, on the present piece [m/N].
-  Scalar payout_slope(int cable, std::size_t end) const {
+  Scalar extension_slope(int cable, std::size_t end) const {
     const int k = cables_.input_of(cable, end);
     if (k < 0) return 0;
     for (int i = 0; i < cables_.map.active(); ++i)
-      if (cables_.map.move(i).kind == Move::Kind::payout &&
-          cables_.map.move(i).index == 2 * cable + static_cast<int>(end))
-        return static_cast<Scalar>(cables_.map.column_move(k, i));
+      if (cables_.map.variable(i).kind == SlipVariable::Kind::extension &&
+          cables_.map.variable(i).index == 2 * cable + static_cast<int>(end))
+        return static_cast<Scalar>(cables_.map.column_value(k, i));
     return 0;
   }
-  /// Derivatives of all moves with respect to the force of an unlocked jack, on the present piece [m/N].
-  Moving move_slope(int cable, std::size_t end) const {
-    Moving moving;
+  /// Derivatives of all slips with respect to the force of an unlocked jack, on the present piece [m/N].
+  SlipState slip_slope(int cable, std::size_t end) const {
+    SlipState moving;
     const int k = cables_.input_of(cable, end);
     for (int i = 0; k >= 0 && i < cables_.map.active(); ++i)
-      moving.of(cables_.map.move(i)) = cables_.map.column_move(k, i);
+      moving.of(cables_.map.variable(i)) = cables_.map.column_value(k, i);
     return moving;
   }
   /// Whether there is a scene. Before start() or restore() there are no model(), condensed(), elongations()
@@ -86,13 +86,14 @@ class TrackedForces {
   const Model& model() const { return *cables_.model; }
   /// The loads and jack forces reached.
   const Loads& loads() const { return cables_.state.now; }
-  const Runs<Cap>& runs() const { return cables_.runs; }
-  bool is_slack(const Run& run) const { return cables_.is_slack(run.segment(0)); }
+  const SlidingSpans<Cap>& spans() const { return cables_.spans; }
+  bool is_slack(const SlidingSpan& span) const { return cables_.is_slack(span.segment(0)); }
   /// What the joint did on the last piece of the path, apart from slack.
   JointState motion(int joint) const {
     for (int i = 0; cables_.state.has_map && i < cables_.map.active(); ++i) {
-      if (cables_.map.move(i).kind != Move::Kind::slip || cables_.map.move(i).index != joint) continue;
-      const Real rate = cables_.map.move_rate(i, cables_.state.last);
+      if (cables_.map.variable(i).kind != SlipVariable::Kind::slip || cables_.map.variable(i).index != joint)
+        continue;
+      const Real rate = cables_.map.value_rate(i, cables_.state.last);
       if (rate == 0 || cables_.state.slides[joint] != JointState::stick)
         return rate == 0 ? JointState::stick : cables_.state.slides[joint];
       return rate > 0 ? JointState::forward : JointState::backward;
@@ -112,13 +113,13 @@ class TrackedForces {
   void respond(Response<Scalar, Cap>& response,
                const typename CondensedType::Struts* struts = nullptr) const {
     if (!is_started()) return;
-    const Moving moved = cables_.moves();
+    const SlipState moved = cables_.slip_state();
     for (int i = 0; i < cables_.model->segments; ++i) response.tension[i] = tension(i);
     cables_.model->resolve_joints(response);
     for (int c = 0; c < cables_.model->cables.size(); ++c) {
       for (std::size_t end = 0; end < 2; ++end)
-        response.payout[c][end] = static_cast<Scalar>(
-            moved.payout[c][end] * unstrained(c, cables_.model->cables[c].end_segment(end)));
+        response.extension[c][end] = static_cast<Scalar>(
+            moved.extension[c][end] * unstrained(c, cables_.model->cables[c].end_segment(end)));
       const auto& cable = cables_.model->cables[c];
       for (int k = 0; k < cable.joints(); ++k) {
         const int j = cable.first_joint + k;

@@ -18,7 +18,7 @@ template <class Scalar>
 struct [[nodiscard]] Progress {
   Status status;
   Scalar fraction = 1;  ///< of the path that was followed; below 1 the state is the equilibrium there
-  int events = 0;       ///< places where the state of a joint or a run was decided anew
+  int events = 0;       ///< places where the state of a joint or a span was decided anew
 };
 
 /// Nothing is unknown of the forces of jacks.
@@ -29,13 +29,13 @@ struct NoLoadErrors {
 };
 
 /// The exact answer between samples. Along the straight path of loads and jack forces tensions are piecewise
-/// linear; only where a piece ends (a joint begins to slide, a run goes slack or taut) is anything solved.
+/// linear; only where a piece ends (a joint begins to slide, a span goes slack or taut) is anything solved.
 ///
 /// What moves along the cables are the slips of the joints, the extensions of the jacks and the slack lengths
-/// of runs. A move is frozen at its value, or active under a constraint of its own, Eq. (9): a sliding joint
-/// keeps T_small = rho T_big, an unlocked jack keeps its force, a slack run has no tension. Where a piece
-/// ends, the rates of the joints at their limit solve a linear complementarity problem, Eq. (10). Always
-/// totals: nothing is added up, nothing drifts.
+/// of spans. A slip variable is frozen at its value, or active under a constraint of its own, Eq. (9): a
+/// sliding joint keeps T_small = rho T_big, an unlocked jack keeps its force, a slack span has no tension.
+/// Where a piece ends, the rates of the joints at their limit solve a linear complementarity problem, Eq.
+/// (10). Always totals: nothing is added up, nothing drifts.
 ///
 /// The condensed scene must come from a valid scene and outlive the tracker. With `Parameters`, the
 /// derivatives with respect to so many unknowns of the friction are carried along: see Sensitivity and
@@ -51,9 +51,9 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   using typename Base::Cap;
   using typename Base::Loads;
   using typename Base::Model;
-  using typename Base::Moving;
   using typename Base::Real;
   using typename Base::Scalar;
+  using typename Base::SlipState;
   using typename Base::Tensions;
   using Laws = typename Cables::Laws;
   using Derivatives = typename Cables::Derivatives;
@@ -152,14 +152,14 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   /// Cost: see SamplePath without an event; else that of `events` events, each O(segments^2) on a structure
   /// and O(segments) between rigid saddles, at worst O(segments^3) where a decision begins from nothing.
   Progress<Scalar> advance(const Sample<Scalar, Cap>& sample, int event_budget = default_budget) {
-    if (goes_along(sample)) return {};
-    return approach(sample, event_budget);
+    if (try_to_extend(sample)) return {};
+    return drive(sample, event_budget);
   }
   /// Follows the sample if one load alone changes and stays where nothing happens: all tensions and
   /// derivatives go on along straight lines. Otherwise false, and nothing is changed.
-  bool goes_along(const Sample<Scalar, Cap>& sample) { return samples_.goes_along(cables_, sample); }
+  bool try_to_extend(const Sample<Scalar, Cap>& sample) { return samples_.try_to_extend(cables_, sample); }
   /// Follows the force of this jack, by its number, in the same way.
-  bool goes_along(int jack, Scalar force) { return samples_.goes_along(cables_, jack, force); }
+  bool try_to_extend(int jack, Scalar force) { return samples_.try_to_extend(cables_, jack, force); }
   /// Whether this force of a jack, by its number, is on the present piece; nothing is changed.
   bool reaches(int jack, Scalar force) const { return samples_.reaches(cables_, jack, force); }
 
@@ -267,15 +267,15 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     return k < 0 ? Scalar(0) : cables_.derivatives.tension_slope(p, k, segment);
   }
   /// Derivative of a jack's extension with respect to unknown `p`.
-  Scalar payout_sensitivity(int p, int cable, std::size_t end) const {
-    return move_sensitivity(p).payout[cable][end];
+  Scalar extension_sensitivity(int p, int cable, std::size_t end) const {
+    return slip_sensitivity(p).extension[cable][end];
   }
-  /// Derivatives of moves() with respect to unknown `p`.
-  taut::Moving<Scalar, Cap> move_sensitivity(int p) const {
+  /// Derivatives of slip_state() with respect to unknown `p`.
+  taut::SlipState<Scalar, Cap> slip_sensitivity(int p) const {
     if (!cables_.state.has_map) return {};
     Inputs x;
     cables_.values(cables_.state.now, x);
-    return cables_.derivatives.moves(cables_.map, p, x);
+    return cables_.derivatives.slip_state(cables_.map, p, x);
   }
 
  private:
@@ -301,7 +301,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   void depend(const Friction& friction) {
     if constexpr (is_adjustable)
       for (int j = 0; j < cables_.joints(); ++j) {
-        if (cables_.model->is_locked(j)) continue;
+        if (cables_.model->is_self_locking(j)) continue;
         const JointFriction<Real> given = level_.leant(j, friction(j));
         if (given.parameter < 0) continue;
         cables_.laws.set_rho(j, given.rho);
@@ -340,8 +340,8 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
       }
   }
 
-  /// Not in one frame with the samples that need no more than goes_along().
-  [[gnu::noinline]] Progress<Scalar> approach(const Sample<Scalar, Cap>& sample, int event_budget) {
+  /// Not in one frame with the samples that need no more than try_to_extend().
+  [[gnu::noinline]] Progress<Scalar> drive(const Sample<Scalar, Cap>& sample, int event_budget) {
     if (samples_.follow(cables_, sample)) return {};
     if (cables_.model == nullptr) return {Status::at(Code::not_started, Place::none, -1), Scalar(0), 0};
     const Status usable = check_sample(*cables_.model, sample);
@@ -451,17 +451,17 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     const auto force = [this](int c, std::size_t end) {
       return cables_.force[cables_.model->cables[c].end_segment(end)];
     };
-    const auto payout = [this](int c, std::size_t end) { return cables_.state.moved.payout[c][end]; };
-    set_path(cables_.model->cables, cables_.model->loads, sample, force, payout, cables_.state.now,
+    const auto extension = [this](int c, std::size_t end) { return cables_.state.moved.extension[c][end]; };
+    set_path(cables_.model->cables, cables_.model->loads, sample, force, extension, cables_.state.now,
              cables_.state.goal);
     if (!changes) return;
     for (const JackedEnd& jack : cables_.jacks)
       cables_.state.now.jack[jack.cable][jack.end].locked =
           cables_.state.goal.jack[jack.cable][jack.end].locked;
     cables_.find_redundant_jack();
-    // A jack that takes hold of a slack run draws it straight; its payout follows from its force.
-    for (int r = 0; r < cables_.runs.size(); ++r)
-      if (cables_.state.slack[r] && cables_.is_jacked(cables_.runs[r])) draw_straight(r);
+    // A jack that takes hold of a slack span draws it straight; its extension follows from its force.
+    for (int r = 0; r < cables_.spans.size(); ++r)
+      if (cables_.state.slack[r] && cables_.is_jacked(cables_.spans[r])) draw_straight(r);
     cables_.drop_set();
   }
   template <class Derivative>
@@ -469,15 +469,15 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     const auto by = static_cast<Real>(change);
     for (int j = 0; j < cables_.joints(); ++j)
       cables_.state.moved.slip[j] += by * static_cast<Real>(derivative.slip[j]);
-    for (int r = 0; r < cables_.runs.size(); ++r)
+    for (int r = 0; r < cables_.spans.size(); ++r)
       cables_.state.moved.slack_length[r] = larger(
           Real(0), cables_.state.moved.slack_length[r] + by * static_cast<Real>(derivative.slack_length[r]));
     for (const JackedEnd& jack : cables_.jacks) {
-      const Real more = by * static_cast<Real>(derivative.payout[jack.cable][jack.end]);
-      cables_.state.moved.payout[jack.cable][jack.end] += more;
+      const Real more = by * static_cast<Real>(derivative.extension[jack.cable][jack.end]);
+      cables_.state.moved.extension[jack.cable][jack.end] += more;
       if (!cables_.state.goal.jack[jack.cable][jack.end].locked) continue;
       for (Loads* loads : {&cables_.state.now, &cables_.state.goal, &cables_.state.built})
-        loads->jack[jack.cable][jack.end].payout += more;
+        loads->jack[jack.cable][jack.end].extension += more;
     }
   }
   /// Whether any joint had to be.
@@ -489,7 +489,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
       if (cables_.can_slide(j)) cables_.stop(j);
   }
-  /// Other joints slide from here on, or moves have changed: the forces follow.
+  /// Other joints slide from here on, or slips have changed: the forces follow.
   bool make_map_anew() {
     cables_.drop_set();
     Constraints<Cables> constraints(cables_);
@@ -511,15 +511,15 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     }
     return any;
   }
-  /// What a slack run has too much goes out through the jack: over every joint, if that is at its far end.
+  /// What a slack span has too much goes out through the jack: over every joint, if that is at its far end.
   void draw_straight(int r) {
-    const Run& run = cables_.runs[r];
-    const auto& cable = cables_.model->cables[run.cable];
-    const bool at_start = run.segment(0) == cable.end_segment(0) && cable.ends[0] == End::jacked &&
-                          !cables_.state.goal.jack[run.cable][0].locked;
+    const SlidingSpan& span = cables_.spans[r];
+    const auto& cable = cables_.model->cables[span.cable];
+    const bool at_start = span.segment(0) == cable.end_segment(0) && cable.ends[0] == End::jacked &&
+                          !cables_.state.goal.jack[span.cable][0].locked;
     cables_.state.slack[r] = false;
     const auto straighten = [&](auto& moved) {
-      for (int i = 0; !at_start && i < run.joints(); ++i) moved.slip[run.joint(i)] += moved.slack_length[r];
+      for (int i = 0; !at_start && i < span.joints(); ++i) moved.slip[span.joint(i)] += moved.slack_length[r];
       moved.slack_length[r] = 0;
     };
     straighten(cables_.state.moved);

@@ -12,8 +12,8 @@ namespace taut {
 /// all is.
 template <class Scalar>
 struct Verdict {
-  Scalar imbalance = 0;  ///< T against load x factors + prestrain + coupling x e, made afresh from the moves
-  Scalar compression = 0;  ///< T below zero, tension in a slack run, or a slack run that is too short
+  Scalar imbalance = 0;  ///< T against load x factors + prestrain + coupling x e, made afresh from the slips
+  Scalar compression = 0;  ///< T below zero, tension in a slack span, or a slack span that is too short
   Scalar outside = 0;      ///< beyond the friction cone rho T2 <= T1 <= T2 / rho
   Scalar off_limit = 0;    ///< a joint that slides without being at the limit that opposes it
   int segment = -1;        ///< of the largest imbalance
@@ -25,7 +25,7 @@ struct Verdict {
 /// Recomputes equilibrium, Eq. (8), T >= 0, the friction cones, Eq. (3), and that what slides slides against
 /// its friction at its limit, Eq. (9).
 ///
-/// Uses the condensed scene and the moves alone, none of what the tracker keeps for speed: segments^2
+/// Uses the condensed scene and the slips alone, none of what the tracker keeps for speed: segments^2
 /// multiplications. Before start() nothing is violated.
 template <class CondensedType, int Parameters>
 Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Parameters>& tracker) {
@@ -34,7 +34,7 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Para
   using Cap = typename CondensedType::Capacity;
   if (!tracker.is_started()) return {};
   const auto& model = tracker.model();
-  const auto moves = tracker.moves();
+  const auto slips = tracker.slip_state();
   const auto& loads = tracker.loads();
   const Real unit = tracker.peak() > 0 ? Real(1) / static_cast<Real>(tracker.peak()) : Real(1);
   Verdict<Scalar> verdict;
@@ -48,14 +48,14 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Para
     const auto& cable = model.cables[c];
     for (int j = 0; j < cable.joints(); ++j) {
       const auto sides = cable.joint_segments(j);
-      e[sides[0]] += moves.slip[cable.first_joint + j];
-      e[sides[1]] -= moves.slip[cable.first_joint + j];
+      e[sides[0]] += slips.slip[cable.first_joint + j];
+      e[sides[1]] -= slips.slip[cable.first_joint + j];
     }
   }
   for_each_jacked_end(model.cables, [&](int c, std::size_t end) {
-    e[model.cables[c].end_segment(end)] += moves.payout[c][end];
+    e[model.cables[c].end_segment(end)] += slips.extension[c][end];
   });
-  for (int r = 0; r < tracker.runs().size(); ++r) e[tracker.runs()[r].segment(0)] += moves.slack_length[r];
+  for (int r = 0; r < tracker.spans().size(); ++r) e[tracker.spans()[r].segment(0)] += slips.slack_length[r];
   for (int i = 0; i < model.segments; ++i) {
     T[i] = loads.prestrain * model.prestrain[i];
     for (int k = 0; k < model.loads; ++k) T[i] += loads.factor[k] * model.load[k][i];
@@ -74,12 +74,12 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Para
     const Real off = std::fabs(T[model.cables[c].end_segment(end)] - jack.force) * unit;
     raise(verdict.imbalance, off);
   });
-  for (int r = 0; r < tracker.runs().size(); ++r) {
-    const auto& run = tracker.runs()[r];
-    if (!tracker.is_slack(run)) continue;
-    const Real stiffness = model.coupling(run.segment(0), run.segment(0));
-    raise(verdict.compression, -moves.slack_length[r] * stiffness * unit);
-    for (int i = 0; i < run.count; ++i) raise(verdict.compression, std::fabs(T[run.segment(i)]) * unit);
+  for (int r = 0; r < tracker.spans().size(); ++r) {
+    const auto& span = tracker.spans()[r];
+    if (!tracker.is_slack(span)) continue;
+    const Real stiffness = model.coupling(span.segment(0), span.segment(0));
+    raise(verdict.compression, -slips.slack_length[r] * stiffness * unit);
+    for (int i = 0; i < span.count; ++i) raise(verdict.compression, std::fabs(T[span.segment(i)]) * unit);
   }
   for (int c = 0; c < model.cables.size(); ++c) {
     const auto& cable = model.cables[c];

@@ -10,7 +10,7 @@
 namespace roller = rolling_cable_strut_joint_three_set_ups_side_by_side;
 using Estimator = taut::Estimator<taut::Condensed<float, roller::Capacity>, roller::unknowns>;
 
-static auto known = roller::knowledge<float>;  // mu 0.219 with a standard deviation of a half of it
+static auto known = roller::prior<float>;  // mu 0.219 with a standard deviation of a half of it
 static Estimator estimator;                    // all the memory it needs
 
 static const float rows[][2] = {{20000, 0}, {40000, 33350}, {30000, 0}, {20000, 0}};  // jack; far end, 0: not read

@@ -9,15 +9,15 @@
 
 namespace taut {
 
-/// Something that moves along a cable and imposes an elongation: the slip of a joint lengthens the segment
-/// before it and shortens the one after, a payout or an slack length lengthens one segment.
-struct Move {
-  enum class Kind : std::uint8_t { slip, payout, slack_length } kind = Kind::slip;
-  std::int16_t index = 0;       ///< joint; 2 x cable + end; run
+/// Something that slips along a cable and imposes an elongation: the slip of a joint lengthens the segment
+/// before it and shortens the one after, an extension or a slack length lengthens one segment.
+struct SlipVariable {
+  enum class Kind : std::uint8_t { slip, extension, slack_length } kind = Kind::slip;
+  std::int16_t index = 0;       ///< joint; 2 x cable + end; span
   std::int16_t lengthened = 0;  ///< segment
   std::int16_t shortened = 0;   ///< segment, slip only; else -1
 
-  static Move of(Kind kind, int index, int lengthened, int shortened = -1) {
+  static SlipVariable of(Kind kind, int index, int lengthened, int shortened = -1) {
     return {kind, static_cast<std::int16_t>(index), static_cast<std::int16_t>(lengthened),
             static_cast<std::int16_t>(shortened)};
   }
@@ -29,14 +29,15 @@ struct Move {
   }
 };
 
-/// What an active move obeys: a weighted sum of two tensions, T_first - weight T_second, is zero or given.
+/// What an active variable obeys: a weighted sum of two tensions, T_first - weight T_second, is zero or
+/// given.
 template <class Real>
-struct Law {
+struct TensionConstraint {
   std::int16_t first = 0;
   std::int16_t second = -1;
   Real weight = 0;
 
-  static Law on(int segment) { return {static_cast<std::int16_t>(segment), -1, Real(0)}; }
+  static TensionConstraint on(int segment) { return {static_cast<std::int16_t>(segment), -1, Real(0)}; }
 
   template <class Tensions>
   Real of(const Tensions& T) const {
@@ -44,55 +45,57 @@ struct Law {
   }
 };
 
-/// A move that is not frozen. Its law: the tension of segment `on` is zero or given; or a joint slides and
-/// keeps T_small = rho T_big.
-struct Active {
-  Move move;
+/// A slip variable that is not frozen. Its law: the tension of segment `on` is zero or given; or a joint
+/// slides and keeps T_small = rho T_big.
+struct ActiveConstraint {
+  SlipVariable variable;
   std::int16_t on = 0;    ///< -1: a joint that slides
   std::int8_t sense = 0;  ///< of sliding: the sign that its rate must have; 0 if it has none
   std::int16_t pair = 0;  ///< of the complementarity problem in which it entered, or -1
 
   bool slides() const { return on < 0; }
   /// T_big of a joint that slides.
-  int big() const { return sense > 0 ? move.shortened : move.lengthened; }
+  int big() const { return sense > 0 ? variable.shortened : variable.lengthened; }
 };
 
 /// Everything that has moved along the cables; or derivatives of it.
 template <class Real, class Cap>
-struct Moving {
-  FixedArray<Real, Cap::joints> slip;                   ///< delta of every joint [m]
-  FixedArray<std::array<Real, 2>, Cap::cables> payout;  ///< at start and end of every cable [m]
-  FixedArray<Real, Cap::segments> slack_length;  ///< length that every run has too much [m], zero if taut
+struct SlipState {
+  FixedArray<Real, Cap::joints> slip;                      ///< delta of every joint [m]
+  FixedArray<std::array<Real, 2>, Cap::cables> extension;  ///< at start and end of every cable [m]
+  FixedArray<Real, Cap::segments> slack_length;  ///< length that every span has too much [m], zero if taut
 
-  friend bool operator==(const Moving& a, const Moving& b) {
-    return a.slip == b.slip && a.payout == b.payout && a.slack_length == b.slack_length;
+  friend bool operator==(const SlipState& a, const SlipState& b) {
+    return a.slip == b.slip && a.extension == b.extension && a.slack_length == b.slack_length;
   }
-  /// What `move` has come to.
-  Real& of(const Move& move) {
-    if (move.kind == Move::Kind::slack_length) return slack_length[move.index];
-    if (move.kind == Move::Kind::payout)
-      return payout[move.index / 2][static_cast<std::size_t>(move.index % 2)];
-    return slip[move.index];
+  /// What `variable` has come to.
+  Real& of(const SlipVariable& variable) {
+    if (variable.kind == SlipVariable::Kind::slack_length) return slack_length[variable.index];
+    if (variable.kind == SlipVariable::Kind::extension)
+      return extension[variable.index / 2][static_cast<std::size_t>(variable.index % 2)];
+    return slip[variable.index];
   }
 };
 
 /// As many as there can be: their laws are linear in the tensions, and no more of them are independent.
 template <class Cap>
-constexpr int max_active_moves = Cap::segments;
+constexpr int max_active_constraints = Cap::segments;
 
 /// Something outside that changes along a path.
 struct Input {
-  enum class Kind : std::uint8_t { load, jack_force, payout, prestrain } kind = Kind::load;
+  enum class Kind : std::uint8_t { load, jack_force, extension, prestrain } kind = Kind::load;
   std::int16_t index = 0;  ///< load pattern; 2 x cable + end
 };
 
-/// What the law of an active move changes by when another move grows by one: an entry of R W [N/m].
+/// What the law of an active variable changes by when another slip variable grows by one: an entry of R W
+/// [N/m].
 template <class CondensedType>
 typename CondensedType::Real resistance(const CondensedType& model,
-                                        const Law<typename CondensedType::Real>& law, const Move& move) {
+                                        const TensionConstraint<typename CondensedType::Real>& law,
+                                        const SlipVariable& variable) {
   const auto tension = [&](int segment) {
-    const auto lengthened = model.coupling(segment, move.lengthened);
-    return move.shortened < 0 ? lengthened : lengthened - model.coupling(segment, move.shortened);
+    const auto lengthened = model.coupling(segment, variable.lengthened);
+    return variable.shortened < 0 ? lengthened : lengthened - model.coupling(segment, variable.shortened);
   };
   return law.second < 0 ? tension(law.first) : tension(law.first) - law.weight * tension(law.second);
 }
@@ -105,9 +108,9 @@ struct SlipMode {
   static SlipMode of(int joint, JointState way) { return {static_cast<std::int16_t>(joint), way}; }
 };
 
-/// Moves and laws of the joints of a condensed scene. If `Adjustable`, their rho can be changed.
+/// Slips and laws of the joints of a condensed scene. If `Adjustable`, their rho can be changed.
 template <class CondensedType, bool Adjustable = false>
-class JointLaws {
+class JointConstraints {
  public:
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
@@ -124,11 +127,11 @@ class JointLaws {
   }
   /// Segments before and after a joint.
   const std::array<std::int16_t, 2>& sides(int joint) const { return sides_[joint]; }
-  Move slip(int joint) const {
+  SlipVariable slip(int joint) const {
     if (Cap::joints == 0) return {};
-    return {Move::Kind::slip, static_cast<std::int16_t>(joint), sides_[joint][0], sides_[joint][1]};
+    return {SlipVariable::Kind::slip, static_cast<std::int16_t>(joint), sides_[joint][0], sides_[joint][1]};
   }
-  Law<Real> limit(const SlipMode& mode) const {
+  TensionConstraint<Real> limit(const SlipMode& mode) const {
     const auto& sides = sides_[mode.joint];
     const bool forward = mode.way == JointState::forward;
     return {sides[forward ? 0 : 1], sides[forward ? 1 : 0], rho(mode.joint)};
@@ -140,14 +143,14 @@ class JointLaws {
       return model_->rho[joint];
   }
   void set_rho(int joint, Real rho) { rho_[joint] = rho; }
-  Active sliding(const SlipMode& mode) const {
+  ActiveConstraint sliding(const SlipMode& mode) const {
     return {slip(mode.joint), -1, static_cast<std::int8_t>(mode.way == JointState::forward ? 1 : -1), -1};
   }
   /// A joint without friction slides both ways.
-  Active gliding(int joint) const { return {slip(joint), -1, 0, -1}; }
-  Law<Real> of(const Active& active) const {
-    if (!active.slides()) return Law<Real>::on(active.on);
-    return limit({active.move.index, active.sense > 0 ? JointState::forward : JointState::backward});
+  ActiveConstraint gliding(int joint) const { return {slip(joint), -1, 0, -1}; }
+  TensionConstraint<Real> of(const ActiveConstraint& active) const {
+    if (!active.slides()) return TensionConstraint<Real>::on(active.on);
+    return limit({active.variable.index, active.sense > 0 ? JointState::forward : JointState::backward});
   }
 
  private:

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "taut/elements/friction_element.hpp"
-#include "taut/estimation/knowledge.hpp"
+#include "taut/estimation/friction_prior.hpp"
 
 namespace taut {
 
@@ -13,26 +13,26 @@ constexpr Real drift_sd(const Cable<Real>& cable) {
   return has_jack && !cable.closed ? cable.alpha * cable.temperature_sd : Real(0);
 }
 
-/// Fills `knowledge` from a valid scene.
+/// Fills `prior` from a valid scene.
 template <class Scalar, class SceneType>
-void find_knowledge(const SceneType& scene, Knowledge<Scalar, typename SceneType::Capacity>& knowledge) {
+void find_friction_prior(const SceneType& scene, FrictionPrior<Scalar, typename SceneType::Capacity>& prior) {
   using Real = Wide<Scalar>;
   using Frame = JointFrame<Real, SceneType::dimension>;
-  knowledge = {};
+  prior = {};
   for (int c = 0; c < scene.cables.size(); ++c) {
     const auto& cable = scene.cables[c];
-    knowledge.capstan[c] = cable.law == FrictionLaw::capstan;
-    knowledge.mu_sd[c] = static_cast<Scalar>(cable.mu_sd);
-    knowledge.shared[c] = cable.shared_mu;
-    knowledge.seating_sd[c] = static_cast<Scalar>(cable.seating_sd);
-    knowledge.drift_sd[c] = static_cast<Scalar>(drift_sd(cable));
-    for (int i = 0; knowledge.drift_sd[c] > 0 && i < cable.segments(); ++i) {
+    prior.capstan[c] = cable.law == FrictionLaw::capstan;
+    prior.mu_sd[c] = static_cast<Scalar>(cable.mu_sd);
+    prior.shared[c] = cable.shared_mu;
+    prior.seating_sd[c] = static_cast<Scalar>(cable.seating_sd);
+    prior.drift_sd[c] = static_cast<Scalar>(drift_sd(cable));
+    for (int i = 0; prior.drift_sd[c] > 0 && i < cable.segments(); ++i) {
       const auto at = scene.segment_nodes(cable, i);
-      knowledge.length[cable.first_segment + i] = static_cast<Scalar>(
+      prior.length[cable.first_segment + i] = static_cast<Scalar>(
           Line<Real, SceneType::dimension>::between(scene.nodes[at[0]], scene.nodes[at[1]]).length);
     }
-    knowledge.scatter[c] = static_cast<Scalar>(cable.scatter);
-    for (std::size_t end = 0; end < 2; ++end) knowledge.cell[c][end] = LoadCell<Scalar>::of(cable.cell[end]);
+    prior.scatter[c] = static_cast<Scalar>(cable.scatter);
+    for (std::size_t end = 0; end < 2; ++end) prior.cell[c][end] = LoadCell<Scalar>::of(cable.cell[end]);
     for (int k = 0; k < cable.joints(); ++k) {
       const int j = cable.first_joint + k;
       const auto at = scene.joint_nodes(cable, k);
@@ -41,11 +41,11 @@ void find_knowledge(const SceneType& scene, Knowledge<Scalar, typename SceneType
         return static_cast<Real>(
             Line<Real, SceneType::dimension>::between(scene.nodes[from], scene.nodes[to]).length / 2);
       };
-      knowledge.mu[j] = static_cast<Real>(scene.mu[j]);
-      knowledge.grip[j] = knowledge.capstan[c] ? capstan_angle(frame.cos_alpha, frame.sin_alpha,
-                                                               static_cast<Real>(cable.wobble),
-                                                               half(at.before, at.at) + half(at.at, at.after))
-                                               : frame.cos_alpha / frame.sin_alpha;
+      prior.mu[j] = static_cast<Real>(scene.mu[j]);
+      prior.contact_factor[j] =
+          prior.capstan[c] ? capstan_angle(frame.cos_alpha, frame.sin_alpha, static_cast<Real>(cable.wobble),
+                                           half(at.before, at.at) + half(at.at, at.after))
+                           : frame.cos_alpha / frame.sin_alpha;
     }
   }
 }

@@ -13,13 +13,13 @@ namespace taut {
 /// Friction of every joint as a function of its mu, how well mu is known, and the load cells.
 /// Beside Condensed, all that an Estimator needs of a scene; an aggregate, it can be a constant in flash.
 template <class Scalar_, class Cap>
-struct Knowledge {
+struct FrictionPrior {
   using Scalar = Scalar_;
   using Real = Wide<Scalar>;
 
   FixedArray<Real, Cap::joints> mu;  ///< nominal [-]
   /// What mu is multiplied by: cot(alpha) of a point contact, beta + k s of a capstan [-].
-  FixedArray<Real, Cap::joints> grip;
+  FixedArray<Real, Cap::joints> contact_factor;
   FixedArray<bool, Cap::cables> capstan;
   FixedArray<Scalar, Cap::cables> mu_sd;    ///< standard deviation of what is known of mu; 0: known exactly
   FixedArray<bool, Cap::cables> shared;     ///< one unknown a cable: a common factor on the nominal values
@@ -37,7 +37,7 @@ struct Knowledge {
     Real rho, slope;
   };
   constexpr Limit limit(int c, int joint, Real at_mu) const {
-    const Real g = grip[joint];
+    const Real g = contact_factor[joint];
     if (capstan[c]) {
       const Real rho = decay(at_mu * g);
       return {rho, -g * rho};

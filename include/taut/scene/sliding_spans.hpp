@@ -1,4 +1,4 @@
-// Runs: the parts of the cables that go slack and taut as a whole.
+// SlidingSpans: the parts of the cables that go slack and taut as a whole.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace taut {
 
 /// A part of a cable between anchors, jacks and self-locking joints. Every joint inside can slide, so at zero
 /// tension one slack segment pulls its neighbours slack too.
-struct Run {
+struct SlidingSpan {
   std::int16_t cable = 0;
   std::int16_t first = 0;          ///< segment of the cable it starts with
   std::int16_t count = 0;          ///< segments
@@ -17,71 +17,71 @@ struct Run {
   std::int16_t first_segment = 0;  ///< of the cable, in the scene's numbering
   std::int16_t first_joint = 0;
   bool closed = false;  ///< its cable is a hoop
-  bool ring = false;    ///< a closed hoop without a self-locking joint: the run has no end
+  bool ring = false;    ///< a closed hoop without a self-locking joint: the span has no end
 
-  /// Segment `i` of the run, in the scene's numbering.
+  /// Segment `i` of the span, in the scene's numbering.
   constexpr int segment(int i) const { return first_segment + (first + i) % around; }
-  /// Joint `i` of those inside the run, in the scene's numbering: the one after its segment `i`.
+  /// Joint `i` of those inside the span, in the scene's numbering: the one after its segment `i`.
   constexpr int joint(int i) const { return first_joint + (closed ? (first + i + 1) % around : first + i); }
-  /// A joint inside the run or beside it, -1 if its cable has none.
+  /// A joint inside the span or beside it, -1 if its cable has none.
   constexpr int joint_near() const {
     if (closed || first + 1 < around) return joint(0);
     return first == 0 ? -1 : joint(-1);
   }
-  /// Joints inside the run.
+  /// Joints inside the span.
   constexpr int joints() const { return ring ? count : count - 1; }
 };
 
-/// All runs of a scene, and the run of every segment.
+/// All sliding spans of a scene, and the span of every segment.
 template <class Cap>
-class Runs {
+class SlidingSpans {
  public:
-  /// `cables` is a list of CableLayout or Cable; is_locked(joint) tells which joints never slide.
+  /// `cables` is a list of CableLayout or Cable; is_self_locking(joint) tells which joints never slide.
   template <class Cables, class Locked>
-  void find(const Cables& cables, Locked is_locked) {
-    runs_ = {};
+  void find(const Cables& cables, Locked is_self_locking) {
+    spans_ = {};
     for (int c = 0; c < cables.size(); ++c) {
       const auto& cable = cables[c];
       const int n = cable.segments();
       const auto ends_here = [&](int segment) {
         const int joint = cable.segment_joints(segment)[1];
-        return joint < 0 || is_locked(joint);
+        return joint < 0 || is_self_locking(joint);
       };
       int last_end = -1;
       for (int i = 0; i < n; ++i)
         if (ends_here(i)) last_end = i;
       const bool ring = last_end < 0;
-      Run run;
-      run.cable = small(c);
-      run.around = small(n);
-      run.first_segment = small(cable.first_segment);
-      run.first_joint = small(cable.first_joint);
-      run.closed = cable.closed;
-      run.ring = ring;
-      run.first = small(ring ? 0 : (last_end + 1) % n);
+      SlidingSpan span;
+      span.cable = small(c);
+      span.around = small(n);
+      span.first_segment = small(cable.first_segment);
+      span.first_joint = small(cable.first_joint);
+      span.closed = cable.closed;
+      span.ring = ring;
+      span.first = small(ring ? 0 : (last_end + 1) % n);
       for (int i = 0; i < n; ++i) {
-        ++run.count;
-        const int segment = (run.first + run.count - 1) % n;
-        of_[cable.first_segment + segment] = small(runs_.size());
+        ++span.count;
+        const int segment = (span.first + span.count - 1) % n;
+        of_[cable.first_segment + segment] = small(spans_.size());
         if (!ends_here(segment) && i + 1 < n) continue;
-        runs_.add(run);
-        run.first = small((segment + 1) % n);
-        run.count = 0;
+        spans_.add(span);
+        span.first = small((segment + 1) % n);
+        span.count = 0;
       }
     }
   }
 
-  int size() const { return runs_.size(); }
-  const Run& operator[](int run) const { return runs_[run]; }
-  const Run* begin() const { return runs_.begin(); }
-  const Run* end() const { return runs_.end(); }
-  /// The run of a segment, in the scene's numbering.
+  int size() const { return spans_.size(); }
+  const SlidingSpan& operator[](int span) const { return spans_[span]; }
+  const SlidingSpan* begin() const { return spans_.begin(); }
+  const SlidingSpan* end() const { return spans_.end(); }
+  /// The span of a segment, in the scene's numbering.
   int of(int segment) const { return of_[segment]; }
 
  private:
   static constexpr std::int16_t small(int number) { return static_cast<std::int16_t>(number); }
 
-  FixedList<Run, Cap::segments> runs_;
+  FixedList<SlidingSpan, Cap::segments> spans_;
   FixedArray<std::int16_t, Cap::segments> of_;
 };
 
