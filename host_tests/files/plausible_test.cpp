@@ -170,11 +170,15 @@ TEST_CASE("a cell that scatters by more than its cable ever pulls is refused at 
     return ramp("time,C.start,C.end", 50,
                 [&](int i) { return up_to(0.9 * most, 50, i) + "," + up_to(most, 50, i); });
   };
-  check_refused(
-      site, "estimate", log(350),
-      "scene.json: /sensors/C.start/sd: a cell that scatters by 200 N tells nothing of a cable whose jacks "
-      "pull at most 350 N; ");
-  check_taken(site, "estimate", log(1000));
+  check_refused(site, "estimate", log(350),
+                "scene.json: /sensors/C.start/sd: a cell that scatters by 200 N where the jacks of its cable "
+                "pull at most 350 N; ");
+  check_taken(site, "estimate", log(1000));  // a first stage
+  // A tenth of a jacking that is under way.
+  site.sensors = R"("C.start": { "sd": 5000 } )";
+  check_refused(site, "estimate", log(49000),
+                "scatters by 5000 N where the jacks of its cable pull at most 49000 N; write sd in N");
+  check_taken(site, "estimate", log(51000));
   // At rest there is nothing but noise.
   check_taken(site, "estimate", ramp("time,C.start,C.end", 50, [](int i) {
                 return std::string(i % 3 == 0 ? "90,-80" : "-70,60");

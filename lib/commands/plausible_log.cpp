@@ -11,7 +11,9 @@
 namespace taut::host {
 namespace {
 
-constexpr double least_strain = 1e-5, part_of_length = 0.1, part_of_largest = 0.5, clear_of_noise = 20;
+constexpr double least_strain = 1e-5, part_of_length = 0.1, clear_of_noise = 20;
+// Until a cable is strained as in a first stage, most of a sound log is still to come.
+constexpr double first_stage_strain = 1e-4, part_in_first_stage = 0.5, part_of_largest = 0.1;
 constexpr double least_growth = 0.005, most_times_stretch = 100;  // [m], [-]
 constexpr std::size_t most_strokes = 4096, least_strokes = 3, least_readings = 3;
 
@@ -172,12 +174,14 @@ void PlausibleLog::require_deviations(std::size_t c) const {
   double largest = 0;
   for (const Jack& jack : cables_[c].jack) largest = std::max(largest, jack.pull());
   if (largest == 0) return;
+  const bool is_first_stage = largest < first_stage_strain * cable.E * cable.A;
+  const double most = (is_first_stage ? part_in_first_stage : part_of_largest) * largest;
   const auto require = [&](const InstrumentDescription& cell, const std::string& column) {
-    if (!cell.exact && !cell.is_assumed && cell.sd && *cell.sd > part_of_largest * largest)
+    if (!cell.exact && !cell.is_assumed && cell.sd && *cell.sd > most)
       refuse(
           scene_.file, "/sensors" + pointer_step(column) + "/sd",
-          "a cell that scatters by " + plain(*cell.sd) +
-              " N tells nothing of a cable whose jacks pull at most " + plain(largest) + " N",
+          "a cell that scatters by " + plain(*cell.sd) + " N where the jacks of its cable pull at most " +
+              plain(largest) + " N",
           "write sd in N, and in the header of the log the unit of its columns, as in " + column + " [kN]");
   };
   for (std::size_t end = 0; end < 2; ++end) require(cable.cell[end], column_of(cable, end));
