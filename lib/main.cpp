@@ -164,6 +164,8 @@ class CommandLine {
     plan_->add_option("GOAL", plan_options_.goal, "Goal file: targets, limits, moves (JSON)")->required();
     plan_->add_option("-o", plan_options_.log, "Log of the plan (CSV), for simulate");
     plan_->add_option("--report", plan_options_.sheet, "Sheet for the site (HTML)");
+    plan_->add_flag("--robust", plan_options_.is_robust,
+                    "Against all that is known of mu, not for its mean alone");
   }
 
   void add_limits(CLI::App& command, taut::AlarmLimits<double>& limits) {

@@ -1,6 +1,7 @@
 // `taut plan` as people run it.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -28,14 +29,14 @@ struct Run {
   bool has_log = false;
 };
 
-Run plan(const std::string& scene, const std::string& goal) {
+Run plan(const std::string& scene, const std::string& goal, const std::string& options = "") {
   const Scratch scratch;
   std::ofstream(scratch.path / "scene.json") << scene;
   std::ofstream(scratch.path / "goal.json") << goal;
   Run run;
-  run.outcome =
-      run_taut(scratch, "plan " + scratch.quoted("scene.json") + " " + scratch.quoted("goal.json") + " -o " +
-                            scratch.quoted("log.csv") + " --report " + scratch.quoted("sheet.html"));
+  run.outcome = run_taut(scratch, "plan " + scratch.quoted("scene.json") + " " + scratch.quoted("goal.json") +
+                                      " -o " + scratch.quoted("log.csv") + " --report " +
+                                      scratch.quoted("sheet.html") + options);
   run.log = text_of(scratch.path / "log.csv");
   run.sheet = text_of(scratch.path / "sheet.html");
   run.has_log = std::filesystem::exists(scratch.path / "log.csv");
@@ -133,6 +134,45 @@ TEST_CASE("over the prior the mean, the expected and the 95 % error are said sid
   CHECK(has(run.outcome.out, ", expected "));
   CHECK(has(run.outcome.out, ", at 95 % "));
   CHECK(has(run.outcome.out, "C.end.stroke.low"));
+}
+
+TEST_CASE("a robust plan is said beside that for the mean of mu, and expects less") {
+  const std::string data = TAUT_ROOT "/firmware_example/data/";
+  const std::string scene = text_of(data + "plan_string.json"),
+                    goal = text_of(data + "plan_string_goal.json");
+  const Run usual = plan(scene, goal), robust = plan(scene, goal, " --robust");
+  REQUIRE(robust.outcome.status == 0);
+  const auto errors = [](const std::string& text, const std::string& line) {
+    const std::size_t at = text.find(line);
+    REQUIRE(at != std::string::npos);
+    const std::string said = text.substr(at, text.find('\n', at) - at);
+    const auto number = [&](const std::string& word) {
+      return std::stod(said.substr(said.find(word) + word.size()));
+    };
+    return std::array<double, 3>{number("at its mean "), number("expected "), number("at 95 % ")};
+  };
+  const auto alone = errors(usual.outcome.out, "# over what is known of mu");
+  CHECK(errors(robust.outcome.out, "# the plan for the mean of mu alone") == alone);
+  const auto found = errors(robust.outcome.out, "# over what is known of mu");
+  CHECK(found[0] >= alone[0]);
+  CHECK(found[1] < alone[1]);
+  CHECK(found[2] < alone[2]);
+  CHECK(WellFormed(robust.sheet)() == "");
+  CHECK(has(robust.sheet, "the plan for the mean of mu alone"));
+}
+
+TEST_CASE("a robust plan keeps the limits at the mean of mu, and needs to know how well mu is known") {
+  const std::string goal =
+      R"({ "taut": 1, "target": { "C": 5e5 }, "stages": 2, "limits": { "C.end": 5.6e5 } })";
+  const Run run = plan(two_bays, goal, " --robust");
+  for (const auto& row : rows_of(run.outcome.out))
+    if (row[0] == "1" || row[0] == "2") CHECK(std::stod(row[2]) <= 5.6e5);
+  std::string known = two_bays;
+  known.replace(known.find("\"mu_sd\": 0.05"), 13, "\"mu_sd\": 0");
+  const Run refused = plan(known, goal, " --robust");
+  CHECK(refused.outcome.status == 2);
+  CHECK(has(refused.outcome.err, "write mu_sd into \"friction\", or leave --robust out"));
+  CHECK_FALSE(refused.has_log);
 }
 
 TEST_CASE("limits that leave no way near end with 1, and with the best that was found") {
@@ -248,6 +288,9 @@ TEST_CASE("the example in the README is what the program prints") {
   // The remarks but for the title.
   const std::string said = remarks(outcome.out);
   CHECK(has(text_of(std::string(TAUT_ROOT) + "/README.md"), said.substr(said.find('\n') + 1)));
+  const Outcome robust =
+      run_taut(scratch, "plan plan_string.json plan_string_goal.json --robust", "cd '" + data + "'");
+  CHECK(has(readme, "```text\n" + remarks(robust.out) + "```\n"));
 }
 
 TEST_CASE("a roof that hangs through without its cable is jacked while its load comes on") {

@@ -50,6 +50,15 @@ int plan(const PlanOptions& options) {
     std::cerr << options.scene << ": " << failure_text(result.plan.status, scene).english() << '\n';
     return 1;
   }
+  if (options.is_robust) {
+    if (!has_prior(scene))
+      throw InputError(scene.file, "/cables",
+                       "says of no cable how well mu is known, so no plan can be robust",
+                       "write mu_sd into \"friction\", or leave --robust out");
+    const PriorOutcome prior = outcome_over_prior(scene, goal, result.plan.jacks, result.plan.stages);
+    result.for_mean = {result.plan.outcome.error, prior.expected, prior.at_95};
+    result.plan = find_robust_plan(scene, goal, result.plan);
+  }
   const std::string log = plan_log(scene, goal, result.plan);
   result.simulated = simulate(log, scene);
   if (!result.simulated.stopped.empty()) {

@@ -7,8 +7,9 @@ namespace taut::host {
 
 struct PlanOptions {
   std::string scene, goal;
-  std::string log;    ///< where the log goes; empty: nowhere
-  std::string sheet;  ///< where the sheet for the site goes; empty: nowhere
+  std::string log;         ///< where the log goes; empty: nowhere
+  std::string sheet;       ///< where the sheet for the site goes; empty: nowhere
+  bool is_robust = false;  ///< against all that is known of mu, not for its mean alone
 };
 
 /// Prints the plan and writes its log and its sheet. Returns the exit status: 0; or 1 if the structure has no

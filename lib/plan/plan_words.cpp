@@ -69,13 +69,20 @@ std::vector<std::string> plan_sentences(const SceneDescription& scene, const Pla
       said.push_back(counted(prior.failed, "draw") + " of " + std::to_string(prior.draws) +
                      " of mu had no answer and do not count");
   }
+  if (result.for_mean)
+    said.push_back("the plan for the mean of mu alone: at its mean " + part_text(result.for_mean->at_mean) +
+                   ", expected " + part_text(result.for_mean->expected) + ", at 95 % " +
+                   part_text(result.for_mean->at_95));
   const Furthest far = furthest(plan.outcome.tension.back(), goal);
   std::string stop;
   if (far.least < 0) stop += segment_text(scene, far.low) + " (" + part_text(-far.least) + " too low)";
   if (far.most > 0)
     stop += (stop.empty() ? "" : " and ") + segment_text(scene, far.high) + " (" + part_text(far.most) +
             " too high)";
-  if (error > 1e-9) {
+  if (error > 1e-9 && result.for_mean)
+    said.push_back("no smaller expected error was found (not proved); at the mean of mu " + stop +
+                   " are the furthest");
+  else if (error > 1e-9) {
     const std::string friction = has_limits(goal) ? "friction and the limits allow" : "friction allows";
     switch (plan.certainty) {
       case Certainty::best_of_all:

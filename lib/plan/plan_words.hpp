@@ -10,14 +10,16 @@
 #include "lib/plan/goal.hpp"
 #include "lib/plan/plan_log.hpp"
 #include "lib/plan/prior.hpp"
+#include "lib/plan/robust_plan.hpp"
 
 namespace taut::host {
 
 /// A plan with all that was found of it, for the table and the sheet.
 struct PlanResult {
   Plan plan;
-  SimulatedPlan simulated;            ///< by the log of the plan
-  std::optional<PriorOutcome> prior;  ///< where mu is not known exactly
+  SimulatedPlan simulated;             ///< by the log of the plan
+  std::optional<PriorOutcome> prior;   ///< where mu is not known exactly
+  std::optional<PlanErrors> for_mean;  ///< of the plan for the mean of mu, where this is a robust one
 };
 
 /// `segment 3 of cable "C"`, for a segment of the scene.

@@ -8,7 +8,6 @@
 namespace taut::host {
 namespace {
 
-// Condensing in second-order theory takes long.
 constexpr std::size_t draws_linear = 100, draws_second_order = 32;
 
 // The coordinates of a point of the sequence, one after the other.
@@ -103,6 +102,10 @@ SceneDescription with_mu(const SceneDescription& scene, const std::vector<double
   return other;
 }
 
+std::size_t draws_of(const SceneDescription& scene) {
+  return scene.second_order ? draws_second_order : draws_linear;
+}
+
 PriorOutcome outcome_over_prior(const SceneDescription& scene, const PlanGoal& goal,
                                 const std::vector<PlanJack>& jacks, const std::vector<PlanStage>& stages,
                                 const std::vector<PastMove>& past, const GiveUp& give_up) {
@@ -110,7 +113,7 @@ PriorOutcome outcome_over_prior(const SceneDescription& scene, const PlanGoal& g
   std::vector<double> error;
   std::vector<std::vector<std::vector<double>>> stroke(stages.size(),
                                                        std::vector<std::vector<double>>(jacks.size()));
-  const std::size_t draws = scene.second_order ? draws_second_order : draws_linear;
+  const std::size_t draws = draws_of(scene);
   for (std::size_t number = 0; number < draws; ++number) {
     const SceneDescription other = drawn(scene, number);
     Jacking jacking(other, goal, jacks, give_up);

@@ -23,6 +23,9 @@ SceneDescription drawn(const SceneDescription& scene, std::size_t number);
 SceneDescription with_mu(const SceneDescription& scene, const std::vector<double>& mu,
                          const std::vector<double>& deviation);
 
+/// How many draws stand for the prior: 100, and 32 in second-order theory, where condensing takes long.
+std::size_t draws_of(const SceneDescription& scene);
+
 /// What a plan does over the prior.
 struct PriorOutcome {
   std::size_t draws = 0, failed = 0;  ///< of these the model has no answer
