@@ -4,6 +4,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -228,7 +229,7 @@ class CommandLine {
   WatchOptions watching_;
   ReportOptions reporting_;
   std::vector<std::string> scenes_;
-  std::string c_name_;
+  std::optional<std::string> c_name_;
   std::string method_ = methods.front().first, scalar_ = "double", language_ = languages.front().first;
 };
 

@@ -59,11 +59,11 @@ void require_same_theory(const ExportedScene& scene, const std::vector<ExportedS
 
 // One scene has one set of functions; their names begin with that of the interface.
 void require_possible(const ExportOptions& options) {
-  if (options.c_name.empty()) return;
-  if (identifier(options.c_name) != options.c_name)
+  if (!options.c_name) return;
+  if (identifier(*options.c_name) != *options.c_name)
     throw InputError(
-        "--c", "", quote(options.c_name) + " is no identifier of C that is free",
-        "write letters, digits and single underscores, such as " + quote(identifier(options.c_name)));
+        "--c", "", quote(*options.c_name) + " is no identifier of C that is free",
+        "write letters, digits and single underscores, such as " + quote(identifier(*options.c_name)));
   if (options.output.empty())
     throw InputError("--c", "", "has no folder to write to", "name the header with -o FOLDER/SCENE.hpp");
   if (options.scenes.size() > 1)
@@ -73,7 +73,7 @@ void require_possible(const ExportOptions& options) {
 }
 
 std::string beside(const ExportOptions& options, const char* ending) {
-  return (std::filesystem::path(options.output).parent_path() / (options.c_name + ending)).string();
+  return (std::filesystem::path(options.output).parent_path() / (*options.c_name + ending)).string();
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ int export_scenes(const ExportOptions& options) {
   }
   keep_inputs(options.output, options.scenes);
   const std::string header = scene_header(scenes);
-  if (options.c_name.empty()) {
+  if (!options.c_name) {
     OutputFile output(options.output);
     output.write(header);
     output.finish();
@@ -118,8 +118,8 @@ int export_scenes(const ExportOptions& options) {
   }
   OutputFile output(options.output), c_output(c_file), source(source_file);
   output.write(header);
-  c_output.write(c_header(scene, options.c_name));
-  source.write(c_source(scene, options.c_name, file));
+  c_output.write(c_header(scene, *options.c_name));
+  source.write(c_source(scene, *options.c_name, file));
   output.finish();
   c_output.finish();
   source.finish();

@@ -1,15 +1,16 @@
 // `taut export`: condensed scenes as a C++ header with constants for flash.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace taut::host {
 
 struct ExportOptions {
-  std::vector<std::string> scenes;  ///< at least one
-  std::string output;               ///< empty: standard output
-  std::string c_name;               ///< of a C interface beside it; empty: none
+  std::vector<std::string> scenes;    ///< at least one
+  std::string output;                 ///< empty: standard output
+  std::optional<std::string> c_name;  ///< of a C interface beside it
 };
 
 /// Writes the header and returns the exit status: 0, or 1 if a structure cannot be condensed, with the

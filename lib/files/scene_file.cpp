@@ -284,7 +284,14 @@ class SceneReader {
                                  : "a beam: { \"nodes\": [...], \"E\": ..., \"A\": ..., \"I\": ... }");
       BeamDescription beam;
       const Field nodes = item.at("nodes");
-      for (const Field& name : nodes.elements("a list of node names")) beam.nodes.push_back(node(name));
+      for (const Field& name : nodes.elements("a list of node names")) {
+        beam.nodes.push_back(node(name));
+        // A beam may close a ring, but not go back where it came from.
+        const std::size_t count = beam.nodes.size();
+        if (count > 2 && beam.nodes[count - 1] == beam.nodes[count - 3])
+          name.refuse("the beam goes back to node " + quote(name.text("")) + " over the same member",
+                      "write every member once");
+      }
       if (beam.nodes.size() < 2) {
         nodes.refuse("the beam has " + counted(beam.nodes.size(), "node"), "write at least 2");
       }
