@@ -47,7 +47,9 @@ TEST_CASE("strokes that the scene describes are listed by cable and end, a free 
 }
 
 TEST_CASE("deviations of mu and of load cells are those of the scene; without one a jack is exact") {
-  CHECK(arch::prior<double>.mu_sd[0] == 0.03);
+  // 0.03 and, of three joints that scatter by the usual tenth of 0.15, what is left in the sum of their
+  // friction.
+  CHECK(arch::prior<double>.mu_sd[0] == doctest::Approx(0.03136651279).epsilon(1e-8));
   CHECK(arch::prior<double>.shared[0]);
   CHECK(arch::prior<double>.cell[0][0].sd == 20);
   CHECK(arch::prior<double>.cell[0][1].sd == 0);

@@ -1,6 +1,8 @@
 // Collects what a scene says of friction and load cells.
 #pragma once
 
+#include <cmath>
+
 #include "taut/elements/friction_element.hpp"
 #include "taut/estimation/friction_prior.hpp"
 
@@ -11,6 +13,29 @@ template <class Real>
 constexpr Real drift_sd(const Cable<Real>& cable) {
   const bool has_jack = cable.ends[0] == End::jacked || cable.ends[1] == End::jacked;
   return has_jack && !cable.closed ? cable.alpha * cable.temperature_sd : Real(0);
+}
+
+/// Standard deviation of the shared mu of cable `c` [-], which stands for the friction of all of its joints
+/// together: sqrt(sd^2 + (s m)^2 sum k^2 / (sum k)^2), with the standard deviation `sd` of what is known of
+/// mu, the scatter s of Eq. (29), k what mu times the contact factor is at a joint that can slide, and the
+/// mean m of their mu. `prior` has all else of that cable. Cost: a pass over the joints.
+template <class Scalar, class Cap, class CableType>
+Scalar shared_deviation(const CableType& cable, int c, const FrictionPrior<Scalar, Cap>& prior) {
+  using Real = Wide<Scalar>;
+  Real mu = 0, kappa = 0, square = 0;
+  int free = 0;
+  for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j) {
+    if (!(prior.limit(c, j, prior.mu[j]).rho > 0)) continue;
+    const Real at = prior.mu[j] * prior.contact_factor[j];
+    mu += prior.mu[j];
+    kappa += at;
+    square += at * at;
+    ++free;
+  }
+  if (!(kappa > 0)) return prior.mu_sd[c];
+  const Real sd = static_cast<Real>(prior.mu_sd[c]),
+             part = static_cast<Real>(prior.scatter[c]) * mu / (static_cast<Real>(free) * kappa);
+  return static_cast<Scalar>(std::sqrt(sd * sd + part * part * square));
 }
 
 /// Fills `prior` from a valid scene.
@@ -47,6 +72,7 @@ void find_friction_prior(const SceneType& scene, FrictionPrior<Scalar, typename 
                                            half(at.before, at.at) + half(at.at, at.after))
                            : frame.cos_alpha / frame.sin_alpha;
     }
+    if (prior.shared[c] && prior.scatter[c] > 0) prior.mu_sd[c] = shared_deviation(cable, c, prior);
   }
 }
 

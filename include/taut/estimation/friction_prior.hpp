@@ -21,9 +21,11 @@ struct FrictionPrior {
   /// What mu is multiplied by: cot(alpha) of a point contact, beta + k s of a capstan [-].
   FixedArray<Real, Cap::joints> contact_factor;
   FixedArray<bool, Cap::cables> capstan;
-  FixedArray<Scalar, Cap::cables> mu_sd;    ///< standard deviation of what is known of mu; 0: known exactly
-  FixedArray<bool, Cap::cables> shared;     ///< one unknown a cable: a common factor on the nominal values
-  FixedArray<Scalar, Cap::cables> scatter;  ///< of mu from joint to joint about that, relative
+  /// Standard deviation of what is known of mu, of a shared one with what `scatter` leaves in the mean of the
+  /// joints; 0: known exactly.
+  FixedArray<Scalar, Cap::cables> mu_sd;
+  FixedArray<bool, Cap::cables> shared;        ///< one unknown a cable: a common factor on the nominal values
+  FixedArray<Scalar, Cap::cables> scatter;     ///< of mu from joint to joint about that, relative
   FixedArray<Scalar, Cap::cables> seating_sd;  ///< standard deviation of the wedges' draw-in [m]
   /// Standard deviation of the strain that a cable takes on by itself once it is locked: alpha times that of
   /// the temperature that nobody logs [-]; 0: none.
