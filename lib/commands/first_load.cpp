@@ -1,7 +1,10 @@
 #include "lib/commands/first_load.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+
+#include "lib/commands/usual_deviations.hpp"
 
 namespace taut::host {
 namespace {
@@ -12,10 +15,24 @@ bool any(const Jacks& jacks, const Is& is) {
                      [&](const auto& cable) { return std::any_of(cable.begin(), cable.end(), is); });
 }
 
+// As is_under_load() of a device has it. What was taken for the noise of a cell that the scene does not know
+// comes from readings, and of a few near zero says little.
+double read_of_no_load(const CableDescription& cable, std::size_t end) {
+  const InstrumentDescription& cell = cable.cell[end];
+  if (cell.exact) return 0;
+  const double taken = cell.sd.value_or(0),
+               noise = cell.is_given ? taken : std::max(taken, usual_noise(cable));
+  return 5 *
+         std::sqrt(noise * noise + std::pow(cell.zero_sd.value_or(0), 2) + std::pow(cell.resolution, 2) / 12);
+}
+
 }  // namespace
 
 FirstLoad::FirstLoad(const LogRules& rules, const SceneDescription& scene)
-    : rules_(rules), scene_(scene), jacks_(scene.cables.size()) {}
+    : rules_(rules), scene_(scene), jacks_(scene.cables.size()) {
+  for (std::size_t c = 0; c < jacks_.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end) jacks_[c][end].none = read_of_no_load(scene.cables[c], end);
+}
 
 void FirstLoad::take(const LogRow& row) {
   ++rows_;

@@ -15,12 +15,14 @@ namespace taut::host {
 /// The jacks from the first row on.
 class FirstLoad {
  public:
+  /// The scene has what fill_in_deviations() gives it.
   FirstLoad(const LogRules& rules, const SceneDescription& scene);
 
   /// Rows in their order.
   void take(const LogRow& row);
   /// Whether some jack pulls in the first row more than 5 % of what it ever does, and did not come there from
-  /// zero in one stage: the next row goes on by less than 0.8 of that. As far as rows have been taken.
+  /// zero in one stage: the next row goes on by less than 0.8 of that. What noise and zero of its cell can
+  /// show is no load. As far as rows have been taken.
   bool is_under_load() const;
   /// Whether further rows can say so.
   bool is_open() const;
@@ -28,10 +30,10 @@ class FirstLoad {
  private:
   struct Jack {
     std::optional<double> first, second;
-    double largest = 0;
+    double largest = 0, none = 0;  // what may be read of no load
 
     // From a load of its own, and not in one stage from zero.
-    bool goes_on() const { return first && *first > 0 && (!second || *second - *first < 0.8 * *first); }
+    bool goes_on() const { return first && *first > none && (!second || *second - *first < 0.8 * *first); }
   };
 
   const LogRules& rules_;

@@ -228,6 +228,10 @@ void fill_in_cells(const CellTable& cells, SceneDescription& scene, std::vector<
 
 }  // namespace
 
+double usual_noise(const CableDescription& cable) {
+  return expected_noise * usual_strain * cable.E * cable.A;
+}
+
 std::vector<Sentence> fill_in_mu_deviations(SceneDescription& scene) {
   std::vector<Sentence> remarks;
   for (CableDescription& cable : scene.cables) {

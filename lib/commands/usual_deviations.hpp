@@ -10,6 +10,10 @@
 
 namespace taut::host {
 
+/// Standard deviation of the noise of a load cell of this cable of which neither scene nor readings tell
+/// [N]: 1e-3 of the force of a strain of 0.5 %.
+double usual_noise(const CableDescription& cable);
+
 /// Gives every cable without one a standard deviation of mu: half of it. Returns a remark on each.
 std::vector<Sentence> fill_in_mu_deviations(SceneDescription& scene);
 
