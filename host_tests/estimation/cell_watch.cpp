@@ -77,6 +77,30 @@ TEST_CASE("the way counts from where the value was first read, however slowly th
   CHECK(row == 42);
 }
 
+TEST_CASE("a cell that froze after a long noisy ramp is found as soon as one that never scattered") {
+  for (const double dt : {0.05, 0.2, 1.0})
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      CAPTURE(dt);
+      CAPTURE(seed);
+      support::Random random(seed);
+      auto watch = watch_of<double>(10);
+      int row = 0;
+      for (; row < 90; ++row) {
+        const double force = 1000 + 0.8 * row, reading = force + 10 * support::gaussian(random);
+        static_cast<void>(watch.follow_noise(reading, dt));
+        watch.take(reading, force, 0, watch.sd * watch.sd);
+      }
+      const double stuck = watch.last, began = watch.expected;
+      double force = began;
+      while (!watch.is_frozen && row < 1000) {
+        force = 1000 + 0.8 * row++;
+        static_cast<void>(watch.follow_noise(stuck, dt));
+        watch.take(stuck, force, 0, watch.sd * watch.sd);
+      }
+      CHECK(force - began < 10 * 10 + 1);
+    }
+}
+
 TEST_CASE("a cell that rests because the force rests is not frozen") {
   auto watch = watch_of<double>(1);
   for (int i = 0; i < 100000; ++i) {
@@ -120,11 +144,13 @@ TEST_CASE("a new value ends it, and what it read while it was frozen is no misfi
   const auto freeze = [&] {
     for (int i = 0; i < 15; ++i) take(watch, 1000, 1000 + 1.3 * i);
     CHECK_FALSE(watch.is_frozen);
+    CHECK(watch.fit.misfit() > 5);
     for (int i = 15; i < 18; ++i) take(watch, 1000, 1000 + 1.3 * i);
     CHECK(watch.is_frozen);
+    // That widens no interval any more.
+    CHECK(watch.fit.misfit() == 0);
   };
   freeze();
-  CHECK(watch.fit.misfit() > 5);
   // Where the force goes on at another rate.
   watch.noise.bend();
   take(watch, 1050, 1050);

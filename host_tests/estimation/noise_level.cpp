@@ -239,6 +239,27 @@ TEST_CASE("the error of a display lasts while it shows the same, and no longer")
   for (int i = 15; i < 100; ++i) CHECK(show((714.3 - 3.57 * i) * step) == 0);
 }
 
+TEST_CASE("readings that cease to change are no noise that is remembered") {
+  // A cell that freezes in a ramp, after as many readings as there may be.
+  double largest = 0;
+  for (const double dt : {0.05, 0.2, 1.0})
+    for (const int before : {30, 90, 300})
+      for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+        support::Random random(seed);
+        NoiseLevel<double> level;
+        level.start(1);
+        double reading = 0;
+        for (int i = 0; i < before + 400; ++i) {
+          if (i < before) reading = 100 + i + support::gaussian(random);
+          level.take(reading, dt);
+          if (i >= before) largest = std::fmax(largest, level.sd());
+        }
+      }
+  CAPTURE(largest);
+  // Ten times that is how far the force goes on before the cell is taken for dead.
+  CHECK(largest < 1.6);
+}
+
 TEST_CASE("across steps in time that are not even nothing is compared") {
   for (const double longer : {1.2, 1.3}) {
     CAPTURE(longer);

@@ -70,7 +70,11 @@ class Demands {
       between("jackings found odd", part(tally.odd, tally), 80, 100);
     if (name == "off-by-gain-2" && way == "plain")
       between("jackings found odd", part(tally.odd, tally), 50, 100);
-    if (name == "frozen-cell") between("jackings found odd", part(tally.odd, tally), 90, 100);
+    if (name == "frozen-cell") {
+      between("jackings found odd", part(tally.odd, tally), 90, 100);
+      // Once it is known to be dead it makes no force uncertain.
+      if (way == "declared") between("sd / rms", tally.all.sd_over_rms(), 0.7, 2.5);
+    }
   }
   static double part(long count, const Tally& tally) { return 100 * double(count) / double(tally.jackings); }
   void between(const std::string& what, double found, double least, double most) {

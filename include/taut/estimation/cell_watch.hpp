@@ -66,14 +66,14 @@ struct CellWatch {
       last = reading;
       expected = force;
       same = 1;
-      // Those that it should not have read say nothing of it.
-      if (is_frozen) fit = {};
       is_frozen = false;
       return;
     }
     if (same < often) ++same;
     const Scalar gone = std::fabs(force - expected);
     is_frozen = same == often && gone > far * sd && gone > part * std::fabs(force);
+    // What it should not have read says nothing of the model.
+    if (is_frozen) fit = {};
   }
 };
 

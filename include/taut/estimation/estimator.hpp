@@ -639,7 +639,7 @@ class Estimator : private CondensedType::Capacity::Account {
         alarms_.add(alarm_at(Alarm::Kind::sensor, end));
       if (!(far_ends_.watch(e).fit.misfit() > 0)) continue;
       misfits_ = true;
-      if (given.has_force && !far_ends_.watch(e).is_frozen) alarms_.add(alarm_at(Alarm::Kind::misfit, end));
+      if (given.has_force) alarms_.add(alarm_at(Alarm::Kind::misfit, end));
     }
     return learns;
   }

@@ -65,7 +65,9 @@ class NoiseLevel {
       explained = larger(explained, white);
     }
     const Scalar lasting = larger(rounding, Scalar(1.4142136) * swings);
-    if (distant_.learned < few || !distant_.exceeds(explained, 6)) return {white, lasting};
+    // That neighbours are alike where nothing changes any more is no memory.
+    if (on_line_ > rests || distant_.learned < few || !distant_.exceeds(explained, 6))
+      return {white, lasting};
     const Scalar r = remembered(distant_.sd / larger(near, beside_.sd));
     return {larger(white, r * std::sqrt(r) * distant_.sd), lasting};
   }
