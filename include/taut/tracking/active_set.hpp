@@ -100,9 +100,7 @@ class ActiveSet {
   /// O(segments).
   void settle(const Laws& laws, const Values& due, Tensions& T, Values& values, int passes = 1) const {
     if (size() == 0) return;
-    Real most = 0;
-    for (int i = 0; i < model_->segments; ++i) most = larger(most, std::fabs(T[i]));
-    for (int i = 0; i < size(); ++i) most = larger(most, std::fabs(due[i]));
+    const Real most = largest(size(), &due[0], largest(model_->segments, &T[0]));
     if (is_chains())
       settle_chains(laws, due, T, values);
     else
@@ -229,9 +227,9 @@ class ActiveSet {
       Real most = 0, off = 0;
       for (int i = 0; i < size(); ++i) {
         change[i] = due[i] - laws.of(active_[i]).of(T);
-        off = larger(off, std::fabs(change[i]));
       }
-      for (int i = 0; pass > 0 && i < model_->segments; ++i) most = larger(most, std::fabs(T[i]));
+      off = largest(size(), &change[0]);
+      if (pass > 0) most = largest(model_->segments, &T[0]);
       if (pass > 0 && (off <= epsilon * most || off > before / 4)) return;
       before = off;
       factors_.solve(change);

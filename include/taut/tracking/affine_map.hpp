@@ -85,13 +85,12 @@ class AffineMap {
     T = base_;
     for (int k = 0; k < inputs(); ++k) {
       const Real dx = x[k] - anchor_[k];
-      for (int i = 0; i < model_->segments; ++i) T[i] += dx * column_[k][i];
+      axpy(model_->segments, dx, &column_[k][0], &T[0]);
     }
   }
   void tension_rates(const Inputs& dx, Tensions& rates) const {
     rates.fill(Real(0));
-    for (int k = 0; k < inputs(); ++k)
-      for (int i = 0; i < model_->segments; ++i) rates[i] += dx[k] * column_[k][i];
+    for (int k = 0; k < inputs(); ++k) axpy(model_->segments, Real(dx[k]), &column_[k][0], &rates[0]);
   }
   Real value(int i, const Inputs& x) const {
     Real at = base_values_[i];
@@ -127,9 +126,7 @@ class AffineMap {
     for (int i = 0; i < active(); ++i) off[i] = laws.of(set_[i]).of(T);
     for (int k = 0; k < inputs(); ++k)
       if (inputs_[k].kind == Input::Kind::jack_force) off[row_of_jack(inputs_[k].index)] -= x[k];
-    Real most = 0;
-    for (int i = 0; i < active(); ++i) most = larger(most, std::fabs(off[i]));
-    return most;
+    return largest(active(), &off[0]);
   }
   /// Whether at `x` every slack span still has length to spare.
   bool stays_slack(const Inputs& x) const {

@@ -82,8 +82,7 @@ class EventSearch {
   Real change(const Inputs& dx) const {
     Tensions rate;
     map_.tension_rates(dx, rate);
-    Real most = 0;
-    for (int i = 0; i < model_.segments; ++i) most = larger(most, std::fabs(rate[i]));
+    Real most = largest(model_.segments, &rate[0]);
     for (int i = 0; i < map_.active(); ++i)
       if (map_.variable(i).kind == SlipVariable::Kind::slack_length)
         most = larger(most, std::fabs(map_.stiffness(i) * map_.value_rate(i, dx)));
@@ -105,8 +104,7 @@ class EventSearch {
   /// Whether the forces obey the laws of all slips at work, friction where joints stick, and T >= 0: no state
   /// is shown that was not tested.
   Status check_forces() const {
-    Real most = state_.peak;
-    for (int i = 0; i < model_.segments; ++i) most = larger(most, std::fabs(cables_.force[i]));
+    const Real most = largest(model_.segments, &cables_.force[0], state_.peak);
     const Real least = -Real(8) * tolerance * most;
     const Status imprecise = Status::at(Code::ill_conditioned, Place::none, -1);
     const Status broken = map_.is_held() ? free_node() : imprecise;

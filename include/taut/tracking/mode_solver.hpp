@@ -425,8 +425,7 @@ class ModeSolver {
   /// Goes along the direction until something is zero; that leaves, and its complement is the next to enter.
   /// `pivots` means: not at the end yet.
   Outcome go(Direction& direction) {
-    Real largest_rate = std::fabs(direction.z);
-    for (int i = 0; i < model_->segments; ++i) largest_rate = larger(largest_rate, std::fabs(direction.T[i]));
+    const Real largest_rate = largest(model_->segments, &direction.T[0], std::fabs(direction.z));
     const Real least_rate = Real(1e-11) * largest_rate, zero = Real(1e-13) * largest_ + none_;
     Blocking blocking;
     const auto consider = [&](Real value, Real tie, Real rate, Leaves what, int pair) {
@@ -457,8 +456,7 @@ class ModeSolver {
         blocking = {Leaves::cover, -1, step, Real(0), step};
     }
     if (blocking.what == Leaves::nothing) {
-      Real most = 0;
-      for (int i = 0; i < model_->segments; ++i) most = larger(most, std::fabs(direction.T[i]));
+      const Real most = largest(model_->segments, &direction.T[0]);
       is_free_ = direction.z == 0 && direction.enters && most <= Real(1e-9);
       last_ = direction.pair;
       return Outcome::ray;

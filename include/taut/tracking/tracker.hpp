@@ -185,8 +185,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
       }
       if (!put_on_edge()) break;
     }
-    for (int i = 0; i < cables_.model->segments; ++i)
-      cables_.state.peak = larger(cables_.state.peak, std::fabs(cables_.force[i]));
+    cables_.state.peak = largest(cables_.model->segments, &cables_.force[0], cables_.state.peak);
     samples_.refresh(cables_);
     return Status::success();
   }
@@ -427,8 +426,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     }
     ending.has_total = true;
     rest = done ? Real(0) : rest * (Real(1) - step);
-    for (int i = 0; i < cables_.model->segments; ++i)
-      cables_.state.peak = larger(cables_.state.peak, std::fabs(cables_.force[i]));
+    cables_.state.peak = largest(cables_.model->segments, &cables_.force[0], cables_.state.peak);
     cables_.state.last = dx;
     cables_.values(cables_.state.now, x);
     if constexpr (is_adjustable)
