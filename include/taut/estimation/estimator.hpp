@@ -92,9 +92,13 @@ class Estimator : private CondensedType::Capacity::Account {
   /// take_strut() and take_stroke() are given. Fails with `capacity_exceeded` if and only if there are more
   /// unknown mu than Parameters, or more gauges, or unknowns of them, than Further (the amount is what is
   /// missing), else as Tracker::start() does. Cost: that of the prestrain.
-  template <class Cells = NoGauges>
   Progress<Scalar> start(const CondensedType& condensed, const PriorType& prior,
-                         const AlarmLimits<Scalar>& limits = {}, const Cells& gauges = {}) {
+                         const AlarmLimits<Scalar>& limits = {}) {
+    return start(condensed, prior, limits, NoGauges());
+  }
+  template <class Cells>
+  Progress<Scalar> start(const CondensedType& condensed, const PriorType& prior,
+                         const AlarmLimits<Scalar>& limits, const Cells& gauges) {
     const Status known = begin(condensed, prior, limits, gauges);
     if (!known) return {known, Scalar(0), 0};
     Account::begin(filter_);
@@ -134,9 +138,13 @@ class Estimator : private CondensedType::Capacity::Account {
   /// Goes on where save() was called on an estimator of the same scene. Fails with `capacity_exceeded` if and
   /// only if start() would, and with `bad_sample` if the state is none of this scene or was saved before
   /// start(); then only start() or another restore() may follow. Cost: that of one event.
-  template <class Cells = NoGauges>
   Status restore(const CondensedType& condensed, const PriorType& prior, const State& state,
-                 const AlarmLimits<Scalar>& limits = {}, const Cells& gauges = {}) {
+                 const AlarmLimits<Scalar>& limits = {}) {
+    return restore(condensed, prior, state, limits, NoGauges());
+  }
+  template <class Cells>
+  Status restore(const CondensedType& condensed, const PriorType& prior, const State& state,
+                 const AlarmLimits<Scalar>& limits, const Cells& gauges) {
     const Status known = begin(condensed, prior, limits, gauges);
     if (!known) return known;
     jacks_.restore(state.jacks);

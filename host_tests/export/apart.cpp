@@ -1,0 +1,8 @@
+// The one source that compiles the estimators.
+#define COMPILES_IT
+#include "apart.hpp"
+
+template class taut::Estimator<taut::Condensed<float, saddles::Capacity>, saddles::unknowns,
+                               saddles::reading_unknowns>;
+template class taut::Estimator<taut::SecondOrder<float, beam_string::Capacity>, beam_string::unknowns,
+                               beam_string::reading_unknowns>;
