@@ -14,7 +14,7 @@ namespace monitor {
 struct RecordHeader {
   static constexpr std::uint32_t magic_number = 0x54554154;  // "TAUT"
   /// Of the content: one more whenever its fields change.
-  static constexpr std::uint32_t present_version = 18;
+  static constexpr std::uint32_t present_version = 19;
 
   std::uint32_t magic = magic_number;
   std::uint32_t version = present_version;

@@ -28,8 +28,8 @@ using Scene = taut::Condensed<Scalar, Cap>;
 template <class Exported>
 void check_size(const char* file, ScalarType scalar) {
   constexpr bool has_struts = Exported::Capacity::struts > 0;
-  const CondensedSize size =
-      condensed_size(condensed_counts(read_scene_file(std::string(TAUT_EXPORT "/") + file)), scalar);
+  const SceneDescription scene = read_scene_file(std::string(TAUT_EXPORT "/") + file);
+  const CondensedSize size = condensed_size(condensed_counts(scene, condense(scene, scalar)), scalar);
   const auto off = [](std::size_t told, std::size_t taken) {
     return std::labs(static_cast<long>(told) - static_cast<long>(taken));
   };
@@ -60,6 +60,18 @@ TEST_CASE("the bytes that are told are those of the exported types") {
   check_size<taut::SecondOrder<double, beam_string::Capacity>>("beam_string.json", ScalarType::float64);
   check_size<taut::SecondOrder<float, mast::Capacity>>("mast.json", ScalarType::float32);
   check_size<taut::SecondOrder<double, mast::Capacity>>("mast.json", ScalarType::float64);
+}
+
+TEST_CASE("a capacity says what a scene has not, and nothing that it has") {
+  // A prestrain and a load; one of the two cables has no joint that locks.
+  CHECK(taut::check_capacity(saddles::condensed<float>).ok());
+  CHECK(taut::check_capacity(arch::condensed<double>).ok());
+  CHECK(taut::check_capacity(beam_string::condensed<float>.low).ok());
+  CHECK(taut::check_capacity(mast::condensed<float>.low).ok());
+  CHECK(saddles::Capacity::spans == 2);
+  CHECK_FALSE(saddles::Capacity::hoops);
+  CHECK(saddles::Capacity::prestrain);
+  CHECK_FALSE(saddles::Capacity::smooth);
 }
 
 TEST_CASE("a header goes to standard output or, the same, to a file") {

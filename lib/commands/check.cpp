@@ -69,8 +69,8 @@ std::string capacities(const SceneDescription& scene) {
 }
 
 // What the scene takes on a device, as `taut export` writes it.
-std::string memory(const SceneDescription& scene) {
-  const CondensedSize size = condensed_size(condensed_counts(scene), ScalarType::float32);
+std::string memory(const SceneDescription& scene, const CondensedArrays& condensed) {
+  const CondensedSize size = condensed_size(condensed_counts(scene, condensed), ScalarType::float32);
   std::string flash = "about " + counted(size.scene, "byte") + " in float, a condensed scene that fits";
   if (size.strut_rows > 0) flash += "; " + std::to_string(size.strut_rows) + " more for strut forces";
   return line("flash", flash) +
@@ -335,7 +335,7 @@ int check(const std::string& scene_path, const std::string& log_path) {
     check_log(log_path, scene, {});
   OutputFile output("");
   output.write(head(scene) + theory(scene) + capacities(scene) + beams(scene) +
-               (scene.second_order ? "" : memory(scene)) + cables(scene, condensed));
+               (scene.second_order ? "" : memory(scene, condensed)) + cables(scene, condensed));
   const Status stands = condensed.condensing.status ? try_start(scene) : condensed.condensing.status;
   if (!stands) {
     output.finish();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -222,8 +223,8 @@ class Constants {
   }
   std::string prior() const {
     const FrictionPriorArrays& k = prior_;
-    return "constexpr ::taut::FrictionPrior<" + name() + ", Capacity> make_prior(" + name() +
-           ") {\n" + "  return {/*mu*/ " + numbers(k.mu, 10) + ",\n" +
+    return "constexpr ::taut::FrictionPrior<" + name() + ", Capacity> make_prior(" + name() + ") {\n" +
+           "  return {/*mu*/ " + numbers(k.mu, 10) + ",\n" +
            field("contact_factor", numbers(k.contact_factor, 10)) + field("capstan", truths(k.capstan)) +
            field("mu_sd", scalars(k.mu_sd, 10)) + field("shared", truths(k.shared)) +
            field("scatter", scalars(k.scatter, 10)) + field("seating_sd", scalars(k.seating_sd, 10)) +
@@ -435,6 +436,18 @@ std::string head(const std::vector<ExportedScene>& scenes, const CondensedCounts
          "#endif\n";
 }
 
+// What none of the scenes has.
+std::string has_not(const CondensedCounts& counts) {
+  std::string names;
+  const auto add = [&](const char* name, bool has) {
+    if (!has) names += (names.empty() ? "" : ", ") + std::string(name) + " = false";
+  };
+  add("hoops", counts.hoops);
+  add("prestrain", counts.prestrain);
+  add("smooth", counts.smooth);
+  return names.empty() ? "" : "  static constexpr bool " + names + ";\n";
+}
+
 std::string capacity_of(const CondensedCounts& counts) {
   const auto is = [](const char* name, int count) {
     return std::string(name) + " = " + std::to_string(count);
@@ -442,11 +455,12 @@ std::string capacity_of(const CondensedCounts& counts) {
   return "struct Capacity : ::taut::Capacity {\n"
          "  static constexpr int " +
          is("nodes", 0) + ", " + is("struts", counts.struts) + ", " + is("cables", counts.cables) + ", " +
-         is("jacks", counts.jacks) + ", " + is("segments", counts.segments) + ", " +
-         is("joints", counts.joints) + ", " + is("substructures", counts.substructures) + ", " +
-         is("loads", counts.loads) +
+         is("jacks", counts.jacks) + ", " + is("spans", counts.spans) + ", " +
+         is("segments", counts.segments) + ", " + is("joints", counts.joints) + ", " +
+         is("substructures", counts.substructures) + ", " + is("loads", counts.loads) +
          (counts.leans() ? ", " + is("beams", counts.beams) + ", " + is("normals", counts.normals) : "") +
-         ";\n" + (counts.saddles ? "  static constexpr bool saddles = true;\n" : "") + "};\n";
+         ";\n" + (counts.saddles ? "  static constexpr bool saddles = true;\n" : "") + has_not(counts) +
+         "};\n";
 }
 
 // A list of names that costs nothing unless it is used.
@@ -477,15 +491,20 @@ std::string names(const SceneDescription& scene) {
 struct Shared {
   explicit Shared(const std::vector<ExportedScene>& scenes)
       : is_one(scenes.size() == 1), space(space_of(scenes[0])) {
-    capacity = condensed_counts(scenes[0].description);
+    std::optional<CondensedCounts> most;
     for (const ExportedScene& scene : scenes) {
-      capacity = larger(capacity, condensed_counts(scene.description));
+      for (const ExportedArrays* arrays : {&scene.in_float, &scene.in_double}) {
+        if (!arrays->condensed.condensing.status) continue;
+        const CondensedCounts counts = condensed_counts(scene.description, arrays->condensed);
+        most = most ? larger(*most, counts) : counts;
+      }
       for (const UnknownCounts& count : {unknowns(scene.in_float), unknowns(scene.in_double)}) {
         most_unknowns.carried = std::max(most_unknowns.carried, count.carried);
         most_unknowns.further = std::max(most_unknowns.further, count.further);
       }
       has_strokes = has_strokes || !scene.in_double.prior.stroke.empty();
     }
+    capacity = most.value_or(CondensedCounts{});
   }
 
   bool is_one;

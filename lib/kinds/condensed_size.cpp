@@ -17,13 +17,13 @@ namespace {
 // quadratic function of the counts. It is known from the sizes at a few capacities; with multiples of eight
 // nothing there is padding.
 constexpr int unit = 8;
-constexpr std::size_t variables = 7;     // cables, segments, joints, loads, jacks, struts, beams
+constexpr std::size_t variables = 8;     // cables, segments, joints, loads, jacks, struts, beams, spans
 constexpr std::size_t none = variables;  // of the variables
 using Grid = std::array<double, (variables + 1) * (variables + 1)>;
 
-// The kinds of scenes that take other room: rigid saddles, linear theory, and second-order theory by the
-// normals of a bar.
-enum class Room { rigid, linear, leaning_in_plane, leaning_in_space };
+// The kinds of scenes that take other room: rigid saddles and linear theory, each without prestrain and with
+// it, and second-order theory by the normals of a bar.
+enum class Room { rigid, prestrained_rigid, linear, prestrained_linear, leaning_in_plane, leaning_in_space };
 
 // One unit of everything, and one more of variable A and of variable B.
 template <std::size_t A, std::size_t B, Room Is>
@@ -31,10 +31,13 @@ struct Sampled : Capacity {
   static constexpr int count(std::size_t variable) {
     return unit * (1 + (A == variable ? 1 : 0) + (B == variable ? 1 : 0));
   }
-  static constexpr bool is_rigid = Is == Room::rigid, is_linear = is_rigid || Is == Room::linear;
+  static constexpr bool is_rigid = Is == Room::rigid || Is == Room::prestrained_rigid,
+                        is_linear = is_rigid || Is == Room::linear || Is == Room::prestrained_linear,
+                        prestrain = Is != Room::rigid && Is != Room::linear;
   static constexpr int cables = count(0), segments = count(1), joints = count(2), loads = count(3);
   static constexpr int jacks = count(4), struts = is_rigid ? 0 : count(5), beams = is_linear ? 0 : count(6);
-  static constexpr int substructures = is_rigid ? 0 : 1, normals = Is == Room::leaning_in_plane ? 1 : 2;
+  static constexpr int spans = count(7), substructures = is_rigid ? 0 : 1,
+                       normals = Is == Room::leaning_in_plane ? 1 : 2;
 };
 
 template <class Scalar, class Cap>
@@ -55,7 +58,7 @@ std::size_t interpolated(const CondensedCounts& counts) {
       sampled_sizes<SizeOf, Is>(std::make_index_sequence<std::tuple_size<Grid>::value>());
   const auto at = [](std::size_t a, std::size_t b) { return sizes[a * (variables + 1) + b]; };
   const std::array<int, variables> given = {counts.cables, counts.segments, counts.joints, counts.loads,
-                                            counts.jacks,  counts.struts,   counts.beams};
+                                            counts.jacks,  counts.struts,   counts.beams,  counts.spans};
   const auto steps = [&](std::size_t a) { return static_cast<double>(given[a]) / unit - 1; };
   const double base = at(none, none);
   double bytes = base;
@@ -104,13 +107,15 @@ struct Sizes {
   static CondensedSize of(const CondensedCounts& counts) {
     if (counts.leans())
       return counts.normals == 1 ? of<Room::leaning_in_plane>(counts) : of<Room::leaning_in_space>(counts);
-    return counts.substructures == 0 ? of<Room::rigid>(counts) : of<Room::linear>(counts);
+    if (counts.substructures == 0)
+      return counts.prestrain ? of<Room::prestrained_rigid>(counts) : of<Room::rigid>(counts);
+    return counts.prestrain ? of<Room::prestrained_linear>(counts) : of<Room::linear>(counts);
   }
 };
 
 }  // namespace
 
-CondensedCounts condensed_counts(const SceneDescription& scene) {
+CondensedCounts condensed_counts(const SceneDescription& scene, const CondensedArrays& condensed) {
   CondensedCounts counts;
   counts.cables = static_cast<int>(scene.cables.size());
   counts.loads = static_cast<int>(scene.loads.size());
@@ -124,6 +129,24 @@ CondensedCounts condensed_counts(const SceneDescription& scene) {
     counts.segments += static_cast<int>(cable.segments());
     counts.joints += static_cast<int>(cable.joints());
     for (std::size_t end = 0; end < 2; ++end) counts.jacks += cable.is_jacked(end) ? 1 : 0;
+    counts.hoops = counts.hoops || cable.closed;
+  }
+  if (!condensed.condensing.status) {
+    counts.spans = counts.segments;
+    counts.prestrain = counts.smooth = true;
+    return counts;
+  }
+  const auto any = [](const LinearArrays::Row& row, auto is) {
+    return std::any_of(row.begin(), row.end(), is);
+  };
+  // In second-order theory other levels have other numbers.
+  counts.prestrain = counts.leans() || any(condensed.prestrain, [](double T) { return T != 0; });
+  counts.smooth = counts.leans() || any(condensed.rho, [](double rho) { return !(rho < 1); });
+  for (const CableLayout<double>& cable : condensed.cables) {
+    int locking = 0;
+    for (int j = 0; j < cable.joints(); ++j)
+      locking += condensed.rho[static_cast<std::size_t>(cable.first_joint + j)] > 0 ? 0 : 1;
+    counts.spans += cable.closed ? std::max(1, locking) : 1 + locking;
   }
   return counts;
 }
@@ -138,7 +161,11 @@ CondensedCounts larger(const CondensedCounts& a, const CondensedCounts& b) {
           std::max(a.beams, b.beams),
           std::max(a.normals, b.normals),
           std::max(a.substructures, b.substructures),
-          a.saddles || b.saddles || a.has_rigid_saddles() != b.has_rigid_saddles()};
+          a.saddles || b.saddles || a.has_rigid_saddles() != b.has_rigid_saddles(),
+          std::max(a.spans, b.spans),
+          a.hoops || b.hoops,
+          a.prestrain || b.prestrain,
+          a.smooth || b.smooth};
 }
 
 CondensedSize condensed_size(const CondensedCounts& counts, ScalarType scalar) {

@@ -5,6 +5,7 @@
 
 #include "lib/files/result_file.hpp"
 #include "lib/files/scene_description.hpp"
+#include "lib/kinds/condensed_arrays.hpp"
 
 namespace taut::host {
 
@@ -18,11 +19,15 @@ struct CondensedCounts {
   int substructures = 0;
   /// Of several scenes with a structure, some lie on rigid saddles.
   bool saddles = false;
+  int spans = 0;  ///< sliding spans
+  /// Closed cables; segments with a prestrain; joints without friction.
+  bool hoops = false, prestrain = false, smooth = false;
 
   bool has_rigid_saddles() const { return struts == 0 && substructures == 0; }
   bool leans() const { return normals > 0; }
 };
-CondensedCounts condensed_counts(const SceneDescription& scene);
+/// Of a scene and what it was condensed to; if that failed, of whatever it may be condensed to.
+CondensedCounts condensed_counts(const SceneDescription& scene, const CondensedArrays& condensed);
 /// The larger of each count: a capacity that holds either scene.
 CondensedCounts larger(const CondensedCounts& a, const CondensedCounts& b);
 

@@ -73,7 +73,7 @@ class Condensation {
     else
       status = elastic(condensed);
     if (status) limit(condensed);
-    return status;
+    return status ? check_capacity(condensed) : status;
   }
 
   /// See Structure::condition(); 1 between rigid saddles.

@@ -137,7 +137,7 @@ struct Condensed {
   FixedArray<Scalar, Cap::cables> most_force;  ///< of a jack of every cable: a tenth of its E A [N]
   FixedArray<Scalar, Cap::loads> most_factor;  ///< that alone gives a segment a hundred times that
 
-  constexpr bool is_self_locking(int joint) const { return !(rho[joint] > 0); }
+  constexpr bool is_self_locking(int joint) const { return !is_one_span<Cap> && !(rho[joint] > 0); }
 
   /// Contact and friction forces of all joints from the tensions of the response:
   /// N = (T1 + T2) cos(alpha), f = (T2 - T1) sin(alpha), Eq. (2) [N].
@@ -152,6 +152,31 @@ struct Condensed {
       }
   }
 };
+
+/// `capacity_exceeded`, naming the cable, if and only if there are more sliding spans than Capacity::spans,
+/// or hoops, prestrain or joints without friction where the capacity says that there are none. Cost: a pass
+/// over segments and joints; nothing where the capacity leaves all that open.
+template <class Scalar, class Cap>
+constexpr Status check_capacity(const Condensed<Scalar, Cap>& model) {
+  int spans = 0;
+  for (int c = 0; c < model.cables.size(); ++c) {
+    const auto& cable = model.cables[c];
+    bool fits = Cap::hoops || !cable.closed;
+    if constexpr (!Cap::prestrain)
+      for (int i = 0; i < cable.segments(); ++i) fits = fits && model.prestrain[cable.first_segment + i] == 0;
+    if constexpr (!Cap::smooth || Cap::spans >= 0) {
+      int locking = 0;
+      for (int j = 0; j < cable.joints(); ++j) {
+        fits = fits && (Cap::smooth || model.rho[cable.first_joint + j] < 1);
+        locking += model.rho[cable.first_joint + j] > 0 ? 0 : 1;
+      }
+      spans += !cable.closed ? locking + 1 : locking > 0 ? locking : 1;
+      fits = fits && (Cap::spans < 0 || spans <= Cap::spans);
+    }
+    if (!fits) return Status::at(Code::capacity_exceeded, Place::cable, c);
+  }
+  return Status::success();
+}
 
 /// `bad_sample` if and only if a load factor is not finite or beyond most_factor, or the force of an unlocked
 /// jack is not finite, negative or beyond most_force.

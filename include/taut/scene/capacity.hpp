@@ -46,7 +46,13 @@ struct Capacity {
   /// Second-order theory: directions across a bar, in which it leans; 1 is enough for plane scenes.
   static constexpr int normals = 2;
   static constexpr int profile = 0;  ///< entries of the structure's factor; 0: enough for any structure
-  using Watch = Unwatched;           ///< another type with a static took(Route) is called at every event
+  /// What no scene of this capacity has costs nothing. Who does not know leaves these as they are; a scene
+  /// that has it all the same is refused by Condensation. `taut export` knows, and says so.
+  static constexpr int spans = -1;         ///< sliding spans of all cables together; -1: as many as segments
+  static constexpr bool hoops = true;      ///< closed cables
+  static constexpr bool prestrain = true;  ///< segments with a prestrain
+  static constexpr bool smooth = true;     ///< joints without friction
+  using Watch = Unwatched;  ///< another type with a static took(Route) is called at every event
   /// An object of another type is in every Estimator: begin(FrictionFilter) is called where it begins, and
   /// learned(Alarm of what was read, number of readings, FrictionFilter) after every update.
   using Account = Unaccounted;
@@ -55,5 +61,13 @@ struct Capacity {
 /// Jacked ends that there can be.
 template <class Cap>
 constexpr int max_jacks = Cap::jacks < 0 ? 2 * Cap::cables : Cap::jacks;
+
+/// Sliding spans that there can be.
+template <class Cap>
+constexpr int max_spans = Cap::spans < 0 ? Cap::segments : Cap::spans;
+
+/// Whether there is one open cable without a self-locking joint.
+template <class Cap>
+constexpr bool is_one_span = Cap::spans == 1 && !Cap::hoops;
 
 }  // namespace taut

@@ -34,7 +34,7 @@ struct Drive {
     if (part >= Scalar(1)) return b;
     const auto mix = [part](Scalar p, Scalar q) { return p + part * (q - p); };
     Drive drive = b;
-    drive.prestrain = mix(a.prestrain, b.prestrain);
+    if constexpr (Cap::prestrain) drive.prestrain = mix(a.prestrain, b.prestrain);
     for (int i = 0; i < Cap::loads; ++i) drive.factor[i] = mix(a.factor[i], b.factor[i]);
     for (int c = 0; c < Cap::cables; ++c)
       for (std::size_t end = 0; end < 2; ++end) {

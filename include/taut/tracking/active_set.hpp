@@ -277,17 +277,17 @@ class ActiveSet {
   struct Row {
     int first_segment, first_joint, count, begin;
     bool closed;
-    int segment(int i) const { return first_segment + (begin + i) % count; }
+    int segment(int i) const { return first_segment + (Cap::hoops ? (begin + i) % count : i); }
     /// The joint after segment `i`, -1 at the end of an open cable.
     int joint(int i) const {
-      if (closed) return first_joint + (begin + i + 1) % count;
+      if (Cap::hoops && closed) return first_joint + (begin + i + 1) % count;
       return i + 1 < count ? first_joint + i : -1;
     }
   };
   Row row_of(int c) const {
     const auto& cable = model_->cables[c];
     Row row{cable.first_segment, cable.first_joint, cable.segments(), 0, cable.closed};
-    if constexpr (Cap::joints > 0)
+    if constexpr (Cap::joints > 0 && Cap::hoops)
       for (int i = 0; row.closed && i < row.count; ++i)
         if (links_.slip[cable.first_joint + i] < 0) {
           row.begin = i;

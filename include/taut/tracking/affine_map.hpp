@@ -21,7 +21,9 @@ class AffineMap {
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
   static constexpr int max_active = max_active_constraints<Cap>;
-  static constexpr int max_inputs = Cap::loads + max_jacks<Cap> + 1;
+  /// Load patterns, jacks, and the prestrain; one at least.
+  static constexpr int max_inputs =
+      Cap::loads + max_jacks<Cap> + (Cap::prestrain || Cap::loads + max_jacks<Cap> == 0 ? 1 : 0);
   using Set = ActiveSet<CondensedType, Laws>;
   using Tensions = FixedArray<Real, Cap::segments>;
   using Values = FixedArray<Real, max_active>;
@@ -170,7 +172,7 @@ class AffineMap {
     Values due;
     due.fill(Real(0));
     if (input.kind == Input::Kind::load) column = model_->load[input.index];
-    if (input.kind == Input::Kind::prestrain) column = model_->prestrain;
+    if (Cap::prestrain && input.kind == Input::Kind::prestrain) column = model_->prestrain;
     if (input.kind == Input::Kind::extension) {
       Tensions e;
       e.fill(Real(0));

@@ -14,7 +14,7 @@ template <class Real, class Cap>
 struct CableModes {
   FixedArray<JointState, Cap::joints> slides;  ///< stick, or the way: its friction is at this limit
   FixedList<std::int16_t, Cap::joints> order;  ///< joints that slide, as they began
-  FixedArray<bool, Cap::segments> slack;       ///< of spans: without tension, with length to spare
+  FixedArray<bool, max_spans<Cap>> slack;      ///< of spans: without tension, with length to spare
   SlipState<Real, Cap> moved;  ///< slips, extensions and slack lengths where the piece was begun
 
   friend bool operator==(const CableModes& a, const CableModes& b) {
@@ -36,8 +36,9 @@ struct CableState : CableModes<typename CondensedType::Real, typename CondensedT
   Loads now;   ///< load factors, jack forces and locked extensions reached
   Loads goal;  ///< the end of the path that was asked for
 
-  FixedArray<bool, Cap::segments> rests;  ///< of spans: without tension since its jacks are at zero
-  FixedArray<std::int16_t, Cap::segments> representative;  ///< of spans: the segment with the largest tension
+  FixedArray<bool, max_spans<Cap>> rests;  ///< of spans: without tension since its jacks are at zero
+  /// Of spans: the segment with the largest tension.
+  FixedArray<std::int16_t, max_spans<Cap>> representative;
 
   // The present affine piece.
   Loads built;                            ///< the loads there

@@ -29,6 +29,7 @@ struct CableSystem {
   using SlipState = taut::SlipState<Real, Cap>;
   using Tensions = typename Map::Tensions;
   using Inputs = typename Map::Inputs;
+  using Span = typename SlidingSpans<Cap>::Span;
   using State = CableState<CondensedType, Map::max_inputs>;
   static constexpr bool is_adjustable = Parameters > 0;
   static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
@@ -89,7 +90,7 @@ struct CableSystem {
   // Queries.
 
   bool has_prestrain() const {
-    for (int i = 0; i < model->segments; ++i)
+    for (int i = 0; Cap::prestrain && i < model->segments; ++i)
       if (model->prestrain[i] != 0) return true;
     return false;
   }
@@ -109,12 +110,12 @@ struct CableSystem {
   int input_of(int jack) const { return state.has_map ? jacks[jack].input : -1; }
 
   /// A span that ends in an unlocked jack cannot go slack: the jack draws it straight.
-  bool is_jacked(const SlidingSpan& span) const {
+  bool is_jacked(const Span& span) const {
     for (const JackedEnd& jack : jacks)
       if (pulls(jack, span)) return true;
     return false;
   }
-  bool pulls(const JackedEnd& jack, const SlidingSpan& span) const {
+  bool pulls(const JackedEnd& jack, const Span& span) const {
     if (jack.cable != span.cable || state.goal.jack[jack.cable][jack.end].locked) return false;
     const int segment = model->cables[jack.cable].end_segment(jack.end);
     return segment == span.segment(0) || segment == span.segment(span.count - 1);
@@ -122,8 +123,9 @@ struct CableSystem {
   /// On a cable of one segment with two jacks at work the start's extension rests, and the end's does for
   /// both.
   bool is_redundant(int c, std::size_t end) const {
-    return end == 0 && model->cables[c].segments() == 1 && model->cables[c].ends[1] == End::jacked &&
-           !state.goal.jack[c][0].locked && !state.goal.jack[c][1].locked;
+    return max_jacks<Cap> >= 2 && end == 0 && model->cables[c].segments() == 1 &&
+           model->cables[c].ends[1] == End::jacked && !state.goal.jack[c][0].locked &&
+           !state.goal.jack[c][1].locked;
   }
   void find_redundant_jack() {
     has_redundant_jack = false;
@@ -146,7 +148,7 @@ struct CableSystem {
   bool glides(int joint) const {
     if constexpr (is_adjustable)
       if (derivatives.depends(joint)) return false;
-    return !(laws.rho(joint) < 1);
+    return Cap::smooth && !(laws.rho(joint) < 1);
   }
 
   /// rho of a joint that is about to slide: it scales the tolerance of its smaller force.
@@ -205,7 +207,7 @@ struct CableSystem {
 
   static Real value(const Input& input, const Loads& loads) {
     if (input.kind == Input::Kind::load) return loads.factor[input.index];
-    if (input.kind == Input::Kind::prestrain) return loads.prestrain;
+    if (Cap::prestrain && input.kind == Input::Kind::prestrain) return loads.prestrain;
     const auto& jack = loads.jack[input.index / 2][static_cast<std::size_t>(input.index % 2)];
     return input.kind == Input::Kind::jack_force ? jack.force : jack.extension;
   }
@@ -232,7 +234,7 @@ struct CableSystem {
     Tensions T;
     T.fill(Real(0));
     for (int i = 0; i < model->segments; ++i) {
-      T[i] = state.now.prestrain * model->prestrain[i];
+      if constexpr (Cap::prestrain) T[i] = state.now.prestrain * model->prestrain[i];
       for (int k = 0; k < model->loads; ++k) T[i] += state.now.factor[k] * model->load[k][i];
     }
     carry(moved, T);
@@ -241,9 +243,9 @@ struct CableSystem {
   /// Rates of tension with every joint stuck.
   void stuck_rates(Tensions& rates) const {
     rates.fill(Real(0));
-    const Real prestrain = state.goal.prestrain - state.now.prestrain;
+    [[maybe_unused]] const Real prestrain = state.goal.prestrain - state.now.prestrain;
     for (int i = 0; i < model->segments; ++i) {
-      rates[i] = prestrain * model->prestrain[i];
+      if constexpr (Cap::prestrain) rates[i] = prestrain * model->prestrain[i];
       for (int k = 0; k < patterns(); ++k)
         rates[i] += (state.goal.factor[k] - state.now.factor[k]) * model->load[k][i];
     }
@@ -287,8 +289,10 @@ struct CableSystem {
     push = 0;
     for (int i = 0; i < model->segments; ++i) {
       state.peak = larger(state.peak, force[i]);
-      const auto prestrain = model->prestrain[i];
-      measure(state.goal.prestrain * prestrain, (state.goal.prestrain - state.now.prestrain) * prestrain);
+      if constexpr (Cap::prestrain) {
+        const auto prestrain = model->prestrain[i];
+        measure(state.goal.prestrain * prestrain, (state.goal.prestrain - state.now.prestrain) * prestrain);
+      }
       for (int k = 0; k < model->loads; ++k) {
         const auto load = model->load[k][i];
         measure(state.goal.factor[k] * load, (state.goal.factor[k] - state.now.factor[k]) * load);

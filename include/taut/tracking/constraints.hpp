@@ -67,7 +67,8 @@ class Constraints {
     for (const JackedEnd& jack : cables_.jacks) add_jack_input(jack.cable, jack.end);
     for (int i = 0; i < model_.loads; ++i)
       if (state_.has_load[i]) map_.add_input(Input::Kind::load, i);
-    if (state_.now.prestrain != state_.goal.prestrain) map_.add_input(Input::Kind::prestrain, 0);
+    if (Cap::prestrain && state_.now.prestrain != state_.goal.prestrain)
+      map_.add_input(Input::Kind::prestrain, 0);
     typename Map::Values values;
     for (int i = 0; i < map_.active(); ++i) values[i] = state_.moved.of(map_.variable(i));
     Inputs x;
@@ -131,7 +132,7 @@ class Constraints {
   /// Its tensions are zero; its slips and its slack length follow. A ring keeps the slip of one joint: it
   /// may turn freely.
   bool add_slack_span(int r) {
-    const SlidingSpan& span = spans_[r];
+    const typename Cables::Span& span = spans_[r];
     for (int i = 0; i < span.count; ++i) {
       const bool last = i == span.count - 1;
       const SlipVariable variable =
@@ -145,13 +146,14 @@ class Constraints {
   /// Its jacks keep the end segments at zero, its slips all others. Between two jacks the cable may move as a
   /// whole; one joint keeps its place.
   bool add_resting_span(int r) {
-    const SlidingSpan& span = spans_[r];
+    const typename Cables::Span& span = spans_[r];
     bool at_start = false, at_end = false;
     for (const JackedEnd& jack : cables_.jacks) {
       at_start = at_start || (cables_.pulls(jack, span) && jack.end == 0);
       at_end = at_end || (cables_.pulls(jack, span) && jack.end == 1);
     }
-    for (int i = at_start && at_end ? 1 : 0; i < span.joints(); ++i)
+    const bool at_both = max_jacks<Cap> >= 2 && at_start && at_end;
+    for (int i = at_both ? 1 : 0; i < span.joints(); ++i)
       if (!map_.set().append(laws_, {laws_.slip(span.joint(i)),
                                      static_cast<std::int16_t>(span.segment(at_end ? i : i + 1)), 0, -1}))
         return false;

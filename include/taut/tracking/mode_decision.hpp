@@ -21,6 +21,7 @@ class ModeDecision {
   using Real = typename Cables::Real;
   using Cap = typename Cables::Cap;
   using Loads = typename Cables::Loads;
+  using Span = typename Cables::Span;
   using Laws = typename Cables::Laws;
   using Map = typename Cables::Map;
   using State = typename Cables::State;
@@ -107,7 +108,7 @@ class ModeDecision {
 
   using Solver = ModeSolver<typename Cables::Model, Laws>;
   using SlipModes = FixedList<SlipMode, 2 * Cap::joints>;
-  using Spans = FixedArray<bool, Cap::segments>;
+  using Spans = FixedArray<bool, max_spans<Cap>>;
   /// Of the largest force: how much further on an answer is looked for, and how near it must be.
   static constexpr Real small_step = Real(1e-6), nearby = Real(1e-3);
   /// Of the largest force: how much a step of the level may change forces.
@@ -151,7 +152,7 @@ class ModeDecision {
   }
   /// While a span rests its joints follow a jack's error as they need not when it pulls; a strut that only
   /// its cable holds goes far then.
-  void forget_rest(const SlidingSpan& span) {
+  void forget_rest(const Span& span) {
     if constexpr (Cables::is_adjustable && Cables::Model::has_level)
       cables_.derivatives.for_each([&](auto& moved, int) {
         for (int i = 0; i < span.joints(); ++i) moved.slip[span.joint(i)] = 0;
@@ -397,7 +398,7 @@ class ModeDecision {
   /// Segments of a span at zero, but for those that a jack gives their tension; joints without friction make
   /// one of two.
   void add_span(int r, bool totally, Solver& solver) const {
-    const SlidingSpan& span = spans_[r];
+    const Span& span = spans_[r];
     for (int i = 0; i < span.count; ++i) {
       if (i > 0 && cables_.glides(span.joint(i - 1))) continue;
       const Pull pull = pull_on(span, i, totally);
@@ -408,7 +409,7 @@ class ModeDecision {
   }
   /// The jack that gives a segment of a span at zero the larger tension, by what friction leaves of its force
   /// on the way; `on_the_way(joint, way)` is called for every joint there.
-  Pull pull_on(const SlidingSpan& span, int i, bool totally) const {
+  Pull pull_on(const Span& span, int i, bool totally) const {
     Pull strongest;
     for (const JackedEnd& jack : cables_.jacks) {
       if (!cables_.pulls(jack, span)) continue;
@@ -423,7 +424,7 @@ class ModeDecision {
     return strongest;
   }
   template <class Visit>
-  void for_each_joint_toward(const JackedEnd& jack, const SlidingSpan& span, int i, Visit visit) const {
+  void for_each_joint_toward(const JackedEnd& jack, const Span& span, int i, Visit visit) const {
     if (jack.end == 0)
       for (int k = i; k > 0; --k) visit(span.joint(k - 1), JointState::backward);
     else

@@ -332,14 +332,14 @@ class SamplePath {
     const int n = cable.segments();
     const Scalar* const t = T.items.data() + cable.first_segment;
     // The joint after segment i is joint i of an open cable, joint i + 1 of a hoop.
-    const int after = cable.first_joint + (cable.closed ? 1 : 0);
+    const int after = cable.first_joint + (Cap::hoops && cable.closed ? 1 : 0);
     const Scalar* const rho = rho_.items.data() + after;
     const Scalar* const slip_margin = slip_margin_.items.data() + after;
     BitsOf<Scalar> bits = 0;
     for (int i = 0; i + 1 < n; ++i)
       bits |= bits_of(t[i] - rho[i] * t[i + 1] - slip_margin[i]) |
               bits_of(t[i + 1] - rho[i] * t[i] - slip_margin[i]);
-    if (cable.closed) {
+    if (Cap::hoops && cable.closed) {
       const Scalar closing = rho_[cable.first_joint], left = slip_margin_[cable.first_joint];
       bits |= bits_of(t[n - 1] - closing * t[0] - left) | bits_of(t[0] - closing * t[n - 1] - left);
     }
@@ -361,10 +361,10 @@ class SamplePath {
 
   FixedArray<Scalar, Cap::loads> factor_;  // the loads reached
   FixedArray<Scalar, Cap::joints> rho_;
-  Rounded constant_;                             // the map's base and all inputs that do not change
-  FixedArray<Scalar, Cap::joints> slip_margin_;  // least T_small - rho T_big of every joint
-  FixedArray<bool, Cap::segments> may_be_zero_;  // of spans
-  Scalar margin_ = 0;                            // what is to be left where nothing is at its limit
+  Rounded constant_;                              // the map's base and all inputs that do not change
+  FixedArray<Scalar, Cap::joints> slip_margin_;   // least T_small - rho T_big of every joint
+  FixedArray<bool, max_spans<Cap>> may_be_zero_;  // of spans
+  Scalar margin_ = 0;                             // what is to be left where nothing is at its limit
   Given at_, anchor_;
   Given least_;  // a jack does not push, and takes a resting span along only in an event
   FixedArray<int, Cap::loads> load_input_;  // in the map, or -1

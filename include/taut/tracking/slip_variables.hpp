@@ -63,7 +63,7 @@ template <class Real, class Cap>
 struct SlipState {
   FixedArray<Real, Cap::joints> slip;                      ///< delta of every joint [m]
   FixedArray<std::array<Real, 2>, Cap::cables> extension;  ///< at start and end of every cable [m]
-  FixedArray<Real, Cap::segments> slack_length;  ///< length that every span has too much [m], zero if taut
+  FixedArray<Real, max_spans<Cap>> slack_length;  ///< length that every span has too much [m], zero if taut
 
   friend bool operator==(const SlipState& a, const SlipState& b) {
     return a.slip == b.slip && a.extension == b.extension && a.slack_length == b.slack_length;

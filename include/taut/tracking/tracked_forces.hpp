@@ -87,7 +87,7 @@ class TrackedForces {
   /// The loads and jack forces reached.
   const Loads& loads() const { return cables_.state.now; }
   const SlidingSpans<Cap>& spans() const { return cables_.spans; }
-  bool is_slack(const SlidingSpan& span) const { return cables_.is_slack(span.segment(0)); }
+  bool is_slack(const typename Cables::Span& span) const { return cables_.is_slack(span.segment(0)); }
   /// What the joint did on the last piece of the path, apart from slack.
   JointState motion(int joint) const {
     for (int i = 0; cables_.state.has_map && i < cables_.map.active(); ++i) {

@@ -511,7 +511,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   }
   /// What a slack span has too much goes out through the jack: over every joint, if that is at its far end.
   void draw_straight(int r) {
-    const SlidingSpan& span = cables_.spans[r];
+    const typename Cables::Span& span = cables_.spans[r];
     const auto& cable = cables_.model->cables[span.cable];
     const bool at_start = span.segment(0) == cable.end_segment(0) && cable.ends[0] == End::jacked &&
                           !cables_.state.goal.jack[span.cable][0].locked;
