@@ -1,5 +1,6 @@
 #include "lib/files/status_text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -440,6 +441,27 @@ Sentence run_away_text(const Status& status, const SceneDescription& scene) {
   return {};
 }
 
+// Nothing but cables holds it: no support, and no strut, beam or substructure ends there.
+bool hangs_on_cables_alone(const SceneDescription& scene, int node) {
+  const auto is_at = [node](int other) { return other == node; };
+  const auto touches = [&](const auto& members) {
+    return std::any_of(members.begin(), members.end(), [&](const auto& member) {
+      return std::any_of(member.nodes.begin(), member.nodes.end(), is_at);
+    });
+  };
+  return scene.nodes[static_cast<std::size_t>(node)].held == held_none && !touches(scene.struts) &&
+         !touches(scene.beams) && !touches(scene.substructures);
+}
+
+// A mechanism that the core places at a cable without joints is a node at an end of it.
+Status at_its_node(const Status& status, const SceneDescription& scene) {
+  if (status.code != Code::mechanism || status.place != Place::cable) return status;
+  const auto& path = scene.cables[static_cast<std::size_t>(status.index)].path;
+  for (const int node : {path.front(), path.back()})
+    if (hangs_on_cables_alone(scene, node)) return Status::at(Code::mechanism, Place::node, node);
+  return status;
+}
+
 }  // namespace
 
 InputError scene_error(const Status& status, const SceneDescription& scene) {
@@ -452,7 +474,8 @@ Sentence joint_text(const SceneDescription& scene, int cable, int joint) {
   return subject(Status::along(Code::ok, Place::joint, cable, joint), scene);
 }
 
-Sentence failure_text(const Status& status, const SceneDescription& scene, const Sentence& remedy) {
+Sentence failure_text(const Status& found, const SceneDescription& scene, const Sentence& remedy) {
+  const Status status = at_its_node(found, scene);
   if (const Sentence text = run_away_text(status, scene); remedy.empty() && !text.empty()) return text;
   return Sentence("{1}: {2}; {3}", {subject(status, scene), failure_problem(status, scene),
                                     remedy.empty() ? failure_remedy(status, scene) : remedy});

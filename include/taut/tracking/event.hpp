@@ -144,12 +144,17 @@ class EventSearch {
     }
     return Status::success();
   }
-  /// `mechanism`, at a joint of a span that should hold its node and has no tension.
+  /// `mechanism`, at a joint of a span that should hold its node and has no tension, or at a cable that has
+  /// no joint: then it is a node at its end.
   Status free_node() const {
     for (int r = 0; r < spans_.size(); ++r)
       if ((state_.slack[r] || state_.rests[r]) && spans_[r].joint_near() >= 0)
         return cables_.at_joint(Code::mechanism, spans_[r].joint_near());
-    return cables_.at_joint(Code::mechanism, 0);
+    for (int r = 0; r < spans_.size(); ++r)
+      if (state_.slack[r] || state_.rests[r])
+        return Status::at(Code::mechanism, Place::cable, spans_[r].cable);
+    return cables_.joints() > 0 ? cables_.at_joint(Code::mechanism, 0)
+                                : Status::at(Code::mechanism, Place::cable, 0);
   }
 
  private:
