@@ -514,6 +514,12 @@ constexpr Translation translations[] = {
      "事件数超限：粘着与滑动之间转换过多；请在其间增加行",
      "das Ereigniskontingent ist erschöpft: zu viele Wechsel zwischen Haften und Gleiten; Zeilen dazwischen "
      "einfügen"},
+    {"the event budget is spent at one load: joints go on changing between sticking and sliding there; stay "
+     "below this load",
+     "事件数在同一荷载下超限：节点在粘着与滑动之间不断转换；请保持在此荷载以下",
+     "das Ereigniskontingent ist bei einer Last erschöpft: Umlenkungen wechseln dort immer weiter zwischen "
+     "Haften "
+     "und Gleiten; unter dieser Last bleiben"},
     {"with --substeps {1} it goes on", "用 --substeps {1} 可以继续", "mit --substeps {1} geht es weiter"},
     {"smaller load steps do not help: try --method tracker", "减小荷载步无效：请用 --method tracker",
      "kleinere Lastschritte helfen nicht: --method tracker versuchen"},
