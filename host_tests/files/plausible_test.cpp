@@ -91,6 +91,29 @@ TEST_CASE("a prestrain in per cent is refused at its place") {
   check_taken(site, "check", "");
 }
 
+TEST_CASE("loads, temperatures and the target of second-order theory that are absurd are refused by place") {
+  Site site;
+  site.more = R"(, "loads": { "dead": { "forces": { "b": [0, -1e30] } } })";
+  check_refused(site, "check", "",
+                "scene.json: /loads/dead/forces/b: a load of -1e+30 N on a node is that of no structure; ");
+  site.more = R"(, "loads": { "warm": { "temperature": { "C": 2000 } } })";
+  check_refused(site, "check", "",
+                "scene.json: /loads/warm/temperature/C: a change of temperature by 2000 K ");
+  const auto target = [&](const std::string& loads, const std::string& force) {
+    site.more = R"(, "loads": { "dead": { "forces": { "b": [0, -1000] } } }, "second_order": { "target": {
+      "loads": { "dead": )" +
+                loads + R"( }, "forces": { "C.end": )" + force + " } } }";
+  };
+  target("1", "1e30");
+  check_refused(
+      site, "check", "",
+      "scene.json: /second_order/target/forces/C.end: a jack force of 1e+30 N is more than the cable "
+      "can carry; write one in N, below 2e+06");
+  target("-1e30", "1e5");
+  check_refused(site, "check", "",
+                "scene.json: /second_order/target/loads/dead: a load of ");
+}
+
 TEST_CASE("coordinates in mm are refused where they make a cable longer than 10 km") {
   Site site;
   site.coordinates = "[-20000, 0]";

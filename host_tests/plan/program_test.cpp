@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "files/run_program.hpp"
@@ -179,6 +180,22 @@ TEST_CASE("a factor of a load that is more than the cables can carry is refused 
     CHECK_FALSE(run.has_log);
   }
   CHECK(plan(warm, R"({ "taut": 1, "target": { "C": 5e5 }, "loads": { "warm": 2 } })").outcome.status == 0);
+}
+
+TEST_CASE("targets and limits that no cable can carry are refused by their place in the goal") {
+  for (const auto& [goal, place] :
+       {std::pair{R"("target": { "C": 1e30 })", "/target/C: a target of 1e+30 N"},
+        std::pair{R"("target": { "C": [5e5, 1e30, 5e5, 5e5] })", "/target/C/1: a target of 1e+30 N"},
+        std::pair{R"("target": { "C": 5e5 }, "limits": { "C": 1e30 })",
+                  "/limits/C: a segment force of 1e+30 N"},
+        std::pair{R"("target": { "C": 5e5 }, "limits": { "C.end": 1e30 })",
+                  "/limits/C.end: a jack force of 1e+30 N"}}) {
+    const Run run = plan(two_bays, std::string(R"({ "taut": 1, )") + goal + " }");
+    CHECK(run.outcome.status == 2);
+    CHECK_MESSAGE(has(run.outcome.err, std::string("goal.json: ") + place), run.outcome.err);
+    CHECK(has(run.outcome.err, " is more than the cable can carry; write one in N, below "));
+    CHECK_FALSE(run.has_log);
+  }
 }
 
 TEST_CASE("a goal that cannot be used is refused with its place and a remedy, and nothing is written") {

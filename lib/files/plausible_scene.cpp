@@ -9,7 +9,8 @@
 namespace taut::host {
 namespace {
 
-constexpr double least_E = 1e9, most_E = 1e12, least_E_of_strut = 1e6, most_A_of_strut = 1, longest = 1e4;
+constexpr double least_E = 1e9, most_E = 1e12, least_E_of_strut = 1e6, most_A_of_strut = 1, longest = 1e4,
+                 most_on_node = 1e10, most_kelvin = 1000;
 
 [[noreturn]] void refuse(const SceneDescription& scene, const std::string& place, const std::string& problem,
                          const std::string& remedy) {
@@ -33,7 +34,44 @@ void check_cable(std::size_t c, const SceneDescription& scene) {
            "write the coordinates of nodes in m");
 }
 
+// One load pattern with a factor that stands at `factor_place`; empty: in itself.
+void check_load(std::size_t i, double factor, const std::string& factor_place,
+                const SceneDescription& scene) {
+  const LoadDescription& load = scene.loads[i];
+  const auto place = [&](const std::string& own) {
+    return factor_place.empty() ? "/loads" + pointer_step(load.name) + own : factor_place;
+  };
+  for (const ForceDescription& given : load.forces) {
+    const std::string& node = scene.nodes[static_cast<std::size_t>(given.node)].name;
+    for (const double force : given.force)
+      if (std::fabs(factor * force) > most_on_node)
+        refuse(scene, place("/forces" + pointer_step(node)),
+               "a load of " + plain(factor * force) + " N on a node is that of no structure",
+               "write forces in N, factors as multiples of them");
+  }
+  for (const TemperatureDescription& given : load.temperatures)
+    if (std::fabs(factor * given.kelvin) > most_kelvin)
+      refuse(scene,
+             place("/temperature" + pointer_step(scene.cables[static_cast<std::size_t>(given.cable)].name)),
+             "a change of temperature by " + plain(factor * given.kelvin) + " K is that of no cable",
+             "write it in K, factors as multiples of it");
+}
+
+void check_target(const TargetDescription& target, const SceneDescription& scene) {
+  const std::string place = "/second_order/target";
+  for (std::size_t i = 0; i < scene.loads.size(); ++i)
+    check_load(i, target.factor[i], place + "/loads" + pointer_step(scene.loads[i].name), scene);
+  for (std::size_t c = 0; c < scene.cables.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end)
+      if (const double most = most_force_of(scene.cables[c]); target.force[c][end] > most)
+        refuse(scene, place + "/forces" + pointer_step(scene.cables[c].name + "." + end_name(end)),
+               "a jack force of " + plain(target.force[c][end]) + " N is more than the cable can carry",
+               "write one in N, below " + plain(most));
+}
+
 }  // namespace
+
+double most_force_of(const CableDescription& cable) { return 0.1 * cable.E * cable.A; }
 
 double length_of(const CableDescription& cable, const SceneDescription& scene) {
   double length = 0;
@@ -55,6 +93,8 @@ void require_plausible(const SceneDescription& scene) {
              "a modulus of " + plain(scene.struts[i].E) + " N/m2 is that of no strut",
              "write it in N/m2, as in 2.1e11 for steel");
   for (std::size_t c = 0; c < scene.cables.size(); ++c) check_cable(c, scene);
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) check_load(i, 1, {}, scene);
+  if (scene.second_order) check_target(*scene.second_order, scene);
 }
 
 }  // namespace taut::host

@@ -19,7 +19,12 @@ double length_of(const CableDescription& cable, const SceneDescription& scene);
 
 /// Throws InputError, unless the scene says "plausible": false, if the modulus of a cable is not between 1e9
 /// and 1e12 N/m2; that of a strut below 1e6 N/m2, unless its cross-section is above 1 m2, as of a spring with
-/// E = 1; a prestrain above 2 %; or a cable longer than 10 km.
+/// E = 1; a prestrain above 2 %; a cable longer than 10 km; a load pattern that puts more than 1e10 N on a
+/// node or changes a temperature by more than 1000 K, in itself or in the target of second-order theory; or a
+/// jack that pulls more than most_force_of() there.
 void require_plausible(const SceneDescription& scene);
+
+/// A tenth of E A: no cable carries more, for wires break at a few per cent of strain [N].
+double most_force_of(const CableDescription& cable);
 
 }  // namespace taut::host

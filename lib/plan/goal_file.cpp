@@ -6,6 +6,7 @@
 
 #include "lib/files/file_text.hpp"
 #include "lib/files/json_field.hpp"
+#include "lib/files/plausible_scene.hpp"
 #include "lib/files/text.hpp"
 #include "lib/kinds/condensed_arrays.hpp"
 
@@ -74,6 +75,14 @@ class GoalReader {
     return factor;
   }
 
+  // Of a cable, and no more than it can carry.
+  double carried(const Field& field, const std::string& what, std::size_t c) const {
+    const double found = positive(field, what, "[N]"), most = most_force_of(scene_.cables[c]);
+    if (scene_.plausible && found > most)
+      field.refuse(what + " of " + plain(found) + " N is more than the cable can carry",
+                   "write one in N, below " + plain(most) + remedy_if_meant);
+    return found;
+  }
   // A force that a plan can be measured by.
   static double positive(const Field& field, const std::string& what, const std::string& unit) {
     const double found = field.amount(what + " " + unit + " as a number");
@@ -100,7 +109,7 @@ class GoalReader {
                                  ": one a segment, null where it does not matter";
       if (!forces.is_array()) {
         if (!forces.is_number()) forces.number(wanted);
-        const double force = positive(forces, "a target", "[N]");
+        const double force = carried(forces, "a target", c);
         std::fill_n(goal_.target.begin() + static_cast<std::ptrdiff_t>(first), count, force);
         continue;
       }
@@ -109,7 +118,7 @@ class GoalReader {
         forces.refuse("the list has " + counted(items.size(), "number") + " for " + counted(count, "segment"),
                       "write " + wanted);
       for (std::size_t i = 0; i < count; ++i)
-        if (!items[i].is_null()) goal_.target[first + i] = positive(items[i], "a target", "[N]");
+        if (!items[i].is_null()) goal_.target[first + i] = carried(items[i], "a target", c);
     }
     for (const double force : goal_.target)
       if (force > 0) return;
@@ -124,14 +133,14 @@ class GoalReader {
       if (name == stroke_key && !limit.is_number()) {
         read_strokes(limit);
       } else if (const auto found = jack(name); found.first < scene_.cables.size()) {
-        goal_.most_force[found.first][found.second] = positive(limit, "a jack force", "[N]");
+        goal_.most_force[found.first][found.second] = carried(limit, "a jack force", found.first);
       } else {
         if (std::find(known.begin() + 1, known.end(), name) == known.end())
           limit.refuse("there is no cable and no jack " + quote(name),
                        suggestion(name, known, "limits can be those of"));
         const std::size_t c = cable(limit, name);
         std::fill_n(goal_.most_segment.begin() + static_cast<std::ptrdiff_t>(scene_.first_segment(c)),
-                    scene_.cables[c].segments(), positive(limit, "a segment force", "[N]"));
+                    scene_.cables[c].segments(), carried(limit, "a segment force", c));
       }
     }
   }
