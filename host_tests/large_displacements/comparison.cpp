@@ -70,4 +70,84 @@ std::vector<Difference> compare(const std::string& result, const std::string& re
   return differences;
 }
 
+namespace {
+
+/// One scene of random.cmake: rows that came of it, and differences.
+struct Followed {
+  int rows = 0, reference_rows = 0;
+  std::map<std::string, std::map<std::string, double>> parts;  ///< "target" or "within", then the kind
+};
+
+std::string per_cent(double part) {
+  std::ostringstream text;
+  text.precision(2);
+  text << 100 * part;
+  return text.str();
+}
+
+}  // namespace
+
+std::string summary(const std::string& lines) {
+  constexpr int rows_to_target = 40;
+  std::map<std::string, std::vector<Followed>> kinds;
+  Followed* scene = nullptr;
+  std::string kind;
+  std::istringstream all(lines);
+  for (std::string line; std::getline(all, line);) {
+    std::istringstream words(line);
+    std::string first, second;
+    words >> first >> second;
+    if (first == "scene") {
+      // random-7-hoop-1-closed
+      kind = second.substr(second.find('-', second.find('-') + 1) + 1);
+      kinds[kind].emplace_back();
+      scene = &kinds[kind].back();
+    } else if (scene != nullptr && first == "reference") {
+      words >> scene->reference_rows;
+    } else if (scene != nullptr && first == "taut") {
+      words >> scene->rows;
+    } else if (scene != nullptr) {
+      words >> scene->parts[first][second];
+    }
+  }
+  for (const auto& [name, scenes] : std::map(kinds))
+    kinds["~all"].insert(kinds["~all"].end(), scenes.begin(), scenes.end());
+
+  std::ostringstream text;
+  for (const char* until : {"target", "within"}) {
+    text << "\n| " << until
+         << " | scenes | both to the target | neither begins | taut ends earlier | later | segments | struts "
+            "| "
+            "extension | displacements |\n|";
+    for (int i = 0; i < 10; ++i) text << " --- |";
+    text << "\n";
+    for (const auto& [name, scenes] : kinds) {
+      const auto count = [&list = scenes](const auto& is) {
+        return std::count_if(list.begin(), list.end(), is);
+      };
+      text << "| " << name << " | " << scenes.size() << " | " << count([](const Followed& each) {
+        return each.rows >= rows_to_target && each.reference_rows >= rows_to_target;
+      }) << " | "
+           << count([](const Followed& each) { return each.rows == 0 && each.reference_rows == 0; }) << " | "
+           << count([](const Followed& each) { return each.rows < each.reference_rows; }) << " | "
+           << count([](const Followed& each) { return each.rows > each.reference_rows; }) << " |";
+      for (const char* what : {"segments", "struts", "payouts", "displacements"}) {
+        std::vector<double> parts;
+        for (const Followed& each : scenes) {
+          const auto found = each.parts.find(until);
+          if (found != each.parts.end() && found->second.count(what) > 0)
+            parts.push_back(found->second.at(what));
+        }
+        std::sort(parts.begin(), parts.end());
+        if (parts.empty())
+          text << " |";
+        else
+          text << " " << per_cent(parts.back()) << " / " << per_cent(parts[parts.size() * 95 / 100]) << " |";
+      }
+      text << "\n";
+    }
+  }
+  return text.str();
+}
+
 }  // namespace large_displacements

@@ -2,6 +2,7 @@
 //
 //     large_displacements SCENE LOG [-o OUT] [--steps N] [--pieces N] [--present-length]
 //     large_displacements --compare RESULT REFERENCE
+//     large_displacements --summary LINES
 //     large_displacements --scenes
 //     large_displacements --write NAME DIR
 //
@@ -104,6 +105,10 @@ int main(int count, char** words) try {
     for (const Difference& d : compare(file_text(words[2]), file_text(words[3]), until))
       std::printf("%-8s %.3g of %.6g, %s at %g\n", d.kind.c_str(), d.part, d.largest, d.column.c_str(),
                   d.time);
+    return 0;
+  }
+  if (first == "--summary" && count == 3) {
+    std::fputs(summary(file_text(words[2])).c_str(), stdout);
     return 0;
   }
   if (first == "--write" && count == 4) {

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "support/random.hpp"
+
 namespace large_displacements {
 namespace {
 
@@ -197,6 +199,51 @@ Jacking dome_hoop(const DomeHoop& given) {
   return made;
 }
 
+Jacking random_jacking(std::uint64_t seed) {
+  support::Random random(seed);
+  Jacking made;
+  std::string kind;
+  const double mu = 0.03 * std::pow(10, random.between(0, 1));
+  if (random.below(4) > 0) {
+    const char* const kinds[] = {"vertical", "radial", "v", "fixed"};
+    BeamString given;
+    given.kind = static_cast<Struts>(random.below(4));
+    given.span = random.between(40, 140);
+    given.struts = 3 + random.below(10);
+    given.mu = mu;
+    // A vertical strut needs friction for its lean to the bisector.
+    given.sag = given.kind == Struts::vertical ? std::min(1.0 / 12, mu / 4.5) * random.between(0.6, 1)
+                                               : random.between(1.0 / 20, 1.0 / 8);
+    if (given.kind != Struts::vertical && random.coin()) given.rise = random.between(0, 0.08);
+    given.law = random.below(3) == 0 ? Law::capstan : Law::point;
+    made = beam_string(given);
+    kind = kinds[static_cast<int>(given.kind)];
+  } else {
+    const int nodes = 6 + random.below(15), rods = 1 + random.below(2);
+    const bool jacked = random.coin();
+    made = dome_hoop({nodes, rods, mu, jacked});
+    kind = "hoop-" + std::to_string(rods) + (jacked ? "-jacked" : "-closed");
+  }
+  Model& model = made.model;
+  for (Load& load : model.loads)
+    for (Load::At& at : load.forces) at.force *= random.between(0.7, 1.3);
+  for (Cable& cable : model.cables) {
+    for (double& each : cable.mu) each *= random.between(0.8, 1.2);
+    std::vector<Vector> moved;
+    for (int j = 0; j < cable.joints(); ++j) {
+      const Vector at = model.nodes[cable.joint_node(j)].at;
+      const double near = (at - model.nodes[cable.on_path(cable.closed ? j - 1 : j)].at).norm();
+      Vector to = at;
+      for (int axis = 0; axis < model.dimension; ++axis) to[axis] += random.between(-0.01, 0.01) * near;
+      moved.push_back(to);
+    }
+    for (int j = 0; j < cable.joints(); ++j)
+      model.nodes[cable.joint_node(j)].at = moved[static_cast<std::size_t>(j)];
+  }
+  model.name = "random-" + std::to_string(seed) + "-" + kind;
+  return made;
+}
+
 namespace {
 
 void each_scene(const std::function<void(const std::function<Jacking()>&)>& see) {
@@ -229,6 +276,9 @@ std::vector<std::string> scene_names() {
   return names;
 }
 Jacking scene_by_name(const std::string& name) {
+  const std::string random = "random-";
+  if (name.compare(0, random.size(), random) == 0)
+    return random_jacking(std::stoull(name.substr(random.size())));
   Jacking found;
   each_scene([&](const auto& make) {
     Jacking made = make();
