@@ -166,7 +166,10 @@ void add_scene(Crc32& crc, const taut::SecondOrder<float, Capacity>& model) {
     add(model.lean.kappa_by_bend);
   }
   add_rows(model.lean.aside);
-  if constexpr (Capacity::struts + Capacity::beams > 0) add(model.lean.tension_by_bar);
+  if constexpr (Capacity::struts + Capacity::beams > 0) {
+    add(model.lean.low_tension_by_bar);
+    add(model.lean.tension_by_bar);
+  }
   add(model.target_force);
   add(model.curve);
 }

@@ -119,10 +119,13 @@ void check_bits(const std::string& file, const SecondOrder<Scalar, Cap>& found,
   check_rows(found.lean.bends, expected.lean.bends);
   check_rows(found.lean.aside, expected.lean.aside);
   CHECK(same_bits(found.lean.kappa_by_bend, expected.lean.kappa_by_bend));
+  CHECK(same_bits(found.lean.low_tension_by_bar, expected.lean.low_tension_by_bar));
   CHECK(same_bits(found.lean.tension_by_bar, expected.lean.tension_by_bar));
   REQUIRE(rows != nullptr);
   check_rows(rows->low, expected_rows.low);
   check_rows(rows->high, expected_rows.high);
+  CHECK(same_bits(rows->low_by_bar, expected_rows.low_by_bar));
+  CHECK(same_bits(rows->by_own_lean, expected_rows.by_own_lean));
   CHECK(same_bits(rows->by_bar, expected_rows.by_bar));
   CHECK(rows->count == expected_rows.count);
 }

@@ -218,7 +218,9 @@ class Constants {
              "  return " + rows_of_struts + ";\n}\n";
     return "constexpr ::taut::LevelStruts<" + name() + ", Capacity> make_struts(" + name() + ") {\n" +
            "  return {/*low*/ " + rows_of_struts + ",\n" + field("high", table(a.level->high_struts)) +
-           field("by_bar", rows(by_bar(a.level->strut_by_bar))) + "          /*count*/ " +
+           field("low_by_bar", rows(by_bar(a.level->low_strut_by_bar))) +
+           field("by_bar", rows(by_bar(a.level->strut_by_bar))) +
+           field("by_own_lean", numbers(a.level->strut_by_own_lean, 10)) + "          /*count*/ " +
            std::to_string(a.level->struts) + "};\n}\n";
   }
   std::string prior() const {
@@ -262,6 +264,7 @@ class Constants {
     return "constexpr ::taut::CondensedLean<" + name() + ", Capacity> make_lean(" + name() + ") {\n" +
            "  return {/*bends*/ " + table(level.bends) + ",\n" +
            field("kappa_by_bend", numbers(level.kappa_by_bend, 10)) + field("aside", table(asides(level))) +
+           field("low_tension_by_bar", rows(by_bar(level.low_tension_by_bar))) +
            field("tension_by_bar", rows(by_bar(level.tension_by_bar))) + "          /*struts*/ " +
            std::to_string(level.struts) + ", /*beams*/ " + std::to_string(level.beams) + "};\n}\n";
   }

@@ -59,8 +59,10 @@ bool are_possible(const LinearArrays& arrays) {
 bool are_possible(const LevelArrays& arrays) {
   return are_possible(arrays.high) && are_possible(arrays.high_struts) && are_possible(arrays.bends) &&
          are_possible(arrays.kappa_by_bend) && are_possible(arrays.aside) &&
-         are_possible(arrays.tension_by_bar) && are_possible(arrays.strut_by_bar) &&
-         is_possible(arrays.target_force) && is_possible(arrays.curve);
+         are_possible(arrays.low_tension_by_bar) && are_possible(arrays.tension_by_bar) &&
+         are_possible(arrays.low_strut_by_bar) && are_possible(arrays.strut_by_bar) &&
+         are_possible(arrays.strut_by_own_lean) && is_possible(arrays.target_force) &&
+         is_possible(arrays.curve);
 }
 bool are_possible(const CondensedArrays& arrays) {
   return is_possible(arrays.condensing.condition) && are_possible(static_cast<const LinearArrays&>(arrays)) &&
@@ -134,7 +136,10 @@ LevelArrays level_arrays(const SecondOrder<Scalar, Cap>& condensed, const LevelS
   for (const Row& row : aside.load) arrays.aside.load.push_back(kept(row));
   arrays.aside.prestrain = kept(aside.prestrain);
   for (const Row& row : aside.elongation) arrays.aside.elongation.push_back(kept(row));
+  arrays.low_tension_by_bar = by_bar<Cap>(condensed.lean.low_tension_by_bar, arrays, low.segments);
   arrays.tension_by_bar = by_bar<Cap>(condensed.lean.tension_by_bar, arrays, low.segments);
+  arrays.low_strut_by_bar = by_bar<Cap>(struts.low_by_bar, arrays, arrays.struts);
+  arrays.strut_by_own_lean = row_of(struts.by_own_lean, arrays.struts);
   arrays.strut_by_bar = by_bar<Cap>(struts.by_bar, arrays, arrays.struts);
   return arrays;
 }

@@ -42,7 +42,9 @@ struct LevelArrays {
   RowsArrays high_struts;
   RowsArrays bends, aside;
   Row kappa_by_bend;
-  std::vector<Row> tension_by_bar, strut_by_bar;  ///< of struts and beams
+  std::vector<Row> low_tension_by_bar, tension_by_bar, low_strut_by_bar,
+      strut_by_bar;  ///< of struts and beams
+  Row strut_by_own_lean;
   int struts = 0, beams = 0, normals = 0;
   double target_force = 0, curve = 0;
 };

@@ -19,8 +19,10 @@ struct CondensationRequest {
   CondensedBeams<Scalar, Cap>* beams = nullptr;
   const FixedList<NodeAxis, Cap::displacements>* displaced = nullptr;  ///< what `displacements` are of
   CondensedRows<Real, max_displacements<Cap>, Cap>* displacements = nullptr;
-  /// What displacements change, Eqs. (44) and (45); and then what struts and displacements have of it.
+  /// What displacements change, Eqs. (44) and (45), but for the tensions from bars that are lengthened.
   CondensedLean<Scalar, Cap>* lean = nullptr;
+  /// Those, and then what struts and displacements have of it.
+  RowsByBar<Real, Cap::segments, Cap>* tension_by_bar = nullptr;
   RowsByBar<Real, Cap::struts, Cap>* strut_by_bar = nullptr;
   RowsByBar<Real, max_displacements<Cap>, Cap>* displacement_by_bar = nullptr;
 };
@@ -207,7 +209,7 @@ class Condensation {
       for (int i = 0; i < condensed.segments; ++i) condensed.coupling.set(i, k, column[i]);
     }
     if constexpr (!std::is_same<Geometry, NoGeometry>::value)
-      if (asked_.lean != nullptr) return lengthen_bars(condensed);
+      if (asked_.tension_by_bar != nullptr) return lengthen_bars(condensed);
     return Status::success();
   }
   /// What a unit elongation of every strut and beam does, and how friction follows the bend of the cable.
@@ -216,18 +218,20 @@ class Condensation {
     int beams = 0;
     if constexpr (Cap::beams > 0) beams = scene_->beams.size();
     const auto none = [](int) { return Real(0); };
-    CondensedLean<Scalar, Cap>& lean = *asked_.lean;
-    lean.struts = struts;
-    lean.beams = beams;
-    for (int j = 0; j < condensed.joints; ++j)
-      lean.kappa_by_bend[j] = JointLean<Real, dimension>::kappa_by_bend(structure_.elements().joints[j]);
+    if (asked_.lean != nullptr) {
+      asked_.lean->struts = struts;
+      asked_.lean->beams = beams;
+      for (int j = 0; j < condensed.joints; ++j)
+        asked_.lean->kappa_by_bend[j] =
+            JointLean<Real, dimension>::kappa_by_bend(structure_.elements().joints[j]);
+    }
     for (int b = 0; b < struts + beams; ++b) {
       const auto unit = [b](int i) { return i == b ? Real(1) : Real(0); };
       const Status status = structure_.solve(no_force, none, unit);
       if (!status) return status;
       const int to = b < struts ? b : Cap::struts + b - struts;
       for (int i = 0; i < condensed.segments; ++i)
-        lean.tension_by_bar[to][i] = structure_.tension(i, Real(0));
+        (*asked_.tension_by_bar)[to][i] = structure_.tension(i, Real(0));
       for (int i = 0; asked_.strut_by_bar != nullptr && i < struts; ++i)
         (*asked_.strut_by_bar)[to][i] = structure_.strut_force(i, unit(i));
       for (int i = 0; asked_.displacement_by_bar != nullptr && i < asked_.displaced->size(); ++i)

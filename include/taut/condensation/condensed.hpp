@@ -260,8 +260,9 @@ struct CondensedLean {
   /// By how much the ends of every bar move apart across it, for each normal, by the root of twice its
   /// length: their squares are what leaning lengthens it by [m^1/2].
   CondensedRows<Real, max_bars<Cap> * Cap::normals, Cap> aside;
-  /// Tensions from a unit elongation of every strut and, after Capacity::struts, of every beam [N/m].
-  FixedArray<FixedArray<Real, Cap::segments>, Cap::struts + Cap::beams> tension_by_bar;
+  /// Tensions from a unit elongation of every strut and, after Capacity::struts, of every beam [N/m], at both
+  /// levels of Eq. (43).
+  FixedArray<FixedArray<Real, Cap::segments>, Cap::struts + Cap::beams> low_tension_by_bar, tension_by_bar;
   int struts = 0, beams = 0;  ///< that the scene has
 
   /// Calls visit(number) for every segment, strut and beam.

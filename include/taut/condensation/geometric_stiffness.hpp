@@ -17,10 +17,11 @@ struct NoGeometry {
 /// Eq. (42).
 template <class Real, class Cap>
 struct GeometricStiffness {
-  Real level = 0;                                 ///< tau: of the forces at the target [-]
-  FixedArray<Real, Cap::struts> strut_force;      ///< at the target [N], tension positive
-  FixedArray<Real, Cap::beams> beam_force;        ///< at the target [N], tension positive
-  FixedArray<Real, Cap::segments> segment_force;  ///< at the target [N]
+  Real level = 0;                             ///< tau: of the forces at the target [-]
+  FixedArray<Real, Cap::struts> strut_force;  ///< at the target [N], tension positive
+  FixedArray<Real, Cap::beams> beam_force;    ///< at the target [N], tension positive
+  /// At the target [N], by the length in the scene over that at the target: Eq. (42).
+  FixedArray<Real, Cap::segments> segment_force;
   /// Geometric stiffness of substructures at the target [N/m], entry by entry as Scene::substructure_entries;
   /// null: they have none.
   const Real* substructure_entries = nullptr;

@@ -8,15 +8,18 @@
 
 namespace taut {
 
-/// The rows that give `Count` numbers of the state in second-order theory: between two levels straight lines,
-/// and what bars that lean add by their length, Eq. (45). An aggregate, too.
+/// The rows that give `Count` numbers of the state in second-order theory: between two levels as Eq. (47)
+/// says, and what bars that lean add by their length, Eq. (45), at the same level. An aggregate, too.
 template <class Scalar, int Count, class Cap>
 struct LevelRows {
   using Real = Wide<Scalar>;
   using Stretches = FixedArray<Real, max_bars<Cap>>;
 
   CondensedRows<Real, Count, Cap> low, high;
-  RowsByBar<Real, Count, Cap> by_bar;
+  RowsByBar<Real, Count, Cap> low_by_bar, by_bar;
+  /// Of strut forces: by what part of itself each is more than what it balances along the axis that its strut
+  /// has in the scene, for a metre that its lean lengthens it by: 1 / length, Eq. (45). Otherwise zero.
+  FixedArray<Real, Count> by_own_lean;
   int count = 0;  ///< rows in use
 
   /// All numbers in use at these loads and elongations [m], of which `model` is the LevelModel. Costs (bars +
@@ -35,12 +38,15 @@ struct LevelRows {
   Real at(int i, const Model& model, const Loads& drive, const Elongations& e, Real sum,
           const Stretches& q) const {
     const Real below = number_of(low, i, model, drive, e);
-    Real number =
-        below + model.part(sum / model.target_force) * (number_of(high, i, model, drive, e) - below);
+    const Real part = model.part(sum / model.target_force);
+    Real number = below + part * (number_of(high, i, model, drive, e) - below);
     model.lean().for_each_bar(model.segments, [&](int b) {
-      number += q[b] * (b < Cap::segments ? high.elongation[b][i] : by_bar[b - Cap::segments][i]);
+      const bool is_segment = b < Cap::segments;
+      const Real from = is_segment ? low.elongation[b][i] : low_by_bar[b - Cap::segments][i];
+      const Real to = is_segment ? high.elongation[b][i] : by_bar[b - Cap::segments][i];
+      number += q[b] * (from + part * (to - from));
     });
-    return number;
+    return i < Cap::struts ? number * (1 + by_own_lean[i] * q[Cap::segments + i]) : number;
   }
 };
 
@@ -86,7 +92,7 @@ struct SecondOrder {
   /// Levels of the two. The lowest is above zero: without tension nothing may hold a pinned strut.
   static constexpr Real low_level = Real(1) / 48, high_level = 1;
   Linear low, high;
-  CondensedLean<Scalar, Cap> lean;  ///< at the high level
+  CondensedLean<Scalar, Cap> lean;  ///< at the high level, but for low_tension_by_bar
   Real target_force = 0;            ///< T* of all segments together [N]
   Real curve = 0;                   ///< k of Eq. (47): 0 is a straight line between the two
 
@@ -305,9 +311,13 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   }
   void lengthen(int bar, Real by, Tensions& T) const {
     if (bits_of(by) == 0) return;
-    for (int i = 0; i < this->segments; ++i)
-      T[i] += by * (bar < Cap::segments ? coupling_at(i, bar)
-                                        : source_->lean.tension_by_bar[bar - Cap::segments][i]);
+    for (int i = 0; i < this->segments; ++i) {
+      if (bar < Cap::segments)
+        T[i] += by * coupling_at(i, bar);
+      else
+        T[i] += by * between(lean().low_tension_by_bar[bar - Cap::segments][i],
+                             lean().tension_by_bar[bar - Cap::segments][i]);
+    }
   }
   /// Friction of the displaced geometry, Eq. (44). A joint that locks itself, or has no friction, stays so.
   void take_friction() {

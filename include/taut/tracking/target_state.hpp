@@ -9,8 +9,9 @@ namespace taut {
 
 /// Condenses scenes of one type in second-order theory; as Condensation, it can be thrown away afterwards.
 ///
-/// Geometric stiffness is that of the target's forces. They are found by a fixed point: at first the jack's
-/// force in all segments and no thrust in the struts, then all forces of the round before.
+/// Geometric stiffness is that of the target's forces, over the lengths that segments have there, Eq. (42).
+/// They are found by a fixed point: at first the jack's force in all segments and no thrust in the struts,
+/// then all forces and lengths of the round before.
 template <class Scalar, class SceneType>
 class SecondOrderCondensation {
  public:
@@ -27,9 +28,10 @@ class SecondOrderCondensation {
   /// if given, receives the rows for the displacements that were chosen in it. Costs eight
   /// condensations, each with a solve more for every strut and beam, and three ways to the target.
   Status run(const SceneType& scene, const Sample<Scalar, Cap>& target, Model& condensed,
-              typename Model::Struts* struts = nullptr, const Real* substructure_geometry = nullptr,
-              LevelDisplacements<Scalar, Cap>* displacements = nullptr) {
+             typename Model::Struts* struts = nullptr, const Real* substructure_geometry = nullptr,
+             LevelDisplacements<Scalar, Cap>* displacements = nullptr) {
     geometry_ = {};
+    lengthened_.fill(Real(0));
     geometry_.substructure_entries = substructure_geometry;
     find_guess(scene, target);
     for (int round = 0;; ++round) {
@@ -37,7 +39,7 @@ class SecondOrderCondensation {
       const Status status = condense(scene, condensed, !is_last || struts == nullptr ? struts_ : *struts,
                                      is_last ? displacements : nullptr);
       if (!status || is_last) return status;
-      if (!take_forces(condensed, target)) round = rounds - 1;
+      if (!take_forces(scene, condensed, target)) round = rounds - 1;
     }
   }
   Real condition() const { return condensation_.condition(); }
@@ -64,22 +66,29 @@ class SecondOrderCondensation {
   Status condense(const SceneType& scene, Model& condensed, typename Model::Struts& struts,
                   LevelDisplacements<Scalar, Cap>* displacements) {
     condensed.target_force = 0;
-    for (int i = 0; i < scene.prestrain.size(); ++i) condensed.target_force += geometry_.segment_force[i];
+    for (int i = 0; i < scene.prestrain.size(); ++i)
+      condensed.target_force += geometry_.segment_force[i] * (1 + lengthened_[i]);
     if (!(condensed.target_force > 0)) return Status::at(Code::out_of_range, Place::none, 0);
     struts.count = scene.struts.size();
+    for (int i = 0; i < scene.struts.size(); ++i)
+      struts.by_own_lean[i] = 1 / StrutElement<Real, SceneType::dimension>::of(scene, i).line.length;
     CondensationRequest<Scalar, Cap> request;
     request.struts = &struts.low;
     if (displacements != nullptr) {
       displacements->rows.count = displacements->of.size();
       request.displaced = &displacements->of;
       request.displacements = &displacements->rows.low;
+      request.displacement_by_bar = &displacements->rows.low_by_bar;
     }
+    request.tension_by_bar = &condensed.lean.low_tension_by_bar;
+    request.strut_by_bar = &struts.low_by_bar;
     geometry_.level = Model::low_level;
     const Status status = condensation_.run(scene, geometry_, condensed.low, request);
     if (!status) return status;
     request.struts = &struts.high;
     request.beams = &beams_;
     request.lean = &condensed.lean;
+    request.tension_by_bar = &condensed.lean.tension_by_bar;
     request.strut_by_bar = &struts.by_bar;
     if (displacements != nullptr) {
       request.displacements = &displacements->rows.high;
@@ -106,14 +115,20 @@ class SecondOrderCondensation {
   }
   /// What comes of the target with the present geometry; where it is not reached, of where the path ends, in
   /// proportion. False if that is nowhere: then what was stays.
-  bool take_forces(const Model& condensed, const Sample<Scalar, Cap>& target) {
+  bool take_forces(const SceneType& scene, const Model& condensed, const Sample<Scalar, Cap>& target) {
     if (!tracker_.start(condensed).status) return false;
     const auto progress = tracker_.advance(target);
     if (!(progress.fraction > Scalar(0.05))) return false;
     const Real by = 1 / static_cast<Real>(progress.fraction);
     const auto e = tracker_.elongations();
-    for (int i = 0; i < condensed.low.segments; ++i)
-      geometry_.segment_force[i] = by * static_cast<Real>(tracker_.tension(i));
+    for (int c = 0; c < scene.cables.size(); ++c)
+      for (int k = 0; k < scene.cables[c].segments(); ++k) {
+        const auto element = CableElement<Real, SceneType::dimension>::of(scene, c, k);
+        const int i = scene.cables[c].first_segment + k;
+        const Real T = static_cast<Real>(tracker_.tension(i));
+        lengthened_[i] = ((T - element.initial) / element.axial - e[i]) / element.line.length;
+        geometry_.segment_force[i] = by * T / (1 + lengthened_[i]);
+      }
     struts_.evaluate(tracker_.model(), tracker_.loads(), e, geometry_.strut_force);
     beams_.evaluate(tracker_.model(), tracker_.loads(), e, geometry_.beam_force);
     for (int i = 0; i < Cap::struts; ++i) geometry_.strut_force[i] *= by;
@@ -127,6 +142,7 @@ class SecondOrderCondensation {
   CondensedBeams<Scalar, Cap> beams_;
   Tracker<Model> tracker_;
   Geometry geometry_;
+  FixedArray<Real, Cap::segments> lengthened_;  // between their nodes, as a part of the length in the scene
 };
 
 }  // namespace taut
