@@ -94,9 +94,10 @@ struct Sizes {
     using Tracked = Tracker<SampledScene<Scalar, Cap>>;
     using Model = typename SampledScene<Scalar, Cap>::AtLevel;
     using Solver = ModeSolver<Model, typename CableSystem<Model, 0>::Laws>;
-    static constexpr std::size_t bytes =
-        sizeof(Solver) + 2 * sizeof(FixedList<SlipMode, 2 * Cap::joints>) + sizeof(typename Tracked::SlipState) +
-        8 * sizeof(typename Solver::Tensions) + 8 * sizeof(typename Solver::Values) + 1024;
+    static constexpr std::size_t bytes = sizeof(Solver) + 2 * sizeof(FixedList<SlipMode, 2 * Cap::joints>) +
+                                         sizeof(typename Tracked::SlipState) +
+                                         8 * sizeof(typename Solver::Tensions) +
+                                         8 * sizeof(typename Solver::Values) + 1024;
   };
 
   template <Room Is>
