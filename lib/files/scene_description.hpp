@@ -83,6 +83,7 @@ struct CableDescription {
   double E_sd = 0.03;                           ///< relative standard deviation of E A
   double temperature_sd = 0;                    ///< of what no column says of its temperature once locked [K]
   std::optional<double> seating_sd;             ///< [m]
+  bool has_scatter = false;                     ///< the file says it
   double scatter = 0.1, drift = 0;              ///< of mu from joint to joint, and by a pass; relative
   std::array<InstrumentDescription, 2> cell;    ///< load cells at start and end
   std::array<InstrumentDescription, 2> stroke;  ///< of the jacks

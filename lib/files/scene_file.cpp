@@ -436,8 +436,10 @@ class SceneReader {
       cable.has_mu_sd = true;
     }
     if (const auto shared = field.find("shared")) cable.shared_mu = shared->boolean("true or false");
-    if (const auto scatter = field.find("scatter"))
+    if (const auto scatter = field.find("scatter")) {
       cable.scatter = deviation(*scatter, "of mu from joint to joint, relative, as a number");
+      cable.has_scatter = true;
+    }
     if (const auto drift = field.find("drift")) cable.drift = drift->number("the drift of mu as a number");
   }
 

@@ -455,7 +455,9 @@ bool hangs_on_cables_alone(const SceneDescription& scene, int node) {
 
 // A mechanism that the core places at a cable without joints is a node at an end of it.
 Status at_its_node(const Status& status, const SceneDescription& scene) {
-  if (status.code != Code::mechanism || status.place != Place::cable) return status;
+  if (status.code != Code::mechanism || status.place != Place::cable || status.index < 0 ||
+      status.index >= static_cast<int>(scene.cables.size()))
+    return status;
   const auto& path = scene.cables[static_cast<std::size_t>(status.index)].path;
   for (const int node : {path.front(), path.back()})
     if (hangs_on_cables_alone(scene, node)) return Status::at(Code::mechanism, Place::node, node);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -69,8 +70,13 @@ std::vector<LearnedFriction> learned_mu(const EstimatorType& estimator, const Co
       if (p < 0 || !(before.sd[at] > 0)) continue;
       const bool is_common = prior.shared[c];
       const std::string& name = scene.cables[static_cast<std::size_t>(c)].name;
-      all.push_back({is_common ? name : name + "." + std::to_string(k + 1), before.mu[at], before.sd[at],
-                     static_cast<double>(estimator.mu(j)), static_cast<double>(estimator.mu_deviation(j)),
+      // Of a prior what the scene says, without what scatters from joint to joint.
+      const double prior_sd = static_cast<double>(prior.mu_sd[c]),
+                   said = scene.cables[static_cast<std::size_t>(c)].mu_sd;
+      const bool is_prior = is_common && said > 0 && std::fabs(before.sd[at] - prior_sd) < 1e-5 * prior_sd;
+      all.push_back({is_common ? name : name + "." + std::to_string(k + 1), before.mu[at],
+                     is_prior ? said : before.sd[at], static_cast<double>(estimator.mu(j)),
+                     static_cast<double>(estimator.mu_deviation(j)),
                      sources_of(p, estimator.account(), scene)});
       if (is_common) break;
     }

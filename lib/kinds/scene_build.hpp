@@ -52,7 +52,9 @@ void build_cable(const CableDescription& described, SceneType& scene) {
   cable.wobble = described.wobble;
   cable.mu_sd = described.mu_sd;
   cable.shared_mu = described.shared_mu;
-  if (described.shared_mu) cable.scatter = described.scatter;
+  // A mu that is said to be known exactly is that of every joint, unless scatter is said too.
+  if (described.shared_mu && (described.mu_sd > 0 || described.has_scatter))
+    cable.scatter = described.scatter;
   cable.alpha = described.alpha;
   // A cable that is stiffer than thought loses more.
   cable.seating_sd =

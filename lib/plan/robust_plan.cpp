@@ -12,9 +12,9 @@
 namespace taut::host {
 namespace {
 
-constexpr std::size_t most_trials = 200, most_trials_second_order = 40, starts = 3;
+constexpr std::size_t most_trials = 400, most_trials_second_order = 40, starts = 3;
 constexpr int grid = 24, grid_second_order = 5;
-constexpr double first_step = 0.05, last_step = 0.002;  // of a force
+constexpr double first_step = 0.05, last_step = 0.0005;  // of a force
 constexpr double out_of_question = 1e12;
 
 // Plans as their open forces, tried at the mean of mu for the limits and over some draws for the error.

@@ -17,7 +17,7 @@ struct PlanErrors {
 /// the mean of mu; `for_mean` is what find_plan() gives, and comes back where nothing is better. Begins with
 /// that, with the plans for five other values of mu, two standard deviations up and down, and with a grid
 /// where one jack pulls and lets out; goes downhill from the best three, along one force or two that follow
-/// each other, with steps from a twentieth of them down to a five hundredth. Nothing is proved. Throws what
+/// each other, with steps from a twentieth of them down to a two thousandth. Nothing is proved. Throws what
 /// find_plan() does. Deterministic; at most some 1000 trials, each as long as draws_of() plans.
 Plan find_robust_plan(const SceneDescription& scene, const PlanGoal& goal, const Plan& for_mean);
 
