@@ -24,8 +24,9 @@ class PlausibleLog {
   /// though they pull; if a stroke grows a hundred times faster with the force than the cable stretches; if a
   /// stroke, but for the tenth of its readings at either end, goes over more than a tenth of the cable; if a
   /// described cell scatters by more than a tenth of what the jacks of its cable ever pull, by more than half
-  /// of it while that strains the cable by less than 1e-4, though these readings do not; and, where the log does not go on from a state, if no jack of a cable has a column
-  /// though other instruments read it under load.
+  /// of it while that strains the cable by less than 1e-4, though these readings do not; and, where the log
+  /// does not go on from a state, if no jack of a cable has a column though other instruments read it under
+  /// load.
   void require(const LogReader& log, const std::string& path, bool has_past) const;
 
  private:
