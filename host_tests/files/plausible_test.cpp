@@ -110,8 +110,7 @@ TEST_CASE("loads, temperatures and the target of second-order theory that are ab
       "scene.json: /second_order/target/forces/C.end: a jack force of 1e+30 N is more than the cable "
       "can carry; write one in N, below 2e+06");
   target("-1e30", "1e5");
-  check_refused(site, "check", "",
-                "scene.json: /second_order/target/loads/dead: a load of ");
+  check_refused(site, "check", "", "scene.json: /second_order/target/loads/dead: a load of ");
 }
 
 TEST_CASE("coordinates in mm are refused where they make a cable longer than 10 km") {
