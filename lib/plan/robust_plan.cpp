@@ -21,7 +21,10 @@ constexpr double out_of_question = 1e12;
 class Trials {
  public:
   Trials(const SceneDescription& scene, const PlanGoal& goal, const std::vector<PlanJack>& jacks)
-      : goal_(goal), jacks_(jacks), mean_(std::make_unique<Site>(scene, goal, jacks)) {
+      : goal_(goal),
+        jacks_(jacks),
+        mean_(std::make_unique<Site>(scene, goal, jacks)),
+        least_ratio_(scene.cables.size(), 0) {
     for (std::size_t number = 0; number < draws_of(scene); ++number)
       draws_.push_back(std::make_unique<Site>(drawn(scene, number), goal, jacks));
   }
@@ -32,7 +35,7 @@ class Trials {
       for (std::size_t k = 0; !shape[i].locks && k < shape[i].jacks.size(); ++k, ++next)
         if (!(force[next] >= 0 && force[next] <= jacks_[shape[i].jacks[k]].most_force))
           return out_of_question;
-    if (!keeps_limits(shape, force)) return out_of_question;
+    if (has_limits(goal_) && !keeps_limits(at_mean(shape, force))) return out_of_question;
     double sum = 0;
     std::size_t whole = 0;
     for (const auto& draw : draws_) {
@@ -42,7 +45,8 @@ class Trials {
       bool goes_on = true;
       for (const PlanStage& stage : stages_of(shape, force, draw->jacking.beginning())) {
         const Leg leg = draw->jacking.jump(stage);
-        goes_on = goes_on && leg.whole;
+        goes_on = leg.whole;
+        if (!goes_on) break;
         end = leg.end();
       }
       if (!goes_on) continue;
@@ -51,6 +55,17 @@ class Trials {
     }
     return 2 * whole > draws_.size() ? sum / static_cast<double>(whole) : out_of_question;
   }
+
+  /// At the mean of mu.
+  CourseOutcome at_mean(const CourseShape& shape, const std::vector<double>& force) {
+    mean_->jacking.go_to(mean_->start);
+    // Jacks that pull a cable through have no answer here, so their forces need not be kept together.
+    return Course(mean_->jacking, goal_, shape, mean_->start, least_ratio_).at(force);
+  }
+  std::vector<PlanStage> stages(const CourseShape& shape, const std::vector<double>& force) const {
+    return stages_of(shape, force, mean_->jacking.beginning());
+  }
+  bool stands() const { return mean_->stands; }
 
  private:
   // A site with a mu of its own. The jacking refers to the scene beside it.
@@ -66,21 +81,12 @@ class Trials {
     std::string start;
   };
 
-  bool keeps_limits(const CourseShape& shape, const std::vector<double>& force) {
-    if (!has_limits(goal_)) return true;
-    mean_->jacking.go_to(mean_->start);
-    for (const PlanStage& stage : stages_of(shape, force, mean_->jacking.beginning())) {
-      const Leg leg = mean_->jacking.follow(stage);
-      if (!leg.whole) return false;
-      for (const LegPoint& point : leg.points)
-        if (excess_at(point, goal_, jacks_) > 0) return false;
-    }
-    return true;
-  }
+  static bool keeps_limits(const CourseOutcome& outcome) { return outcome.whole && outcome.excess == 0; }
 
   const PlanGoal& goal_;
   const std::vector<PlanJack>& jacks_;
   std::unique_ptr<Site> mean_;
+  std::vector<double> least_ratio_;
   std::vector<std::unique_ptr<Site>> draws_;
 };
 
@@ -139,8 +145,6 @@ SceneDescription shifted(const SceneDescription& scene, double deviations) {
   return other;
 }
 
-}  // namespace
-
 // Of one jack that pulls and lets out: pairs of a grid of forces, from half of the target to twice of it.
 void add_pairs(Trials& trials, const CourseShape& shape, double target, int count,
                std::vector<Candidate>& found) {
@@ -171,8 +175,11 @@ std::vector<Candidate> best_apart(std::vector<Candidate> all) {
   return best;
 }
 
+}  // namespace
+
 Plan find_robust_plan(const SceneDescription& scene, const PlanGoal& goal, const Plan& for_mean) {
   Trials trials(scene, goal, for_mean.jacks);
+  if (!trials.stands()) return for_mean;
   std::vector<Candidate> found;
   const auto add = [&](const Plan& plan) {
     Candidate candidate{plan.shape, forces_of(plan)};
@@ -180,6 +187,7 @@ Plan find_robust_plan(const SceneDescription& scene, const PlanGoal& goal, const
     found.push_back(std::move(candidate));
   };
   add(for_mean);
+  double least = found[0].expected;
   for (const double deviations : {-2.0, -1.0, 0.5, 1.0, 2.0})
     if (const Plan plan = find_plan(shifted(scene, deviations), goal); plan.status && plan.outcome.whole)
       add(plan);
@@ -192,26 +200,14 @@ Plan find_robust_plan(const SceneDescription& scene, const PlanGoal& goal, const
   for (Candidate& each : found) descend(trials, each, most);
 
   Plan best = for_mean;
-  const auto expected_of = [&](const std::vector<PlanStage>& stages) {
-    const PriorOutcome outcome = outcome_over_prior(scene, goal, for_mean.jacks, stages);
-    return outcome.failed < outcome.draws ? outcome.expected : out_of_question;
-  };
-  double least = expected_of(for_mean.stages);
-  Jacking jacking(scene, goal, for_mean.jacks);
-  if (!jacking.begin()) return best;
-  const std::string start = jacking.state();
   for (const Candidate& each : found) {
-    const std::vector<PlanStage> stages = stages_of(each.shape, each.force, jacking.beginning());
-    const double expected = expected_of(stages);
-    if (!(expected < least)) continue;
-    jacking.go_to(start);
-    Course course(jacking, goal, each.shape, start, std::vector<double>(scene.cables.size(), 0));
-    const CourseOutcome outcome = course.at(each.force);
+    if (!(each.expected < least)) continue;
+    CourseOutcome outcome = trials.at_mean(each.shape, each.force);
     if (!outcome.whole) continue;
-    least = expected;
+    least = each.expected;
     best.shape = each.shape;
-    best.stages = stages;
-    best.outcome = outcome;
+    best.stages = trials.stages(each.shape, each.force);
+    best.outcome = std::move(outcome);
     best.certainty = Certainty::best_found;
   }
   return best;
