@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -20,6 +19,7 @@
 #include "lib/plan/objective.hpp"
 #include "lib/plan/plan_log.hpp"
 #include "lib/plan/prior.hpp"
+#include "plan/campaign_options.hpp"
 #include "plan/core_jack.hpp"
 #include "plan/random_scene.hpp"
 
@@ -422,9 +422,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const std::string name = argv[i];
-    const long value = std::atol(argv[i + 1]);
+  for_each_option(argc, argv, [&](const std::string& name, long value) {
     if (name == "--one") options.one = static_cast<int>(value);
     if (name == "--grid") options.grid = static_cast<int>(value);
     if (name == "--three") options.three = static_cast<int>(value);
@@ -433,6 +431,6 @@ int main(int argc, char** argv) {
     if (name == "--random") options.random = static_cast<int>(value);
     if (name == "--first") options.first = static_cast<int>(value);
     if (name == "--seed") options.seed = static_cast<std::uint64_t>(value);
-  }
+  });
   return run(options);
 }

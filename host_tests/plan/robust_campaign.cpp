@@ -7,13 +7,13 @@
 // larger one than the plan for the mean of mu.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "lib/plan/objective.hpp"
 #include "lib/plan/robust_plan.hpp"
+#include "plan/campaign_options.hpp"
 #include "plan/random_scene.hpp"
 
 namespace {
@@ -135,13 +135,11 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const std::string name = argv[i];
-    const long value = std::atol(argv[i + 1]);
+  for_each_option(argc, argv, [&](const std::string& name, long value) {
     if (name == "--scenes") options.scenes = static_cast<int>(value);
     if (name == "--grid") options.grid = static_cast<int>(value);
     if (name == "--first") options.first = static_cast<int>(value);
     if (name == "--seed") options.seed = static_cast<std::uint64_t>(value);
-  }
+  });
   return run(options);
 }
