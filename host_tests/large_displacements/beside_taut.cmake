@@ -2,6 +2,8 @@
 #   cmake -DTAUT=... -DPROGRAM=... -DFOLDER=... -DUNTIL=2400 "-DNAMES=a;b" "-DWITHIN=0.001;0.005;0.01" -P beside_taut.cmake
 # WITHIN are the parts by which segments, struts and extensions may differ, of the largest of each; without it the
 # differences are printed, those of linear theory beside them.
+include(${CMAKE_CURRENT_LIST_DIR}/results.cmake)
+
 function(run_taut scene log out)
   execute_process(COMMAND "${TAUT}" simulate ${scene} ${log} -o ${out} ${ARGN} RESULT_VARIABLE status ERROR_VARIABLE said)
   if(status GREATER 1)
@@ -25,16 +27,6 @@ function(parts_of result reference to)
     endif()
   endforeach()
   set(${to} "${parts}" PARENT_SCOPE)
-endfunction()
-
-function(rows_of file to)
-  set(rows 0)
-  if(EXISTS ${file})
-    file(STRINGS ${file} lines)
-    list(LENGTH lines rows)
-    math(EXPR rows "${rows} - 1")
-  endif()
-  set(${to} ${rows} PARENT_SCOPE)
 endfunction()
 
 if(NAMES STREQUAL "all")
@@ -74,13 +66,8 @@ foreach(name IN LISTS NAMES)
     if(linear_rows GREATER 0)
       parts_of(${stem}.linear.csv ${stem}.reference.csv linear)
     endif()
-    # As many displacements as a run of taut gives at once.
-    file(STRINGS ${stem}.reference.csv header LIMIT_COUNT 1)
-    string(REPLACE "," ";" header "${header}")
-    list(FILTER header INCLUDE REGEX "\\.[xyz]$")
-    list(SUBLIST header 0 48 header)
-    list(JOIN header "," header)
-    run_taut(${stem}.json ${stem}.csv ${stem}.moved.csv --columns "${header}")
+    displacement_columns_of(${stem}.reference.csv columns)
+    run_taut(${stem}.json ${stem}.csv ${stem}.moved.csv --columns "${columns}")
     parts_of(${stem}.moved.csv ${stem}.reference.csv moved displacements)
     string(REPLACE ";" " " parts "${parts}; displacements ${moved}")
     string(REPLACE ";" " " linear "${linear}")

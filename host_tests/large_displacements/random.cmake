@@ -2,21 +2,12 @@
 # each into LINES, which `large_displacements --summary LINES` makes a table of:
 #   cmake -DTAUT=... -DPROGRAM=... -DFOLDER=... -DLINES=... -DFIRST=1 -DCOUNT=1000 -P random.cmake
 # Up to the target, and up to the first row of which taut remarks that joints bend by more than the theory is made for.
+include(${CMAKE_CURRENT_LIST_DIR}/results.cmake)
 set(target 2400)
 
 function(first_line text to)
   string(REGEX REPLACE "\n.*$" "" text "${text}")
   set(${to} "${text}" PARENT_SCOPE)
-endfunction()
-
-function(rows_of file to)
-  set(rows 0)
-  if(EXISTS ${file})
-    file(STRINGS ${file} lines)
-    list(LENGTH lines rows)
-    math(EXPR rows "${rows} - 1")
-  endif()
-  set(${to} ${rows} PARENT_SCOPE)
 endfunction()
 
 function(append_differences what result reference until)
@@ -59,23 +50,16 @@ foreach(seed RANGE ${FIRST} ${last})
   first_line("${said}" said)
   file(APPEND ${LINES} "taut ${status} ${rows} ${said}\n")
 
-  # As many displacements as a run of taut gives at once.
-  file(STRINGS ${stem}.reference.csv header LIMIT_COUNT 1)
-  string(REPLACE "," ";" header "${header}")
-  list(FILTER header INCLUDE REGEX "\\.[xyz]$")
-  list(SUBLIST header 0 48 header)
-  list(JOIN header "," header)
-  execute_process(COMMAND "${TAUT}" simulate ${stem}.json ${stem}.csv -o ${stem}.moved.csv --columns "${header}"
+  # To the row before that one.
+  set(within ${target})
+  if(beyond LESS ${target})
+    math(EXPR within "${beyond} - 60")
+  endif()
+  displacement_columns_of(${stem}.reference.csv columns)
+  execute_process(COMMAND "${TAUT}" simulate ${stem}.json ${stem}.csv -o ${stem}.moved.csv --columns "${columns}"
                   TIMEOUT 120 OUTPUT_QUIET ERROR_QUIET)
   foreach(result IN ITEMS taut moved)
     append_differences(target ${stem}.${result}.csv ${stem}.reference.csv ${target})
-    if(beyond GREATER ${target})
-      set(beyond ${target})
-    endif()
-    math(EXPR within "${beyond} - 60")
-    if(beyond EQUAL ${target})
-      set(within ${target})
-    endif()
     append_differences(within ${stem}.${result}.csv ${stem}.reference.csv ${within})
   endforeach()
 endforeach()
