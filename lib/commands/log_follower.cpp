@@ -89,8 +89,7 @@ Sentence reason_to_stop(const Followed& path, const SceneDescription& scene) {
   if (!(path.fraction > 0))
     return Sentence(
         "the event budget is spent at one load: joints go on changing between sticking and sliding there; "
-        "stay "
-        "below this load");
+        "stay below this load");
   return Sentence(
       "the event budget is spent: too many changes between sticking and sliding; add rows in between");
 }

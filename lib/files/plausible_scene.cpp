@@ -71,7 +71,7 @@ void check_target(const TargetDescription& target, const SceneDescription& scene
 
 }  // namespace
 
-double most_force_of(const CableDescription& cable) { return 0.1 * cable.E * cable.A; }
+double most_force_of(const CableDescription& cable) { return breaking_strain * cable.E * cable.A; }
 
 double length_of(const CableDescription& cable, const SceneDescription& scene) {
   double length = 0;

@@ -518,8 +518,7 @@ constexpr Translation translations[] = {
      "below this load",
      "事件数在同一荷载下超限：节点在粘着与滑动之间不断转换；请保持在此荷载以下",
      "das Ereigniskontingent ist bei einer Last erschöpft: Umlenkungen wechseln dort immer weiter zwischen "
-     "Haften "
-     "und Gleiten; unter dieser Last bleiben"},
+     "Haften und Gleiten; unter dieser Last bleiben"},
     {"with --substeps {1} it goes on", "用 --substeps {1} 可以继续", "mit --substeps {1} geht es weiter"},
     {"smaller load steps do not help: try --method tracker", "减小荷载步无效：请用 --method tracker",
      "kleinere Lastschritte helfen nicht: --method tracker versuchen"},

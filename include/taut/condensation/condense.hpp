@@ -108,7 +108,8 @@ class Condensation {
     condensed.most_factor.fill(farthest_factor);
     for (int c = 0; c < scene_->cables.size(); ++c) {
       const auto& cable = scene_->cables[c];
-      const Real carried = Real(0.1) * static_cast<Real>(cable.E) * static_cast<Real>(cable.A);
+      const Real carried =
+          static_cast<Real>(breaking_strain) * static_cast<Real>(cable.E) * static_cast<Real>(cable.A);
       condensed.most_force[c] = static_cast<Scalar>(carried);
       // Loads may well cancel one another.
       const Real absurd = 100 * carried;

@@ -127,6 +127,9 @@ struct CableLayout {
   }
 };
 
+/// A strain [-] beyond what any cable carries: wires break at a few per cent.
+constexpr double breaking_strain = 0.1;
+
 /// A cable over a path of nodes. The inner nodes, or all nodes of a closed hoop, are friction joints.
 ///
 /// Scene::add_cable() fills the layout but for `closed`, `ends` and `seating`.
