@@ -29,8 +29,7 @@ using namespace plan_test;
 using namespace taut::host;
 
 struct Options {
-  int one = 200, grid = 400, three = 40, coarse = 60, two = 50, random = 20000, first = 0;
-  std::uint64_t seed = 1;
+  int one = 200, grid = 400, three = 40, coarse = 60, two = 50, random = 20000, first = 0, seed = 1;
 };
 
 std::uint64_t mixed(std::uint64_t seed, std::uint64_t kind, std::uint64_t i) {
@@ -218,7 +217,8 @@ struct Kind {
 };
 
 bool compare_one(const Options& options, Kind& kind, std::uint64_t i) {
-  const std::uint64_t seed = mixed(options.seed, static_cast<std::uint64_t>(kind.kind), i);
+  const std::uint64_t seed =
+      mixed(static_cast<std::uint64_t>(options.seed), static_cast<std::uint64_t>(kind.kind), i);
   Random random(seed);
   const Site site = random_site(random, kind.kind, false);
   Rows rows(site);
@@ -240,9 +240,8 @@ bool compare_one(const Options& options, Kind& kind, std::uint64_t i) {
   kind.slowest = std::max(kind.slowest, took);
   bool good = true;
   const auto fail = [&](const char* what, double here, double there) {
-    std::printf("FAILED: %s, scene %llu (seed %llu): %s: %.12g beside %.12g\n", name_of(kind.kind),
-                static_cast<unsigned long long>(i), static_cast<unsigned long long>(options.seed), what, here,
-                there);
+    std::printf("FAILED: %s, scene %llu (seed %d): %s: %.12g beside %.12g\n", name_of(kind.kind),
+                static_cast<unsigned long long>(i), options.seed, what, here, there);
     good = false;
   };
   const SimulatedPlan simulated = simulate(plan_log(site.scene, site.goal, plan), site.scene);
@@ -292,7 +291,7 @@ bool compare_one(const Options& options, Kind& kind, std::uint64_t i) {
 }
 
 bool compare_three(const Options& options, Kind& kind, std::uint64_t i) {
-  Random random(mixed(options.seed, static_cast<std::uint64_t>(kind.kind), i));
+  Random random(mixed(static_cast<std::uint64_t>(options.seed), static_cast<std::uint64_t>(kind.kind), i));
   Site site = random_site(random, kind.kind, false);
   Rows rows(site);
   if (!rows.good()) return true;
@@ -307,14 +306,15 @@ bool compare_three(const Options& options, Kind& kind, std::uint64_t i) {
   const double brute = best_of_triples(site, rows, options.coarse);
   kind.excess = std::max(kind.excess, plan.outcome.error - brute);
   if (plan.outcome.error <= brute + 1e-9) return true;
-  std::printf("FAILED: three moves, %s, scene %llu (seed %llu): brute force is nearer: %.12g beside %.12g\n",
-              name_of(kind.kind), static_cast<unsigned long long>(i),
-              static_cast<unsigned long long>(options.seed), plan.outcome.error, brute);
+  std::printf("FAILED: three moves, %s, scene %llu (seed %d): brute force is nearer: %.12g beside %.12g\n",
+              name_of(kind.kind), static_cast<unsigned long long>(i), options.seed, plan.outcome.error,
+              brute);
   return false;
 }
 
 bool compare_two(const Options& options, Kind& kind, std::uint64_t i) {
-  Random random(mixed(options.seed, 10 + static_cast<std::uint64_t>(kind.kind), i));
+  Random random(
+      mixed(static_cast<std::uint64_t>(options.seed), 10 + static_cast<std::uint64_t>(kind.kind), i));
   const Site site = random_site(random, kind.kind, true);
   Rows rows(site);
   if (!rows.good()) {
@@ -338,14 +338,14 @@ bool compare_two(const Options& options, Kind& kind, std::uint64_t i) {
   const double brute = best_of_random(site, rows, random, options.random);
   kind.excess = std::max(kind.excess, plan.outcome.error - brute);
   if (plan.outcome.error <= brute + 1e-9) return true;
-  std::printf("FAILED: two jacks, %s, scene %llu (seed %llu): a random plan is nearer: %.12g beside %.12g\n",
-              name_of(kind.kind), static_cast<unsigned long long>(i),
-              static_cast<unsigned long long>(options.seed), plan.outcome.error, brute);
+  std::printf("FAILED: two jacks, %s, scene %llu (seed %d): a random plan is nearer: %.12g beside %.12g\n",
+              name_of(kind.kind), static_cast<unsigned long long>(i), options.seed, plan.outcome.error,
+              brute);
   return false;
 }
 
 int run(const Options& options) {
-  std::printf("seed %llu, scenes from %d on\n", static_cast<unsigned long long>(options.seed), options.first);
+  std::printf("seed %d, scenes from %d on\n", options.seed, options.first);
   bool good = true;
   // Half of the scenes on saddles, three eighths on trusses, an eighth in second-order theory, which takes
   // long.
@@ -422,15 +422,14 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  for_each_option(argc, argv, [&](const std::string& name, long value) {
-    if (name == "--one") options.one = static_cast<int>(value);
-    if (name == "--grid") options.grid = static_cast<int>(value);
-    if (name == "--three") options.three = static_cast<int>(value);
-    if (name == "--coarse") options.coarse = static_cast<int>(value);
-    if (name == "--two") options.two = static_cast<int>(value);
-    if (name == "--random") options.random = static_cast<int>(value);
-    if (name == "--first") options.first = static_cast<int>(value);
-    if (name == "--seed") options.seed = static_cast<std::uint64_t>(value);
-  });
+  read_options(argc, argv,
+               {{"--one", &options.one},
+                {"--grid", &options.grid},
+                {"--three", &options.three},
+                {"--coarse", &options.coarse},
+                {"--two", &options.two},
+                {"--random", &options.random},
+                {"--first", &options.first},
+                {"--seed", &options.seed}});
   return run(options);
 }

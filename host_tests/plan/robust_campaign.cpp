@@ -22,8 +22,7 @@ using namespace plan_test;
 using namespace taut::host;
 
 struct Options {
-  int scenes = 100, grid = 100, first = 0;
-  std::uint64_t seed = 1;
+  int scenes = 100, grid = 100, first = 0, seed = 1;
 };
 
 Site uncertain_site(Random& random, SceneKind kind) {
@@ -96,8 +95,7 @@ struct Errors {
 };
 
 int run(const Options& options) {
-  std::printf("seed %llu, scenes from %d on\n\n", static_cast<unsigned long long>(options.seed),
-              options.first);
+  std::printf("seed %d, scenes from %d on\n\n", options.seed, options.first);
   std::printf(
       "| | scenes | plan for the mean of mu | robust plan | robust less grid, at most [%%] |\n"
       "| --- | --- | --- | --- | --- |\n");
@@ -107,8 +105,8 @@ int run(const Options& options) {
     double excess = -1;
     int scenes = 0;
     for (int i = options.first; i < options.first + options.scenes / 2; ++i) {
-      Random random(options.seed * 1000003 + 1000 * static_cast<std::uint64_t>(kind) +
-                    static_cast<std::uint64_t>(i));
+      Random random(static_cast<std::uint64_t>(options.seed) * 1000003 +
+                    1000 * static_cast<std::uint64_t>(kind) + static_cast<std::uint64_t>(i));
       const Site site = uncertain_site(random, kind);
       const Plan plan = find_plan(site.scene, site.goal);
       if (!plan.status) continue;
@@ -135,11 +133,10 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  for_each_option(argc, argv, [&](const std::string& name, long value) {
-    if (name == "--scenes") options.scenes = static_cast<int>(value);
-    if (name == "--grid") options.grid = static_cast<int>(value);
-    if (name == "--first") options.first = static_cast<int>(value);
-    if (name == "--seed") options.seed = static_cast<std::uint64_t>(value);
-  });
+  read_options(argc, argv,
+               {{"--scenes", &options.scenes},
+                {"--grid", &options.grid},
+                {"--first", &options.first},
+                {"--seed", &options.seed}});
   return run(options);
 }

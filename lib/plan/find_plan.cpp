@@ -109,7 +109,7 @@ class PlanSearch {
  public:
   PlanSearch(const SceneDescription& scene, const PlanGoal& goal, const GiveUp& give_up,
              const PlanPast* past = nullptr)
-      : scene_(scene), goal_(goal), full_target_(goal.target), past_(past) {
+      : scene_(scene), goal_(goal), full_target_(goal.target), past_(past), give_up_(give_up) {
     condensed_ = condense(scene, ScalarType::float64);
     if (!condensed_.condensing.status) return;
     jacks_ = plan_jacks(scene, goal, condensed_.most_force);
@@ -390,6 +390,7 @@ class PlanSearch {
       const UpAndBack release = best_release(*jacking_, goal_, jack, seating, start_);
       take(release, {release.back});
       if (stages_ >= 2) take_better(best, back_and_up());
+      take_better(best, from_the_start());
     }
     if (stages_ >= 2) {
       const UpAndBack both = best_up_and_back(*jacking_, goal_, jack, seating, condensed_.rigid ? 1 : 2,
@@ -411,6 +412,24 @@ class PlanSearch {
     Course course(*jacking_, goal_, best.shape, start_, least_ratio_);
     CoursePlan plan = descend(course, goal_, best.plan.force, best.plan.force[0] / 50, moves_polish);
     if (plan.outcome.merit() < best.plan.outcome.merit()) best.plan = std::move(plan);
+  }
+
+  // What would be jacked if nothing had been yet: a part of the first pull takes nothing away from it.
+  Found from_the_start() const {
+    PlanGoal goal = goal_;
+    goal.stages = static_cast<int>(stages_);
+    goal.has_stages = true;
+    const Plan plan = PlanSearch(scene_, goal, give_up_).find();
+    Found found;
+    if (!plan.status || plan.shape.empty()) return found;
+    found.shape = plan.shape;
+    std::vector<double> force;
+    for (std::size_t s = 0; s < plan.stages.size(); ++s)
+      for (const std::size_t k : plan.shape[s].jacks)
+        if (!plan.shape[s].locks) force.push_back(plan.stages[s].force[k]);
+    Course course(*jacking_, goal_, found.shape, start_, least_ratio_);
+    found.plan = {force, course.at(force)};
+    return found;
   }
 
   // The plan until now, on the structure as it is known now.
@@ -622,6 +641,7 @@ class PlanSearch {
   PlanGoal goal_;  // but for find_bound() without the targets that no jack has anything to do with
   std::vector<double> full_target_;
   const PlanPast* past_;  // null: jacks are at rest
+  GiveUp give_up_;
   CondensedArrays condensed_;
   std::vector<PlanJack> jacks_;
   std::unique_ptr<Jacking> jacking_;
