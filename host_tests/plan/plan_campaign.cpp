@@ -32,8 +32,9 @@ struct Options {
   int one = 200, grid = 400, three = 40, coarse = 60, two = 50, random = 20000, first = 0, seed = 1;
 };
 
-std::uint64_t mixed(std::uint64_t seed, std::uint64_t kind, std::uint64_t i) {
-  return seed * 0x9E3779B97F4A7C15u + kind * 0xBF58476D1CE4E5B9u + i * 0x94D049BB133111EBu;
+std::uint64_t mixed(int seed, std::uint64_t kind, std::uint64_t i) {
+  return static_cast<std::uint64_t>(seed) * 0x9E3779B97F4A7C15u + kind * 0xBF58476D1CE4E5B9u +
+         i * 0x94D049BB133111EBu;
 }
 
 // A model that is jacked row by row, as simulate does.
@@ -185,9 +186,7 @@ double error_planned_anew(const Site& site, const Plan& plan, double factor) {
                 {half, site.goal.factor}};
   past.rest = plan.shape;
   past.moves_left = static_cast<std::size_t>(site.goal.has_stages ? site.goal.stages : 2);
-  for (std::size_t s = 0; s < plan.stages.size(); ++s)
-    for (const std::size_t k : plan.shape[s].jacks)
-      if (!plan.shape[s].locks) past.force.push_back(plan.stages[s].force[k]);
+  past.force = forces_of(plan.shape, plan.stages);
   return find_rest_of_plan(with_mu(site.scene, mu, known), site.goal, past).outcome.error;
 }
 
@@ -217,8 +216,7 @@ struct Kind {
 };
 
 bool compare_one(const Options& options, Kind& kind, std::uint64_t i) {
-  const std::uint64_t seed =
-      mixed(static_cast<std::uint64_t>(options.seed), static_cast<std::uint64_t>(kind.kind), i);
+  const std::uint64_t seed = mixed(options.seed, static_cast<std::uint64_t>(kind.kind), i);
   Random random(seed);
   const Site site = random_site(random, kind.kind, false);
   Rows rows(site);
@@ -291,7 +289,7 @@ bool compare_one(const Options& options, Kind& kind, std::uint64_t i) {
 }
 
 bool compare_three(const Options& options, Kind& kind, std::uint64_t i) {
-  Random random(mixed(static_cast<std::uint64_t>(options.seed), static_cast<std::uint64_t>(kind.kind), i));
+  Random random(mixed(options.seed, static_cast<std::uint64_t>(kind.kind), i));
   Site site = random_site(random, kind.kind, false);
   Rows rows(site);
   if (!rows.good()) return true;
@@ -313,8 +311,7 @@ bool compare_three(const Options& options, Kind& kind, std::uint64_t i) {
 }
 
 bool compare_two(const Options& options, Kind& kind, std::uint64_t i) {
-  Random random(
-      mixed(static_cast<std::uint64_t>(options.seed), 10 + static_cast<std::uint64_t>(kind.kind), i));
+  Random random(mixed(options.seed, 10 + static_cast<std::uint64_t>(kind.kind), i));
   const Site site = random_site(random, kind.kind, true);
   Rows rows(site);
   if (!rows.good()) {

@@ -129,7 +129,7 @@ std::optional<PlanRequest> PlanGuide::take(const LogRow& row, const Answer& answ
   if (!may_ask || is_planning_ || finder_.is_over() || has_word(answer.alarms, "unknown-past"))
     return std::nullopt;
   // What is left has a force in it that can still be chosen.
-  if (open_forces_left().empty()) return std::nullopt;
+  if (forces_of(finder_.shape(), finder_.stages(), finder_.present()).empty()) return std::nullopt;
   const KnownMu mu{answer.mu, answer.mu_deviation};
   const std::optional<MuNews> found = news(mu);
   if (!found) return std::nullopt;
@@ -211,14 +211,6 @@ std::optional<MuNews> PlanGuide::news(const KnownMu& mu) const {
   return mu_news(scene_, planned_, mu);
 }
 
-std::vector<double> PlanGuide::open_forces_left() const {
-  std::vector<double> forces;
-  for (std::size_t s = finder_.present(); s < finder_.stages().size(); ++s)
-    for (const std::size_t k : finder_.shape()[s].jacks)
-      if (!finder_.shape()[s].locks) forces.push_back(finder_.stages()[s].force[k]);
-  return forces;
-}
-
 PlanRequest PlanGuide::request(double time, const MuNews& news, const KnownMu& mu) {
   PlanRequest asked;
   asked.time = time;
@@ -228,7 +220,7 @@ PlanRequest PlanGuide::request(double time, const MuNews& news, const KnownMu& m
   asked.past.moves = path_.moves();
   asked.past.rest.assign(finder_.shape().begin() + static_cast<std::ptrdiff_t>(finder_.present()),
                          finder_.shape().end());
-  asked.past.force = open_forces_left();
+  asked.past.force = forces_of(finder_.shape(), finder_.stages(), finder_.present());
   asked.past.moves_left = std::max<std::size_t>(1, moves_left_);
   asked.past.stays = !news.is_other;
   off_plan_.clear();

@@ -53,7 +53,6 @@ class PlanGuide {
   };
 
   PlanStage stand(const LogRow& row, const Answer& answer) const;
-  std::vector<double> open_forces_left() const;
   void look_ahead(const LogRow& row, const PlanStage& now);
   void pass_stages(std::size_t before);
   void watch_limits(const Answer& answer);

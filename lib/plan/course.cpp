@@ -37,6 +37,15 @@ std::vector<PlanStage> stages_of(const CourseShape& shape, const std::vector<dou
   return stages;
 }
 
+std::vector<double> forces_of(const CourseShape& shape, const std::vector<PlanStage>& stages,
+                              std::size_t first) {
+  std::vector<double> force;
+  for (std::size_t s = first; s < shape.size(); ++s)
+    for (const std::size_t jack : shape[s].jacks)
+      if (!shape[s].locks) force.push_back(stages[s].force[jack]);
+  return force;
+}
+
 double CourseOutcome::merit() const {
   if (!whole) return no_answer;
   return excess > 0 ? beyond_limits * (1 + excess) : error;

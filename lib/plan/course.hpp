@@ -22,6 +22,9 @@ using CourseShape = std::vector<CourseStep>;
 std::size_t open_forces(const CourseShape& shape);
 /// All stages of a shape with these forces, one a step, for jacks that stand at `first`.
 std::vector<PlanStage> stages_of(const CourseShape& shape, const std::vector<double>& force, PlanStage first);
+/// The reverse: the forces that such stages give to what the shape leaves open, from the step `first` on.
+std::vector<double> forces_of(const CourseShape& shape, const std::vector<PlanStage>& stages,
+                              std::size_t first = 0);
 
 /// What comes of a plan.
 struct CourseOutcome {

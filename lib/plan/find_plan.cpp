@@ -109,7 +109,7 @@ class PlanSearch {
  public:
   PlanSearch(const SceneDescription& scene, const PlanGoal& goal, const GiveUp& give_up,
              const PlanPast* past = nullptr)
-      : scene_(scene), goal_(goal), full_target_(goal.target), past_(past), give_up_(give_up) {
+      : scene_(scene), goal_(goal), full_target_(goal.target), past_(past) {
     condensed_ = condense(scene, ScalarType::float64);
     if (!condensed_.condensing.status) return;
     jacks_ = plan_jacks(scene, goal, condensed_.most_force);
@@ -134,19 +134,42 @@ class PlanSearch {
     find_bound(plan);
     leave_out_what_stays(plan);
     stages_ = goal_.has_stages ? static_cast<std::size_t>(goal_.stages) : 2 * groups_.size();
+
+    Found best;
+    Found before;
     if (past_ != nullptr) {
       stages_ = past_->moves_left;
+      // What would be jacked if nothing had been yet: a part of the first pull takes nothing away from it.
+      Found from_rest;
+      if (is_one_jack() && !past_->stays) search_all(from_rest);
       if (!jacking_->begin_after(past_->moves)) {
         plan.status = jacking_->why();
         return plan;
       }
       start_ = jacking_->state();
+      is_on_the_way_ = true;
+      best = before = from_here(past_->rest, past_->force);
+      if (past_->stays) return finished(plan, best, true);
+      if (!from_rest.shape.empty()) take_better(best, from_here(from_rest.shape, from_rest.plan.force));
     }
+    search_all(best);
+    if (past_ != nullptr && before.merit() <= best.merit() + worth_a_change)
+      return finished(plan, before, true);
+    be_gentle(best);
+    drop_idle_moves(best);
+    return finished(plan, best, false);
+  }
 
-    Found best;
-    Found before;
-    if (past_ != nullptr) best = before = as_before();
-    if (past_ != nullptr && past_->stays) return finished(plan, best, true);
+ private:
+  struct Found {
+    CourseShape shape;
+    CoursePlan plan;
+    bool is_closed = false;  // nothing of as many moves is better
+    double merit() const { return shape.empty() ? 1e300 : plan.outcome.merit(); }
+  };
+
+  // All that is tried from where the jacks stand.
+  void search_all(Found& best) {
     if (is_one_jack()) take_better(best, one_jack());
     const bool is_whole = is_one_jack() && stages_ <= 2 && (stages_ == 2 || !goal_.lock);
     if (is_whole && best.merit() < 1) {
@@ -167,20 +190,7 @@ class PlanSearch {
         best = std::move(pull);
       }
     }
-    if (past_ != nullptr && before.merit() <= best.merit() + worth_a_change)
-      return finished(plan, before, true);
-    be_gentle(best);
-    drop_idle_moves(best);
-    return finished(plan, best, false);
   }
-
- private:
-  struct Found {
-    CourseShape shape;
-    CoursePlan plan;
-    bool is_closed = false;  // nothing of as many moves is better
-    double merit() const { return shape.empty() ? 1e300 : plan.outcome.merit(); }
-  };
 
   Plan finished(Plan plan, const Found& best, bool is_as_before) const {
     plan.is_as_before = is_as_before;
@@ -386,11 +396,10 @@ class PlanSearch {
       const UpAndBack pull = best_pull(*jacking_, goal_, jack, start_);
       take(pull, {pull.up});
     }
-    if (past_ != nullptr) {
+    if (is_on_the_way_) {
       const UpAndBack release = best_release(*jacking_, goal_, jack, seating, start_);
       take(release, {release.back});
       if (stages_ >= 2) take_better(best, back_and_up());
-      take_better(best, from_the_start());
     }
     if (stages_ >= 2) {
       const UpAndBack both = best_up_and_back(*jacking_, goal_, jack, seating, condensed_.rigid ? 1 : 2,
@@ -414,30 +423,12 @@ class PlanSearch {
     if (plan.outcome.merit() < best.plan.outcome.merit()) best.plan = std::move(plan);
   }
 
-  // What would be jacked if nothing had been yet: a part of the first pull takes nothing away from it.
-  Found from_the_start() const {
-    PlanGoal goal = goal_;
-    goal.stages = static_cast<int>(stages_);
-    goal.has_stages = true;
-    const Plan plan = PlanSearch(scene_, goal, give_up_).find();
+  // What comes of a plan from where the jacks stand, on the structure as it is known now.
+  Found from_here(CourseShape shape, const std::vector<double>& force) {
     Found found;
-    if (!plan.status || plan.shape.empty()) return found;
-    found.shape = plan.shape;
-    std::vector<double> force;
-    for (std::size_t s = 0; s < plan.stages.size(); ++s)
-      for (const std::size_t k : plan.shape[s].jacks)
-        if (!plan.shape[s].locks) force.push_back(plan.stages[s].force[k]);
+    found.shape = std::move(shape);
     Course course(*jacking_, goal_, found.shape, start_, least_ratio_);
     found.plan = {force, course.at(force)};
-    return found;
-  }
-
-  // The plan until now, on the structure as it is known now.
-  Found as_before() {
-    Found found;
-    found.shape = past_->rest;
-    Course course(*jacking_, goal_, found.shape, start_, least_ratio_);
-    found.plan = {past_->force, course.at(past_->force)};
     return found;
   }
 
@@ -641,7 +632,6 @@ class PlanSearch {
   PlanGoal goal_;  // but for find_bound() without the targets that no jack has anything to do with
   std::vector<double> full_target_;
   const PlanPast* past_;  // null: jacks are at rest
-  GiveUp give_up_;
   CondensedArrays condensed_;
   std::vector<PlanJack> jacks_;
   std::unique_ptr<Jacking> jacking_;
@@ -649,7 +639,8 @@ class PlanSearch {
   std::string start_;
   std::vector<double> least_ratio_;  // of two jacks of a cable
   std::size_t stages_ = 0;
-  bool is_settled_ = false;  // all that one jack can do in the moves was looked at
+  bool is_on_the_way_ = false;  // the past has been jacked
+  bool is_settled_ = false;     // all that one jack can do in the moves was looked at
 };
 
 }  // namespace

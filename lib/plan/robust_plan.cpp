@@ -96,14 +96,6 @@ struct Candidate {
   double expected = out_of_question;
 };
 
-std::vector<double> forces_of(const Plan& plan) {
-  std::vector<double> force;
-  for (std::size_t i = 0; i < plan.shape.size(); ++i)
-    for (const std::size_t jack : plan.shape[i].jacks)
-      if (!plan.shape[i].locks) force.push_back(plan.stages[i].force[jack]);
-  return force;
-}
-
 // Along one force at a time and two neighbours together, up and down, with steps that halve where none gains.
 void descend(Trials& trials, Candidate& at, std::size_t most) {
   struct Direction {
@@ -182,7 +174,7 @@ Plan find_robust_plan(const SceneDescription& scene, const PlanGoal& goal, const
   if (!trials.stands()) return for_mean;
   std::vector<Candidate> found;
   const auto add = [&](const Plan& plan) {
-    Candidate candidate{plan.shape, forces_of(plan)};
+    Candidate candidate{plan.shape, forces_of(plan.shape, plan.stages)};
     candidate.expected = trials.expected(candidate.shape, candidate.force);
     found.push_back(std::move(candidate));
   };
