@@ -3,25 +3,35 @@
 
 #include <sys/wait.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <system_error>
+#include <thread>
 
 inline std::string text_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// A folder that goes away with the test.
+/// A folder that goes away with the test, also where a browser that was just killed still writes into it.
 struct Scratch {
   std::filesystem::path path;
   Scratch() {
     std::string name = (std::filesystem::temp_directory_path() / "taut.XXXXXX").string();
     if (mkdtemp(name.data()) != nullptr) path = name;
   }
-  ~Scratch() { std::filesystem::remove_all(path); }
+  ~Scratch() {
+    std::error_code failed;
+    for (int attempt = 0; attempt < 100; ++attempt) {
+      std::filesystem::remove_all(path, failed);
+      if (!failed) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 

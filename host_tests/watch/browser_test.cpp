@@ -1,5 +1,6 @@
 // The page in headless Chromium, which is steered through pipes: what it shows is what `taut estimate` finds.
 #include <doctest/doctest.h>
+#include <sys/prctl.h>
 
 #include <array>
 #include <cmath>
@@ -21,8 +22,11 @@ class Browser {
     REQUIRE(pipe(to.data()) == 0);
     REQUIRE(pipe(from.data()) == 0);
     const std::string profile = "--user-data-dir=" + (scratch_.path / "profile").string();
+    // What Chromium starts becomes a child of this process when Chromium is gone, and can be waited for.
+    prctl(PR_SET_CHILD_SUBREAPER, 1);
     process_ = fork();
     if (process_ == 0) {
+      setsid();
       // Chromium reads commands from 3 and writes answers to 4.
       const int in = fcntl(to[0], F_DUPFD, 20), out = fcntl(from[1], F_DUPFD, 20);
       dup2(in, 3);
@@ -46,8 +50,9 @@ class Browser {
   ~Browser() {
     close(to_);
     close(from_);
-    kill(process_, SIGKILL);
-    waitpid(process_, nullptr, 0);
+    kill(-process_, SIGKILL);
+    while (waitpid(-process_, nullptr, 0) > 0) {
+    }
   }
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
