@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "taut/tracking/cable_system.hpp"
+#include "taut/tracking/sample_path.hpp"
 
 namespace taut {
 
@@ -79,6 +80,29 @@ class TrackedForces {
       moving.of(cables_.map.variable(i)) = cables_.map.column_value(k, i);
     return moving;
   }
+  /// Derivative of a tension with respect to unknown `p` [N], at the loads reached.
+  Scalar sensitivity(int p, int segment) const {
+    if (!cables_.state.has_map) return 0;
+    return cables_.derivatives.tension(cables_.map, p, segment, samples_.at(), samples_.anchor());
+  }
+  /// How that changes with the force of an unlocked jack, on the present piece [-]. Jacks are counted as
+  /// for_each_jacked_end() does.
+  Scalar sensitivity_slope(int p, int jack, int segment) const {
+    const int k = cables_.input_of(jack);
+    return k < 0 ? Scalar(0) : cables_.derivatives.tension_slope(p, k, segment);
+  }
+  /// Derivative of a jack's extension with respect to unknown `p`.
+  Scalar extension_sensitivity(int p, int cable, std::size_t end) const {
+    return slip_sensitivity(p).extension[cable][end];
+  }
+  /// Derivatives of slip_state() with respect to unknown `p`.
+  taut::SlipState<Scalar, Cap> slip_sensitivity(int p) const {
+    if (!cables_.state.has_map) return {};
+    Inputs x;
+    cables_.values(cables_.state.now, x);
+    return cables_.derivatives.slip_state(cables_.map, p, x);
+  }
+
   /// Whether there is a scene. Before start() or restore() there are no model(), condensed(), elongations()
   /// and unstrained(); what else is asked says zero.
   bool is_started() const { return cables_.model != nullptr; }
@@ -147,6 +171,7 @@ class TrackedForces {
   using Inputs = typename Cables::Inputs;
 
   Cables cables_;
+  SamplePath<Cables> samples_;
 };
 
 }  // namespace taut

@@ -1,0 +1,93 @@
+// A state whose friction turns out to be another one, or remembers something else from here on.
+#pragma once
+
+#include <cstdint>
+
+#include "taut/status.hpp"
+#include "taut/tracking/constraints.hpp"
+
+namespace taut {
+
+/// Other joints slide from here on, or slips have changed: the forces follow. False if a node is free then.
+/// Cost: that of one event.
+template <class Cables>
+[[nodiscard]] bool make_map_anew(Cables& cables) {
+  cables.drop_set();
+  Constraints<Cables> constraints(cables);
+  if (!constraints.set_up()) return false;
+  constraints.make_map();
+  cables.find_forces();
+  return true;
+}
+
+/// Takes the slips where they are: another map follows.
+template <class Cables>
+void freeze_here(Cables& cables) {
+  cables.find_forces();
+  cables.freeze();
+}
+
+/// No joint of a cable slides from here on.
+template <class Cables, class CableLayout>
+void come_to_rest(Cables& cables, const CableLayout& cable) {
+  freeze_here(cables);
+  cables.drop_map();
+  for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
+    if (cables.can_slide(j)) cables.stop(j);
+}
+
+/// Moves all that has slipped by its derivative times the change of an unknown.
+template <class Cables, class Derivative>
+void shift(Cables& cables, const Derivative& derivative, typename Cables::Scalar change) {
+  using Real = typename Cables::Real;
+  const auto by = static_cast<Real>(change);
+  auto& state = cables.state;
+  for (int j = 0; j < cables.joints(); ++j) state.moved.slip[j] += by * static_cast<Real>(derivative.slip[j]);
+  for (int r = 0; r < cables.spans.size(); ++r)
+    state.moved.slack_length[r] =
+        larger(Real(0), state.moved.slack_length[r] + by * static_cast<Real>(derivative.slack_length[r]));
+  for (const auto& jack : cables.jacks) {
+    const Real more = by * static_cast<Real>(derivative.extension[jack.cable][jack.end]);
+    state.moved.extension[jack.cable][jack.end] += more;
+    if (!state.goal.jack[jack.cable][jack.end].locked) continue;
+    for (auto* loads : {&state.now, &state.goal, &state.built})
+      loads->jack[jack.cable][jack.end].extension += more;
+  }
+}
+
+/// Joints that stick outside of their cone slide from here on. Returns whether there are any.
+template <class Cables>
+bool put_on_edge(Cables& cables) {
+  bool any = false;
+  for (int j = 0; j < cables.joints(); ++j) {
+    if (cables.state.slides[j] != JointState::stick || !cables.can_slide(j)) continue;
+    for (const JointState way : {JointState::forward, JointState::backward})
+      if (cables.laws.limit(SlipMode::of(j, way)).of(cables.force) < -cables.force_tolerance()) {
+        cables.state.slides[j] = way;
+        cables.state.order.add(static_cast<std::int16_t>(j));
+        any = true;
+      }
+  }
+  return any;
+}
+
+/// Brings the state to what it would be had every unknown been larger by `change[unknown]` all along, to
+/// first order. Fails with `mechanism`, everything being as before but the map, where joints on their edges
+/// leave a node free. Cost: that of one event, and of one more for every joint that is put on its edge.
+template <class Cables, class Changes>
+Status change_unknowns(Cables& cables, const Changes& change) {
+  cables.freeze();
+  const auto before = cables.state;
+  cables.derivatives.for_each([&](const auto& derivative, int p) { shift(cables, derivative, change[p]); });
+  for (int count = 0; count <= cables.joints(); ++count) {
+    if (!make_map_anew(cables)) {
+      cables.state = before;
+      return cables.at_joint(Code::mechanism, -1);
+    }
+    if (!put_on_edge(cables)) break;
+  }
+  cables.state.peak = largest(cables.model->segments, &cables.force[0], cables.state.peak);
+  return Status::success();
+}
+
+}  // namespace taut
