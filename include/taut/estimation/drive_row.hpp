@@ -1,0 +1,88 @@
+// From the readings of a row to the tracker: loads are conditioned, and the tracker is driven along with
+// them.
+#pragma once
+
+#include "taut/estimation/drive.hpp"
+#include "taut/estimation/learning.hpp"
+#include "taut/estimation/load_memory.hpp"
+#include "taut/estimation/look_ahead.hpp"
+
+namespace taut {
+
+/// Conditions the loads of a row. Returns whether there is something to check of a jack, too. Cost: that of
+/// JackLoad::take() a jack.
+template <class Parts>
+[[gnu::always_inline]] inline bool condition_loads(Parts& parts, const typename Parts::ReadingsType& readings,
+                                                   Corners<typename Parts::Scalar>& corners) {
+  using Scalar = typename Parts::Scalar;
+  auto& jacks = parts.jacks;
+  bool has_more = false;
+  for (int k = 0; k < jacks.size(); ++k) {
+    const EndReading<Scalar>& given = jacks.in(readings.ends, k);
+    const bool locked = jacks.in(readings.sample.jack, k).locked;
+    ForceEstimate<Scalar> held;
+    if (jacks[k].locked && !locked) held = parts.estimate(parts.end_segment(k));
+    if (jacks[k].take(locked, given, readings.dt, parts.cell(k), parts.most_force(k), held, corners))
+      parts.alarms.add(Parts::alarm_at(Alarm::Kind::outlier, jacks.end(k)));
+    has_more |= given.has_stroke | (jacks[k].locked & given.has_force);
+  }
+  return has_more;
+}
+
+/// Drives the tracker to the loads of a row, through corners and along what friction remembers of them, if it
+/// does not look ahead already. Returns false if the row ends here: `progress` says why. Cost: that of
+/// drive(), and at most of one path more.
+template <class Parts>
+[[gnu::always_inline]] inline bool drive_row(Parts& parts, const typename Parts::SampleType& sample,
+                                             const Corners<typename Parts::Scalar>& corners, int event_budget,
+                                             Progress<typename Parts::Scalar>& progress) {
+  auto& jacks = parts.jacks;
+  auto& tracker = parts.tracker;
+  if (parts.is_ahead) follow_ahead(parts, corners, sample);
+  for (int k = 0; k < jacks.size(); ++k)
+    if (!jacks[k].at.reversed) change_branch(parts, k);
+  if (parts.is_ahead || (!corners.any() && try_extend(tracker, jacks, sample))) return true;
+  learn_waiting(parts);
+  begin_row(parts);
+  progress = drive(
+      tracker, jacks, corners, jacks.target(sample), event_budget,
+      [&](int k) { remember_reversal(parts, k); }, [&](int k) { remember_load(parts, k, sample); },
+      [&](int c) { return parts.filter.relative_deviation(tracker, c); });
+  if (corners.any() || progress.events > 0) parts.far_ends.restart();
+  if (!progress.status || progress.fraction < 1) return false;
+  if (corners.locks && remember_seating(parts))
+    progress = join(progress, tracker.advance(jacks.target(sample), event_budget));
+  if (progress.status && corners.locks) progress.status = remember_drift(parts);
+  return progress.status.ok();
+}
+
+/// After start(): the loads of first readings, those of jacks having come down from so high that every joint
+/// slid back, see Estimator::come_down(). Fails as Tracker::advance() does. Cost: two paths.
+template <class Parts>
+Progress<typename Parts::Scalar> come_down_to(Parts& parts, const typename Parts::ReadingsType& first) {
+  using Scalar = typename Parts::Scalar;
+  auto& jacks = parts.jacks;
+  auto to = first.sample;
+  for (int k = 0; k < jacks.size(); ++k) {
+    const EndReading<Scalar>& given = jacks.in(first.ends, k);
+    if (jacks.in(to.jack, k).locked || !given.has_force || !(given.force > 0) ||
+        !(given.force <= parts.most_force(k)))
+      continue;
+    jacks[k].come_down(given.force, parts.cell(k));
+    change_errors(parts, k);
+    jacks.in(to.jack, k).force = jacks[k].at.load;
+  }
+  auto above = to;
+  for (int k = 0; k < jacks.size(); ++k) {
+    const Scalar held = held_over(parts.tracker, jacks.end(k).cable());
+    auto& force = jacks.in(above.jack, k).force;
+    const Scalar most = Scalar(0.99) * parts.most_force(k), square = held * held;
+    force = Scalar(1.02) * force < most * square ? Scalar(1.02) * force / square : most;
+  }
+  auto progress = parts.tracker.advance(above);
+  if (progress.status) progress = join(progress, parts.tracker.advance(to));
+  if (progress.status) jacks.arrive(to, parts.patterns());
+  return progress;
+}
+
+}  // namespace taut

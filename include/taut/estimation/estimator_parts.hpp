@@ -1,0 +1,127 @@
+// What an estimator consists of, and what can be said of all of it at once.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "taut/estimation/alarms.hpp"
+#include "taut/estimation/far_ends.hpp"
+#include "taut/estimation/force_estimate.hpp"
+#include "taut/estimation/force_watch.hpp"
+#include "taut/estimation/friction_filter.hpp"
+#include "taut/estimation/gauges.hpp"
+#include "taut/estimation/jack_loads.hpp"
+#include "taut/estimation/readings.hpp"
+#include "taut/scene/capacity.hpp"
+#include "taut/tracking/tracker.hpp"
+
+namespace taut {
+
+/// The state of an Estimator: the tracker with its filters, and the flags that its stages share. The stages
+/// are functions of it, each in a file of its own; what is here changes nothing.
+template <class CondensedType, int Parameters, int Further>
+struct EstimatorParts : CondensedType::Capacity::Account {
+  using Condensed = CondensedType;
+  using Scalar = typename CondensedType::Scalar;
+  using Cap = typename CondensedType::Capacity;
+  using Account = typename Cap::Account;
+  using TrackerType = Tracker<CondensedType, Parameters>;
+  using PriorType = FrictionPrior<Scalar, Cap>;
+  using ReadingsType = Readings<Scalar, Cap>;
+  using SampleType = Sample<Scalar, Cap>;
+  using FilterType = FrictionFilter<CondensedType, Parameters, Further>;
+  /// Loads of a jack that friction is taken to remember: where it reversed, was locked, or rested while one
+  /// of so many load patterns changed.
+  static constexpr int remembered_corners(int load_patterns) { return load_patterns > 0 ? 3 : 2; }
+  using JacksType = JackLoads<Scalar, Cap, remembered_corners(Cap::loads)>;
+  /// Where the tracker is driven to, by jack.
+  using Drives = FixedArray<Jack<Scalar>, JacksType::capacity>;
+  using FarEndsType = FarEnds<FilterType, JacksType>;
+  using GaugesType = Gauges<Scalar, Further, Cap::cables>;
+  using ForceWatchType = ForceWatch<Scalar, Cap::segments>;
+  using Alarms = FixedList<Alarm, 8 + 5 * Cap::cables + Cap::joints + Cap::segments>;
+  using EndType = CableEnd<Cap>;
+
+  /// Where the loads are confirmed to have come, while the tracker looks ahead.
+  struct Confirmed {
+    typename TrackerType::State tracker;
+    Drives jack;
+  };
+
+  // What every row needs comes first: instructions reach it directly.
+  AlarmLimits<Scalar> limits = {0, 0, 0, 0, 0, 0, 0};  ///< all zeros until start(): no flash to copy from
+  bool is_belief_fine = false;  ///< nothing is odd about what is believed of friction and gains
+  FarEndsType far_ends;
+  FixedArray<std::int16_t, Cap::cables> drift;  ///< unknown strains of cables, or -1
+  JacksType jacks;
+  TrackerType tracker;
+  FilterType filter;
+  GaugesType gauges;
+  ForceWatchType forces;
+  Alarms alarms;
+  Confirmed confirmed;
+  bool is_ahead = false;  ///< of what is confirmed
+  bool misfits = false;   ///< some load cell at an anchored end is off the model
+
+  const auto& model() const { return tracker.model(); }
+  /// The scene without second-order theory.
+  const auto& linear() const { return linear_part(tracker.condensed()); }
+  int patterns() const { return load_patterns(model()); }
+  int cable_of(int segment) const {
+    int c = 0;
+    while (segment >= model().cables[c].first_segment + model().cables[c].segments()) ++c;
+    return c;
+  }
+  static Alarm alarm_at(Alarm::Kind kind, const EndType& at) {
+    return Alarm::of(kind, at.cable(), static_cast<int>(at.end));
+  }
+
+  // Of jack `k`.
+
+  int end_segment(int k) const {
+    const EndType& at = jacks.end(k);
+    return model().cables[at.cable()].end_segment(at.end);
+  }
+  Scalar most_force(int k) const { return model().most_force[jacks.end(k).cable()]; }
+  const LoadCell<Scalar>& cell(int k) const { return jacks.in(filter.prior().cell, k); }
+  /// Whether it strains its cable by AlarmLimits::initial_strain. It carries at most a tenth of E A.
+  bool is_bedded(int k) const { return jacks[k].at.load >= 10 * limits.initial_strain * most_force(k); }
+
+  // Of cable `c`.
+
+  /// Whether all its jacks are locked, if there are any.
+  bool is_held(int c) const {
+    for (int k = 0; k < jacks.size(); ++k)
+      if (jacks.end(k).cable() == c && !jacks[k].locked) return false;
+    return true;
+  }
+  /// Whether it drifts: its strain does where wedges hold it.
+  bool drifts(int c) const { return drift[c] >= 0 && is_held(c); }
+
+  // What is read.
+
+  /// Whether an end was read, and no more than its cable can carry.
+  bool can_be(const EndReading<Scalar>& given, int cable) const {
+    return given.has_force && std::fabs(given.force) <= model().most_force[cable];
+  }
+  /// What is read of forces cannot be compared with those of loads that may be others.
+  bool loads_are_in_doubt() const { return jacks.may_have_reversed() || jacks.has_refused(); }
+  /// Nothing is learned where the tracker is ahead: what is read belongs to no place that is confirmed.
+  bool can_learn() const { return filter.belief().has_friction() && !is_ahead && !loads_are_in_doubt(); }
+
+  // What is known of a segment.
+
+  Scalar force(int segment) const { return estimate_force<false>(tracker, jacks, filter, segment).force; }
+  /// In a cable whose cells are off the model, the deviation is wider by that.
+  ForceEstimate<Scalar> estimate(int segment) const {
+    auto estimate = estimate_force<true>(tracker, jacks, filter, segment);
+    if (misfits) {
+      const Scalar misfit = far_ends.misfit(cable_of(segment));
+      estimate.deviation = std::sqrt(estimate.deviation * estimate.deviation + misfit * misfit);
+    }
+    return estimate;
+  }
+};
+
+}  // namespace taut

@@ -1,0 +1,131 @@
+// What friction remembers: errors of the loads at which jacks reversed, were locked, or rested.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "taut/estimation/estimator_unknowns.hpp"
+#include "taut/status.hpp"
+
+namespace taut {
+
+/// The memory of jack `k` that matters least to forces, of several the oldest; -1 if it has none. Cost: one
+/// derivative a segment and memory.
+template <class Parts>
+int next_memory(Parts& parts, int k) {
+  using Scalar = typename Parts::Scalar;
+  auto& jack = parts.jacks[k];
+  const int corners = Parts::remembered_corners(parts.patterns());
+  int found = jack.oldest;
+  Scalar smallest = -1;
+  for (int i = 0; i < corners; ++i) {
+    const int slot = (jack.oldest + i) % corners, p = jack.memory[static_cast<std::size_t>(slot)];
+    if (p < 0) return p;
+    Scalar matters = 0;
+    for (int s = 0; s < parts.model().segments; ++s) {
+      const Scalar S = parts.tracker.sensitivity(p, s);
+      matters += S * S * parts.filter.belief().variance(p);
+    }
+    if (smallest >= 0 && !(matters < smallest)) continue;
+    smallest = matters;
+    found = slot;
+  }
+  jack.oldest = (found + 1) % corners;
+  return jack.memory[static_cast<std::size_t>(found)];
+}
+
+/// Other loads change no longer: what friction remembers of jack `k` stays as it is.
+template <class Parts>
+void forget_other_loads(Parts& parts, int k) {
+  if (parts.jacks[k].frozen < 0) return;
+  // A failure shows on the way on.
+  static_cast<void>(parts.tracker.end_load_error(parts.jacks[k].frozen));
+  parts.jacks[k].frozen = -1;
+}
+
+/// A jack that reverses or is locked now: friction will remember the error of its load. Cost: that of
+/// FrictionFilter::remember_reversal(), and of next_memory().
+template <class Parts>
+void remember_reversal(Parts& parts, int k) {
+  auto& jack = parts.jacks[k];
+  change_branch(parts, k);
+  const bool loads_change = jack.frozen >= 0;
+  forget_other_loads(parts, k);
+  if (!jack.locked && (parts.far_ends.ends().size() > 0 || parts.gauges.size() > 0))
+    parts.filter.come_to_what_is_known(parts.tracker);
+  const int p = next_memory(parts, k);
+  if (p < 0) return;
+  const auto& at = parts.jacks.end(k);
+  parts.filter.remember_reversal(parts.tracker, p, at.cable(), at.end, jack.sd_before);
+  parts.is_belief_fine = false;
+  if (!loads_change || jack.locked) return;
+  jack.frozen = static_cast<std::int16_t>(p);
+  parts.tracker.change_load_error(resting_error(parts, k));
+}
+
+template <class Parts>
+bool changes_factors(const Parts& parts, const typename Parts::SampleType& sample) {
+  for (int i = 0; i < parts.jacks.patterns(); ++i)
+    if (sample.factor[i] != parts.jacks.factor(i)) return true;
+  return false;
+}
+
+/// While other loads change, friction comes to rest at the loads that jacks have then, known or not. Cost: a
+/// few operations a jack.
+template <class Parts>
+void follow_other_loads(Parts& parts, const typename Parts::SampleType& sample,
+                        Corners<typename Parts::Scalar>& corners) {
+  if (parts.jacks.patterns() == 0) return;
+  const bool changes = changes_factors(parts, sample);
+  for (int k = 0; k < parts.jacks.size(); ++k) {
+    auto& jack = parts.jacks[k];
+    if (jack.locked || jack.memory[0] < 0) continue;
+    if (changes) jack.come_to_best(parts.cell(k));
+    if (changes && jack.frozen >= 0) parts.filter.widen(jack.frozen, jack.come_sd);
+    corners.loads |= changes != (jack.frozen >= 0);
+  }
+}
+
+/// Where jack `k` has come to its load of this row, and other loads begin to change or cease to. Cost: that
+/// of FrictionFilter::remember_load(), and of next_memory().
+template <class Parts>
+void remember_load(Parts& parts, int k, const typename Parts::SampleType& sample) {
+  auto& jack = parts.jacks[k];
+  const bool changes = changes_factors(parts, sample);
+  if (jack.locked || jack.memory[0] < 0 || changes == (jack.frozen >= 0)) return;
+  if (!changes) return forget_other_loads(parts, k);
+  jack.frozen = static_cast<std::int16_t>(next_memory(parts, k));
+  parts.filter.remember_load(parts.tracker, resting_error(parts, k), jack.come_sd);
+  parts.is_belief_fine = false;
+}
+
+/// How far the wedges were drawn in that hold since this row is not known exactly. Returns whether there are
+/// any. Cost: that of FrictionFilter::remember_seating() for each.
+template <class Parts>
+bool remember_seating(Parts& parts) {
+  bool any = false;
+  for (int k = 0; k < parts.jacks.size(); ++k) {
+    const auto& jack = parts.jacks[k];
+    if (!jack.locks_now || jack.seating < 0) continue;
+    const auto& at = parts.jacks.end(k);
+    parts.filter.remember_seating(parts.tracker, jack.seating, at.cable(), at.end,
+                                  parts.filter.prior().seating_sd[at.cable()]);
+    any = true;
+  }
+  return any;
+}
+
+/// Cables that are held since this row drift from here on. Fails as Tracker::strain() does. Cost: that for
+/// each.
+template <class Parts>
+Status remember_drift(Parts& parts) {
+  Status status = Status::success();
+  for (int k = 0; k < parts.jacks.size() && status; ++k) {
+    const auto& at = parts.jacks.end(k);
+    if (parts.jacks[k].locks_now && parts.drifts(at.cable()))
+      status = parts.filter.remember_drift(parts.tracker, parts.drift[at.cable()], at.cable(), at.end);
+  }
+  return status;
+}
+
+}  // namespace taut

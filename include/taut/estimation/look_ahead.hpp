@@ -1,0 +1,105 @@
+// Where the best estimate of a load lies behind the next event: the tracker goes there, and comes back.
+#pragma once
+
+#include "taut/estimation/estimator_unknowns.hpp"
+#include "taut/estimation/learning.hpp"
+
+namespace taut {
+
+/// Whether a best estimate is beyond the present piece.
+template <class Parts>
+bool is_beyond_piece(const Parts& parts) {
+  for (int k = 0; k < parts.jacks.size(); ++k) {
+    const auto& jack = parts.jacks[k];
+    if (!jack.locked && !jack.at.behind && jack.beyond() != 0 && !parts.tracker.reaches(k, jack.at.load))
+      return true;
+  }
+  return false;
+}
+
+/// While it is ahead: whether a best estimate has left the piece there, or has come back.
+template <class Parts>
+bool is_best_elsewhere(const Parts& parts) {
+  using Scalar = typename Parts::Scalar;
+  for (int k = 0; k < parts.jacks.size(); ++k) {
+    const auto& jack = parts.jacks[k];
+    if (jack.locked) continue;
+    const bool goes_up = jack.driven.force >= parts.confirmed.jack[k].force;
+    const Scalar further = goes_up ? jack.beyond() : -jack.beyond();
+    if (further > 0 ? !parts.tracker.reaches(k, jack.at.load) : further < -jack.at.sd) return true;
+  }
+  return false;
+}
+
+/// While it is ahead: whether all best estimates have gone on the way that it came there.
+template <class Parts>
+bool is_best_further(const Parts& parts) {
+  for (int k = 0; k < parts.jacks.size(); ++k)
+    if (parts.jacks[k].beyond() * (parts.jacks[k].driven.force - parts.confirmed.jack[k].force) < 0)
+      return false;
+  return true;
+}
+
+/// To where the loads are confirmed to have come. Cost: that of Tracker::restore().
+template <class Parts>
+void go_back(Parts& parts) {
+  if (!parts.is_ahead) return;
+  parts.is_ahead = false;
+  static_cast<void>(parts.tracker
+                        .restore(parts.tracker.condensed(), parts.filter.friction(parts.linear()),
+                                 parts.confirmed.tracker, load_errors(parts))
+                        .ok());
+  for (int k = 0; k < parts.jacks.size(); ++k) parts.jacks[k].driven = parts.confirmed.jack[k];
+}
+
+/// Where the best estimate of a load lies beyond the present piece, the forces there follow from the events
+/// in between: the tracker goes there, and stays while the loads that are confirmed are on their way. Cost:
+/// where nothing changes, that of Tracker::reaches() a jack; else of one path, and of Tracker::restore().
+template <class Parts>
+void look_ahead(Parts& parts) {
+  if (parts.is_ahead ? !is_best_elsewhere(parts) : !is_beyond_piece(parts)) return;
+  if (parts.is_ahead && !is_best_further(parts)) go_back(parts);
+  auto& jacks = parts.jacks;
+  if (!parts.is_ahead) {
+    learn_waiting(parts);
+    parts.confirmed.tracker = parts.tracker.save();
+    for (int k = 0; k < jacks.size(); ++k) parts.confirmed.jack[k] = jacks[k].driven;
+    parts.is_ahead = true;
+  }
+  const auto to = jacks.best(jacks.driven(parts.patterns()));
+  const auto progress = parts.tracker.advance(to);
+  if (progress.status && !(progress.fraction < 1))
+    jacks.arrive(to, parts.patterns());
+  else
+    go_back(parts);
+}
+
+/// While it is ahead: nothing is done if the loads of a row lie on the way there. If they have come as far,
+/// it is ahead no longer, and else goes back. Cost: a few operations a jack, or those of go_back().
+template <class Parts>
+void follow_ahead(Parts& parts, const Corners<typename Parts::Scalar>& corners,
+                  const typename Parts::SampleType& sample) {
+  using Scalar = typename Parts::Scalar;
+  const auto& jacks = parts.jacks;
+  bool is_on_way = !corners.any(), is_past = is_on_way;
+  for (int i = 0; i < parts.patterns(); ++i) is_on_way &= sample.factor[i] == jacks.factor(i);
+  for (int k = 0; k < jacks.size(); ++k) {
+    const auto& jack = jacks[k];
+    is_on_way &= jack.locked == jack.driven.locked && !jack.changes_branch();
+    if (jack.locked) continue;
+    const Scalar from = parts.confirmed.jack[k].force, to = jack.driven.force, at = jack.target();
+    is_past &= (at - to) * (to - from) >= 0;
+    is_on_way &= (at - from) * (to - from) >= 0;
+  }
+  if (!is_on_way) return go_back(parts);
+  if (is_past) {
+    parts.is_ahead = false;
+    return;
+  }
+  for (int k = 0; k < jacks.size(); ++k) {
+    const Scalar from = parts.confirmed.jack[k].force, to = jacks[k].driven.force, at = jacks[k].target();
+    if (!jacks[k].locked && (at - to) * (to - from) > 0) return go_back(parts);
+  }
+}
+
+}  // namespace taut

@@ -1,0 +1,89 @@
+// What a row measures beside the jacks' loads: load cells at anchored ends.
+#pragma once
+
+#include <cmath>
+
+#include "taut/estimation/learning.hpp"
+
+namespace taut {
+
+/// The noise of the cells at anchored ends: the filter goes by the scatter that there is. Cost: that of
+/// CellWatch::follow_noise() a cell, and where readings scatter more than before that of Belief::inflate().
+template <class Parts>
+[[gnu::always_inline]] inline void follow_cell_noise(Parts& parts,
+                                                     const typename Parts::ReadingsType& readings,
+                                                     Corners<typename Parts::Scalar>& corners) {
+  auto& far_ends = parts.far_ends;
+  for (int e = 0; e < far_ends.ends().size(); ++e) {
+    const auto& given = far_ends.ends()[e].in(readings.ends);
+    if (parts.can_be(given, far_ends.ends()[e].cable()))
+      corners.times_noise =
+          larger(corners.times_noise, far_ends.watch(e).follow_noise(given.force, readings.dt));
+  }
+  if (corners.times_noise > 1) parts.filter.inflate(corners.times_noise);
+}
+
+/// The cell at the far end of a cable that is locked tells how far its wedge was drawn in, and what has
+/// strained it since. Cost: that of FarEnds::correct(), and at worst of FrictionFilter::follow_drift().
+template <class Parts>
+Update correct_drift(Parts& parts, int e, typename Parts::Scalar reading) {
+  const int c = parts.far_ends.ends()[e].cable();
+  int k = 0;
+  while (parts.jacks.end(k).cable() != c) ++k;
+  const auto is_corrected = [&](int p) { return p == parts.drift[c] || p == parts.jacks[k].seating; };
+  const Update update =
+      parts.far_ends.correct(e, reading, parts.tracker, parts.filter, parts.jacks, is_corrected);
+  // A failure shows in the next row.
+  if (update == Update::updated && parts.filter.moved(is_corrected) > parts.far_ends.watch(e).sd)
+    static_cast<void>(parts.filter.follow_drift(parts.tracker, parts.drift[c], c, parts.jacks.end(k).end));
+  return update;
+}
+
+/// A reading of the cell at anchored end `e`; `gathers` is whether it is gathered with others. Returns
+/// whether anything was learned. Cost: an update at most.
+template <class Parts>
+bool measure_far_end(Parts& parts, int e, typename Parts::Scalar reading, bool gathers) {
+  auto& far_ends = parts.far_ends;
+  const auto& end = far_ends.ends()[e];
+  auto& watch = far_ends.watch(e);
+  if (watch.stays_frozen(reading)) {
+    parts.alarms.add(Parts::alarm_at(Alarm::Kind::frozen, end));
+    return false;
+  }
+  const int readings = gathers ? far_ends.waiting() + 1 : 1;
+  const Update update = parts.drifts(end.cable()) ? correct_drift(parts, e, reading)
+                        : parts.is_ahead
+                            ? far_ends.compare(e, reading, parts.tracker, parts.filter, parts.jacks)
+                        : gathers ? far_ends.gather(reading, parts.tracker, parts.filter, parts.jacks)
+                                  : far_ends.measure(e, reading, parts.tracker, parts.filter, parts.jacks);
+  // Once, as long as it lasts.
+  const bool is_told = update == Update::no_information && watch.is_told;
+  watch.is_told = update == Update::no_information;
+  if (update != Update::waits && !is_told)
+    note(parts, update, Parts::alarm_at(Alarm::Kind::sensor, end), readings);
+  return update == Update::updated;
+}
+
+/// All cells at anchored ends. Returns whether anything was learned. Cost: that of measure_far_end() for
+/// each.
+template <class Parts>
+bool measure_far_ends(Parts& parts, const typename Parts::ReadingsType& readings) {
+  auto& far_ends = parts.far_ends;
+  const bool gathers = !parts.is_ahead && far_ends.gathers(parts.jacks);
+  bool learns = false;
+  parts.misfits = false;
+  for (int e = 0; e < far_ends.ends().size(); ++e) {
+    const auto& end = far_ends.ends()[e];
+    const auto& given = end.in(readings.ends);
+    if (parts.can_be(given, end.cable()))
+      learns |= measure_far_end(parts, e, given.force, gathers);
+    else if (given.has_force)
+      parts.alarms.add(Parts::alarm_at(Alarm::Kind::sensor, end));
+    if (!(far_ends.watch(e).fit.misfit() > 0)) continue;
+    parts.misfits = true;
+    if (given.has_force) parts.alarms.add(Parts::alarm_at(Alarm::Kind::misfit, end));
+  }
+  return learns;
+}
+
+}  // namespace taut
