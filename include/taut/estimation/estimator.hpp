@@ -91,7 +91,7 @@ class Estimator {
                          const AlarmLimits<Scalar>& limits, const Cells& gauges) {
     const Status known = begin(condensed, prior, limits, gauges);
     if (!known) return {known, Scalar(0), 0};
-    account().begin(parts_.filter);
+    parts_.begin(parts_.filter);
     return parts_.tracker.start(condensed, parts_.filter.friction(linear_part(condensed)),
                                 load_errors(parts_));
   }
@@ -118,7 +118,7 @@ class Estimator {
     if (!known) return known;
     parts_.jacks.restore(state.jacks);
     parts_.filter.restore(state.friction);
-    account().begin(parts_.filter);
+    parts_.begin(parts_.filter);
     parts_.far_ends.restore(state.far_ends);
     parts_.misfits = parts_.far_ends.misfits();
     parts_.gauges.restore(state.gauges);
@@ -272,9 +272,6 @@ class Estimator {
   int unknowns() const { return parts_.filter.belief().size(); }
 
  private:
-  /// What can only be reached here.
-  Account& account() { return parts_; }
-
   template <class Cells>
   Status begin(const CondensedType& condensed, const PriorType& prior, const AlarmLimits<Scalar>& limits,
                const Cells& gauges) {
