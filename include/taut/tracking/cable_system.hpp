@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include "taut/scene/sliding_spans.hpp"
 #include "taut/status.hpp"
@@ -52,8 +51,7 @@ struct CableSystem {
 
   // Made from the state.
   Map map;
-  struct Nothing {};
-  std::conditional_t<is_adjustable, Derivatives, Nothing> derivatives;
+  Derivatives derivatives;
   Tensions total;          ///< tensions from all slips, made by the last test of forces [N]
   Tensions force;          ///< where the last event, or the last call with events, ended [N]
   Real push = 0;           ///< largest change of force that the path would make with every joint stuck [N]

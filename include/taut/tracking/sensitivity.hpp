@@ -64,6 +64,8 @@ class Sensitivity {
   }
   const Frozen& frozen() const { return frozen_; }
   void set_frozen(const Frozen& frozen) { frozen_ = frozen; }
+  /// The parameters that something has depended on are the first ones: so many.
+  int used() const { return frozen_.used; }
   /// Calls change(derivatives of all that has moved) for every parameter.
   template <class Change>
   void for_each(Change change) {
@@ -247,7 +249,23 @@ class Sensitivity {
 template <class CondensedType, class Laws>
 class Sensitivity<CondensedType, Laws, 0> {
  public:
+  using Scalar = typename CondensedType::Scalar;
+  using Cap = typename CondensedType::Capacity;
+  using Map = AffineMap<CondensedType, Laws>;
   struct Frozen {};
+
+  static constexpr int used() { return 0; }
+  template <class Change>
+  static void for_each(const Change&) {}
+  static void depend_on_load(const JackError<Scalar>&) {}
+  static void turn(const Map&, int, int) {}
+  static void draw_in(int, int) {}
+  template <class Values>
+  static Scalar tension(const Map&, int, int, const Values&, const Values&) {
+    return 0;
+  }
+  static Scalar tension_slope(int, int, int) { return 0; }
+  static SlipState<Scalar, Cap> slip_state(const Map&, int, const typename Map::Inputs&) { return {}; }
 };
 
 }  // namespace taut

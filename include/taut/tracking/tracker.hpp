@@ -76,11 +76,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
                          int event_budget = default_budget) {
     level_.begin(condensed);
     take(friction, errors);
-    if (cables_.has_prestrain()) return follow(event_budget);
-    cables_.state.now.prestrain = 1;
-    cables_.state.arrived = true;
-    samples_.refresh(cables_);
-    return {};
+    return bring_prestrain_on(event_budget);
   }
   /// The scene that it was begun with.
   const CondensedType& condensed() const { return level_.source(); }
@@ -103,32 +99,10 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   template <class Friction, class Errors = NoLoadErrors>
   Status restore(const CondensedType& condensed, const Friction& friction, const State& saved,
                  const Errors& errors = {}) {
-    const Status broken = Status::at(Code::bad_sample, Place::none, -1);
     // What was saved before start() has no prestrain to go to.
     const bool is_of_scene = level_.restore(condensed, saved) && saved.goal.prestrain == 1;
     take(friction, errors);
-    if (!is_of_scene) return broken;
-    cables_.state = saved;
-    if constexpr (is_adjustable) cables_.derivatives.set_frozen(saved);
-    cables_.find_redundant_jack();
-    if (!(saved.peak >= 0)) return broken;
-    // The piece was begun at other loads than those reached.
-    cables_.state.now = saved.built;
-    if (saved.has_map) {
-      Constraints<Cables> constraints(cables_);
-      if (!constraints.set_up()) return broken;
-      constraints.make_map();
-    }
-    cables_.state.now = saved.now;
-    if (saved.has_map)
-      cables_.find_forces();
-    else
-      cables_.force = cables_.totals();
-    samples_.refresh(cables_);
-    samples_.restore(cables_, saved);
-    for (int i = 0; i < cables_.model->segments; ++i)
-      if (!std::isfinite(cables_.force[i]) || !std::isfinite(cables_.state.tension[i])) return broken;
-    return Status::success();
+    return is_of_scene ? take_over(saved) : broken_state();
   }
 
   // A sample.
@@ -165,13 +139,12 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   /// may follow. Cost: that of one event, and of one more for every joint on the edge.
   template <class Friction, class Changes>
   Status adjust(const Friction& friction, const Changes& change) {
-    // What changed in this row may have dropped it; before anything has moved there is none.
-    const bool has_map = cables_.state.has_map || taut::make_map_anew(cables_);
+    const bool has_map = has_or_makes_map();
     depend_on_friction(cables_, level_, friction);
     if (!has_map) return Status::success();
-    const Status status = change_unknowns(cables_, change);
-    if (status) samples_.refresh(cables_);
-    return status;
+    FixedArray<Scalar, Parameters> by;
+    for (int p = 0; p < cables_.derivatives.used(); ++p) by[p] = change[p];
+    return change_unknowns(by);
   }
   /// After adjust() failed, with the friction of before: goes on from where it was. Fails with `mechanism`;
   /// then only start() may follow. Cost: that of one event.
@@ -185,14 +158,14 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   void turn(int p, int cable, std::size_t end) {
     const int k = cables_.input_of(cable, end);
     if (k < 0) return;
-    freeze_here(cables_);
+    freeze_here();
     cables_.derivatives.turn(cables_.map, p, k);
     drop_map();
   }
   /// From here on unknown `p` is by how much further [m] the wedge of a locked end was drawn in than the
   /// model has it, now that it is seated. Cost: that of turn().
   void draw_in(int p, int cable, std::size_t end) {
-    freeze_here(cables_);
+    freeze_here();
     cables_.derivatives.draw_in(p, 2 * cable + static_cast<int>(end));
     drop_map();
   }
@@ -203,13 +176,13 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   template <class Lengths>
   Status strain(int p, int cable, std::size_t end, const Lengths& length) {
     const auto& held = cables_.model->cables[cable];
-    come_to_rest(cables_, held);
+    come_to_rest(held);
     cables_.derivatives.strain(p, held, length, 2 * cable + static_cast<int>(end));
     return make_map_anew();
   }
   /// From here on the force of a jack depends on an unknown by another error. Cost: that of turn().
   void change_load_error(const JackError<Scalar>& error) {
-    freeze_here(cables_);
+    freeze_here();
     cables_.derivatives.depend_on_load(error);
     drop_map();
   }
@@ -222,7 +195,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   /// was: which way the cables slide next is open. Fails with `mechanism`; then only start() may follow.
   /// Cost: that of one event.
   Status end_load_error(int p) {
-    for (const auto& cable : cables_.model->cables) come_to_rest(cables_, cable);
+    for (const auto& cable : cables_.model->cables) come_to_rest(cable);
     cables_.derivatives.depend_on_load({static_cast<std::int16_t>(p), -1, Scalar(0), Scalar(0)});
     return make_map_anew();
   }
@@ -233,37 +206,121 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   static JointFriction<Real> as_condensed(int) { return {}; }
   template <class Friction, class Errors>
   void take(const Friction& friction, const Errors& errors) {
-    cables_.begin(level_.model());
+    begin_cables();
     depend_on_friction(cables_, level_, friction);
     if constexpr (is_adjustable && !std::is_same_v<Errors, NoLoadErrors>)
       for (const JackError<Scalar>& error : errors) cables_.derivatives.depend_on_load(error);
-  }
-  /// Not in one frame with the samples that need no more than try_to_extend().
-  [[gnu::noinline]] Progress<Scalar> drive(const Sample<Scalar, Cap>& sample, int event_budget) {
-    if (samples_.follow(cables_, sample)) return {};
-    if (cables_.model == nullptr) return {Status::at(Code::not_started, Place::none, -1), Scalar(0), 0};
-    const Status usable = check_sample(*cables_.model, sample);
-    if (!usable) return {usable, Scalar(0), 0};
-    samples_.forget(cables_);
-    const Status turned = turn_to(cables_, sample);
-    return turned ? follow(event_budget) : Progress<Scalar>{turned, Scalar(0), 0};
-  }
-  Progress<Scalar> follow(int event_budget) {
-    const auto progress = EventPath<Cables, Level<CondensedType>>(cables_, level_).follow(event_budget);
-    samples_.refresh(cables_);
-    return progress;
-  }
-  Status make_map_anew() {
-    if (!taut::make_map_anew(cables_)) return cables_.at_joint(Code::mechanism, -1);
-    samples_.refresh(cables_);
-    return Status::success();
   }
   void drop_map() {
     cables_.drop_map();
     samples_.forget(cables_);
   }
+  static Status broken_state() { return Status::at(Code::bad_sample, Place::none, -1); }
+
+  // Defined outside of the class, so that a source with an `extern template` of it compiles none of them.
+
+  void begin_cables();
+  Progress<Scalar> bring_prestrain_on(int event_budget);
+  Status take_over(const State& saved);
+  Progress<Scalar> drive(const Sample<Scalar, Cap>& sample, int event_budget);
+  Progress<Scalar> follow(int event_budget);
+  bool has_or_makes_map();
+  Status make_map_anew();
+  Status change_unknowns(const FixedArray<Scalar, Parameters>& by);
+  void freeze_here();
+  void come_to_rest(const CableLayout<Scalar>& cable);
 
   Level<CondensedType> level_;
 };
+
+template <class CondensedType, int Parameters>
+void Tracker<CondensedType, Parameters>::begin_cables() {
+  cables_.begin(level_.model());
+}
+
+template <class CondensedType, int Parameters>
+auto Tracker<CondensedType, Parameters>::bring_prestrain_on(int event_budget) -> Progress<Scalar> {
+  if (cables_.has_prestrain()) return follow(event_budget);
+  cables_.state.now.prestrain = 1;
+  cables_.state.arrived = true;
+  samples_.refresh(cables_);
+  return {};
+}
+
+/// After take(): goes on from what save() gave.
+template <class CondensedType, int Parameters>
+Status Tracker<CondensedType, Parameters>::take_over(const State& saved) {
+  cables_.state = saved;
+  if constexpr (is_adjustable) cables_.derivatives.set_frozen(saved);
+  cables_.find_redundant_jack();
+  if (!(saved.peak >= 0)) return broken_state();
+  // The piece was begun at other loads than those reached.
+  cables_.state.now = saved.built;
+  if (saved.has_map) {
+    Constraints<Cables> constraints(cables_);
+    if (!constraints.set_up()) return broken_state();
+    constraints.make_map();
+  }
+  cables_.state.now = saved.now;
+  if (saved.has_map)
+    cables_.find_forces();
+  else
+    cables_.force = cables_.totals();
+  samples_.refresh(cables_);
+  samples_.restore(cables_, saved);
+  for (int i = 0; i < cables_.model->segments; ++i)
+    if (!std::isfinite(cables_.force[i]) || !std::isfinite(cables_.state.tension[i])) return broken_state();
+  return Status::success();
+}
+
+/// Not in one frame with the samples that need no more than try_to_extend().
+template <class CondensedType, int Parameters>
+[[gnu::noinline]] auto Tracker<CondensedType, Parameters>::drive(const Sample<Scalar, Cap>& sample,
+                                                                 int event_budget) -> Progress<Scalar> {
+  if (samples_.follow(cables_, sample)) return {};
+  if (cables_.model == nullptr) return {Status::at(Code::not_started, Place::none, -1), Scalar(0), 0};
+  const Status usable = check_sample(*cables_.model, sample);
+  if (!usable) return {usable, Scalar(0), 0};
+  samples_.forget(cables_);
+  const Status turned = turn_to(cables_, sample);
+  return turned ? follow(event_budget) : Progress<Scalar>{turned, Scalar(0), 0};
+}
+
+template <class CondensedType, int Parameters>
+auto Tracker<CondensedType, Parameters>::follow(int event_budget) -> Progress<Scalar> {
+  const auto progress = EventPath<Cables, Level<CondensedType>>(cables_, level_).follow(event_budget);
+  samples_.refresh(cables_);
+  return progress;
+}
+
+/// What changed in this row may have dropped the map; before anything has moved there is none.
+template <class CondensedType, int Parameters>
+bool Tracker<CondensedType, Parameters>::has_or_makes_map() {
+  return cables_.state.has_map || taut::make_map_anew(cables_);
+}
+
+template <class CondensedType, int Parameters>
+Status Tracker<CondensedType, Parameters>::make_map_anew() {
+  if (!taut::make_map_anew(cables_)) return cables_.at_joint(Code::mechanism, -1);
+  samples_.refresh(cables_);
+  return Status::success();
+}
+
+template <class CondensedType, int Parameters>
+Status Tracker<CondensedType, Parameters>::change_unknowns(const FixedArray<Scalar, Parameters>& by) {
+  const Status status = taut::change_unknowns(cables_, by);
+  if (status) samples_.refresh(cables_);
+  return status;
+}
+
+template <class CondensedType, int Parameters>
+void Tracker<CondensedType, Parameters>::freeze_here() {
+  taut::freeze_here(cables_);
+}
+
+template <class CondensedType, int Parameters>
+void Tracker<CondensedType, Parameters>::come_to_rest(const CableLayout<Scalar>& cable) {
+  taut::come_to_rest(cables_, cable);
+}
 
 }  // namespace taut
