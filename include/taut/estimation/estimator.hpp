@@ -83,9 +83,7 @@ class Estimator {
   /// unknown mu than Parameters, or more gauges, or unknowns of them, than Further (the amount is what is
   /// missing), else as Tracker::start() does. Cost: that of the prestrain.
   Progress<Scalar> start(const CondensedType& condensed, const PriorType& prior,
-                         const AlarmLimits<Scalar>& limits = {}) {
-    return start(condensed, prior, limits, NoGauges());
-  }
+                         const AlarmLimits<Scalar>& limits = {});
   template <class Cells>
   Progress<Scalar> start(const CondensedType& condensed, const PriorType& prior,
                          const AlarmLimits<Scalar>& limits, const Cells& gauges) {
@@ -98,7 +96,7 @@ class Estimator {
   /// After start(): the loads of these first readings, those of jacks having come down from so high that
   /// every joint slid back, at most 0.99 of what Condensed::most_force allows: the largest forces that any
   /// past of the jacks can have left, see UnknownPast. Fails as advance() does. Cost: two paths.
-  Progress<Scalar> come_down(const ReadingsType& first) { return come_down_to(parts_, first); }
+  Progress<Scalar> come_down(const ReadingsType& first);
   /// The state between two rows. Cost: a copy of it.
   State save() const {
     return {parts_.tracker.save(), parts_.jacks.save(), parts_.filter.save(), parts_.far_ends.save(),
@@ -108,9 +106,7 @@ class Estimator {
   /// only if start() would, and with `bad_sample` if the state is none of this scene or was saved before
   /// start(); then only start() or another restore() may follow. Cost: that of one event.
   Status restore(const CondensedType& condensed, const PriorType& prior, const State& state,
-                 const AlarmLimits<Scalar>& limits = {}) {
-    return restore(condensed, prior, state, limits, NoGauges());
-  }
+                 const AlarmLimits<Scalar>& limits = {});
   template <class Cells>
   Status restore(const CondensedType& condensed, const PriorType& prior, const State& state,
                  const AlarmLimits<Scalar>& limits, const Cells& gauges) {
@@ -140,22 +136,7 @@ class Estimator {
   /// end. At worst 4 (1 + cables) paths of `event_budget` events each; for every far end, and once for what
   /// was gathered, an update with four calls of Tracker::adjust(); one such call for every jack that
   /// reversed.
-  Progress<Scalar> advance(const ReadingsType& readings, int event_budget = TrackerType::default_budget) {
-    parts_.alarms.clear();
-    for (int i = 0; i < parts_.jacks.patterns(); ++i)
-      if (!(std::fabs(readings.sample.factor[i]) <= parts_.model().most_factor[i]))
-        return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
-    begin_row(parts_);
-    Corners<Scalar> corners;
-    Progress<Scalar> progress{Status::success(), Scalar(1), 0};
-    const bool has_more = condition_loads(parts_, readings, corners);
-    follow_other_loads(parts_, readings.sample, corners);
-    if (!drive_row(parts_, readings.sample, corners, event_budget, progress)) return progress;
-    measure_row(readings, corners);
-    if (has_more) check_jacks(parts_, readings);
-    check_answers();
-    return progress;
-  }
+  Progress<Scalar> advance(const ReadingsType& readings, int event_budget = TrackerType::default_budget);
 
   /// A strain gauge on a strut, read together with the last row: its axial force [N], tension positive, with
   /// the standard deviation `sd` > 0 of the reading. `rows` are those of the condensed scene; a strut has the
@@ -163,44 +144,21 @@ class Estimator {
   /// gauges. While joints stick that matter to it nothing is learned from it; what contradicts raises
   /// Alarm::Kind::strut, and nothing has changed. Cost: an update, with at most four calls of
   /// Tracker::adjust().
-  void take_strut(const typename CondensedType::Struts& rows, int strut, Scalar reading, Scalar sd) {
-    take_measurement(parts_, foretell_strut(parts_, rows, strut), reading, sd,
-                     Alarm::of(Alarm::Kind::strut, -1, strut));
-  }
+  void take_strut(const typename CondensedType::Struts& rows, int strut, Scalar reading, Scalar sd);
   /// The stroke of a jack, read together with the last row: its extension since the start [m], with the
   /// standard deviation `sd` > 0 of the reading and of what the elongation of the cable is uncertain by, that
   /// of E A. A locked end, or one without a jack, tells nothing. After an advance() that came to its end and
   /// before save(), once a jack; what contradicts raises Alarm::Kind::elongation, and nothing has changed.
   /// Cost: an update, with at most four calls of Tracker::adjust().
-  void take_stroke(int cable, std::size_t end, Scalar reading, Scalar sd) {
-    const int k = parts_.jacks.find(cable, end);
-    if (k < 0 || parts_.jacks[k].locked) return;
-    take_measurement(parts_, foretell_stroke(parts_, k), reading, sd,
-                     Parts::alarm_at(Alarm::Kind::elongation, parts_.jacks.end(k)));
-  }
+  void take_stroke(int cable, std::size_t end, Scalar reading, Scalar sd);
 
   /// The same of instruments with unknowns of their own: numbers in the list that start() was given. Which
   /// readings count is told by Gauges, those while cables surely slide; all may be handed in. What
   /// contradicts raises Alarm::Kind::strut, `elongation`, or `segment` for the measured force of a segment
   /// [N].
-  void take_strut(const typename CondensedType::Struts& rows, int strut, Scalar reading, Gauge gauge) {
-    take_gauge(parts_, foretell_strut(parts_, rows, strut), reading, gauge,
-               Alarm::of(Alarm::Kind::strut, -1, strut));
-  }
-  void take_stroke(int cable, std::size_t end, Scalar reading, Gauge gauge) {
-    const int k = parts_.jacks.find(cable, end);
-    if (k < 0 || parts_.jacks[k].locked) return;
-    // A mark is made once slack has been taken out.
-    if (parts_.gauges.has(gauge) && parts_.gauges.lacks_mark(gauge) && !parts_.is_bedded(k)) return;
-    take_gauge(parts_, foretell_stroke(parts_, k), reading, gauge,
-               Parts::alarm_at(Alarm::Kind::elongation, parts_.jacks.end(k)));
-  }
-  void take_segment(int segment, Scalar reading, Gauge gauge) {
-    if (!parts_.gauges.has(gauge)) return;
-    const int c = parts_.cable_of(segment);
-    take_gauge(parts_, foretell_segment(parts_, segment), reading, gauge,
-               Alarm::of(Alarm::Kind::segment, c, segment - parts_.model().cables[c].first_segment));
-  }
+  void take_strut(const typename CondensedType::Struts& rows, int strut, Scalar reading, Gauge gauge);
+  void take_stroke(int cable, std::size_t end, Scalar reading, Gauge gauge);
+  void take_segment(int segment, Scalar reading, Gauge gauge);
   const GaugesType& gauges() const { return parts_.gauges; }
 
   // The answers.
@@ -227,22 +185,7 @@ class Estimator {
   /// Slips, contact and friction forces, extensions, states and, if their rows are given, strut forces: as
   /// Tracker::respond(), with tensions and extensions at the best estimate. Cost: a force a segment, and that
   /// of Tracker::respond().
-  void respond(Response<Scalar, Cap>& response,
-               const typename CondensedType::Struts* struts = nullptr) const {
-    if (!parts_.tracker.is_started()) return;
-    parts_.tracker.respond(response, struts);
-    for (int i = 0; i < parts_.model().segments; ++i) response.tension[i] = force(i);
-    parts_.model().resolve_joints(response);
-    for (int k = 0; k < parts_.jacks.size(); ++k) {
-      Scalar& extension = parts_.jacks.in(response.extension, k);
-      extension = estimate_extension(parts_.tracker, parts_.jacks, parts_.filter.belief(), k, extension);
-      // A strain is none.
-      const int c = parts_.jacks.end(k).cable(), p = parts_.drift[c];
-      if (p >= 0 && parts_.jacks[k].locked && parts_.filter.belief().mean(p) != 0)
-        extension -= parts_.tracker.extension_sensitivity(p, c, parts_.jacks.end(k).end) *
-                     parts_.filter.belief().mean(p);
-    }
-  }
+  void respond(Response<Scalar, Cap>& response, const typename CondensedType::Struts* struts = nullptr) const;
   /// What is odd about the last row.
   const Alarms& alarms() const { return parts_.alarms; }
   /// The force that a segment has reached at most (at least) beyond a limit [N] while Alarm::Kind::force_high
@@ -310,5 +253,104 @@ class Estimator {
 
   Parts parts_;
 };
+
+template <class CondensedType, int Parameters, int Further>
+auto Estimator<CondensedType, Parameters, Further>::start(const CondensedType& condensed,
+                                                          const PriorType& prior,
+                                                          const AlarmLimits<Scalar>& limits)
+    -> Progress<Scalar> {
+  return start(condensed, prior, limits, NoGauges());
+}
+
+template <class CondensedType, int Parameters, int Further>
+auto Estimator<CondensedType, Parameters, Further>::come_down(const ReadingsType& first) -> Progress<Scalar> {
+  return come_down_to(parts_, first);
+}
+
+template <class CondensedType, int Parameters, int Further>
+Status Estimator<CondensedType, Parameters, Further>::restore(const CondensedType& condensed,
+                                                              const PriorType& prior, const State& state,
+                                                              const AlarmLimits<Scalar>& limits) {
+  return restore(condensed, prior, state, limits, NoGauges());
+}
+
+template <class CondensedType, int Parameters, int Further>
+auto Estimator<CondensedType, Parameters, Further>::advance(const ReadingsType& readings, int event_budget)
+    -> Progress<Scalar> {
+  parts_.alarms.clear();
+  for (int i = 0; i < parts_.jacks.patterns(); ++i)
+    if (!(std::fabs(readings.sample.factor[i]) <= parts_.model().most_factor[i]))
+      return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
+  begin_row(parts_);
+  Corners<Scalar> corners;
+  Progress<Scalar> progress{Status::success(), Scalar(1), 0};
+  const bool has_more = condition_loads(parts_, readings, corners);
+  follow_other_loads(parts_, readings.sample, corners);
+  if (!drive_row(parts_, readings.sample, corners, event_budget, progress)) return progress;
+  measure_row(readings, corners);
+  if (has_more) check_jacks(parts_, readings);
+  check_answers();
+  return progress;
+}
+
+template <class CondensedType, int Parameters, int Further>
+void Estimator<CondensedType, Parameters, Further>::take_strut(const typename CondensedType::Struts& rows,
+                                                               int strut, Scalar reading, Scalar sd) {
+  take_measurement(parts_, foretell_strut(parts_, rows, strut), reading, sd,
+                   Alarm::of(Alarm::Kind::strut, -1, strut));
+}
+
+template <class CondensedType, int Parameters, int Further>
+void Estimator<CondensedType, Parameters, Further>::take_stroke(int cable, std::size_t end, Scalar reading,
+                                                                Scalar sd) {
+  const int k = parts_.jacks.find(cable, end);
+  if (k < 0 || parts_.jacks[k].locked) return;
+  take_measurement(parts_, foretell_stroke(parts_, k), reading, sd,
+                   Parts::alarm_at(Alarm::Kind::elongation, parts_.jacks.end(k)));
+}
+
+template <class CondensedType, int Parameters, int Further>
+void Estimator<CondensedType, Parameters, Further>::take_strut(const typename CondensedType::Struts& rows,
+                                                               int strut, Scalar reading, Gauge gauge) {
+  take_gauge(parts_, foretell_strut(parts_, rows, strut), reading, gauge,
+             Alarm::of(Alarm::Kind::strut, -1, strut));
+}
+
+template <class CondensedType, int Parameters, int Further>
+void Estimator<CondensedType, Parameters, Further>::take_stroke(int cable, std::size_t end, Scalar reading,
+                                                                Gauge gauge) {
+  const int k = parts_.jacks.find(cable, end);
+  if (k < 0 || parts_.jacks[k].locked) return;
+  // A mark is made once slack has been taken out.
+  if (parts_.gauges.has(gauge) && parts_.gauges.lacks_mark(gauge) && !parts_.is_bedded(k)) return;
+  take_gauge(parts_, foretell_stroke(parts_, k), reading, gauge,
+             Parts::alarm_at(Alarm::Kind::elongation, parts_.jacks.end(k)));
+}
+
+template <class CondensedType, int Parameters, int Further>
+void Estimator<CondensedType, Parameters, Further>::take_segment(int segment, Scalar reading, Gauge gauge) {
+  if (!parts_.gauges.has(gauge)) return;
+  const int c = parts_.cable_of(segment);
+  take_gauge(parts_, foretell_segment(parts_, segment), reading, gauge,
+             Alarm::of(Alarm::Kind::segment, c, segment - parts_.model().cables[c].first_segment));
+}
+
+template <class CondensedType, int Parameters, int Further>
+void Estimator<CondensedType, Parameters, Further>::respond(
+    Response<Scalar, Cap>& response, const typename CondensedType::Struts* struts) const {
+  if (!parts_.tracker.is_started()) return;
+  parts_.tracker.respond(response, struts);
+  for (int i = 0; i < parts_.model().segments; ++i) response.tension[i] = force(i);
+  parts_.model().resolve_joints(response);
+  for (int k = 0; k < parts_.jacks.size(); ++k) {
+    Scalar& extension = parts_.jacks.in(response.extension, k);
+    extension = estimate_extension(parts_.tracker, parts_.jacks, parts_.filter.belief(), k, extension);
+    // A strain is none.
+    const int c = parts_.jacks.end(k).cable(), p = parts_.drift[c];
+    if (p >= 0 && parts_.jacks[k].locked && parts_.filter.belief().mean(p) != 0)
+      extension -= parts_.tracker.extension_sensitivity(p, c, parts_.jacks.end(k).end) *
+                   parts_.filter.belief().mean(p);
+  }
+}
 
 }  // namespace taut
