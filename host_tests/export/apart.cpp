@@ -1,5 +1,4 @@
-// The one source that compiles the estimators.
-#define COMPILES_IT
+// The source that compiles the estimators; their trackers are compiled by another one.
 #include "apart.hpp"
 
 template class taut::Estimator<taut::Condensed<float, saddles::Capacity>, saddles::unknowns,

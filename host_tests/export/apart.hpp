@@ -1,4 +1,5 @@
-// What apart.cmake compiles: an estimator that every source uses and one alone compiles.
+// What apart.cmake compiles: estimators that every source uses, one alone compiles, and another their
+// trackers. With TOGETHER each source compiles what it uses.
 #pragma once
 
 #include "taut/device.hpp"
@@ -11,7 +12,10 @@ using Linear =
 using Leaning = taut::Estimator<taut::SecondOrder<float, beam_string::Capacity>, beam_string::unknowns,
                                 beam_string::reading_unknowns>;
 
-#ifndef COMPILES_IT
+#ifndef TOGETHER
+extern template class taut::Tracker<taut::Condensed<float, saddles::Capacity>, saddles::unknowns>;
+extern template class taut::Tracker<taut::SecondOrder<float, beam_string::Capacity>, beam_string::unknowns>;
+extern template class taut::Tracker<taut::Condensed<float, saddles::Capacity>>;
 extern template class taut::Estimator<taut::Condensed<float, saddles::Capacity>, saddles::unknowns,
                                       saddles::reading_unknowns>;
 extern template class taut::Estimator<taut::SecondOrder<float, beam_string::Capacity>, beam_string::unknowns,

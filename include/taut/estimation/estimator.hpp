@@ -166,17 +166,13 @@ class Estimator {
   /// Force of a segment [N], >= 0, and its standard deviation [N]; both at once take hardly longer than the
   /// deviation alone. Cost: of a force one product a jack and unknown, of a deviation half the square of the
   /// unknowns more.
-  Scalar force(int segment) const { return parts_.force(segment); }
+  Scalar force(int segment) const;
   Scalar deviation(int segment) const { return estimate(segment).deviation; }
-  ForceEstimate<Scalar> estimate(int segment) const { return parts_.estimate(segment); }
+  ForceEstimate<Scalar> estimate(int segment) const;
   /// Axial force of a strut [N], tension positive, and its standard deviation [N]; `rows` are those of the
   /// condensed scene, `strut` has the number of the scene. Cost: all that moves along the cables once an
   /// unknown and jack.
-  ForceEstimate<Scalar> estimate_strut(const typename CondensedType::Struts& rows, int strut) const {
-    if (!parts_.tracker.is_started()) return {};
-    return taut::estimate_strut(parts_.tracker, rows, parts_.jacks, parts_.filter, parts_.filter.prior(),
-                                strut);
-  }
+  ForceEstimate<Scalar> estimate_strut(const typename CondensedType::Struts& rows, int strut) const;
   /// Friction coefficient of a joint, and its standard deviation [-].
   Scalar mu(int joint) const { return parts_.tracker.is_started() ? parts_.filter.mu(joint) : Scalar(0); }
   Scalar mu_deviation(int joint) const { return parts_.filter.mu_deviation(joint); }
@@ -202,12 +198,7 @@ class Estimator {
   /// jacks' load cells are left as they are read. After an advance() that came to its end. Fails as
   /// Tracker::adjust() does; then only start() or restore() of that tracker may follow. Cost: those of
   /// Tracker::save(), restore() and adjust().
-  Status bring(TrackerType& other) const {
-    const auto& condensed = parts_.tracker.condensed();
-    const Status there = other.restore(condensed, parts_.filter.friction(linear_part(condensed)),
-                                       parts_.tracker.save(), load_errors(parts_));
-    return there ? parts_.filter.bring(other) : there;
-  }
+  Status bring(TrackerType& other) const;
   /// The friction that bring() gives it, as a function of the joint that Tracker::restore() takes.
   auto best_friction() const { return parts_.filter.best_friction(parts_.linear()); }
   /// What was told of every update since start() or restore(); see Capacity::Account.
@@ -253,6 +244,8 @@ class Estimator {
 
   Parts parts_;
 };
+
+// Outside of the class, so that a source with an `extern template` of it compiles none of them.
 
 template <class CondensedType, int Parameters, int Further>
 auto Estimator<CondensedType, Parameters, Further>::start(const CondensedType& condensed,
@@ -333,6 +326,32 @@ void Estimator<CondensedType, Parameters, Further>::take_segment(int segment, Sc
   const int c = parts_.cable_of(segment);
   take_gauge(parts_, foretell_segment(parts_, segment), reading, gauge,
              Alarm::of(Alarm::Kind::segment, c, segment - parts_.model().cables[c].first_segment));
+}
+
+template <class CondensedType, int Parameters, int Further>
+auto Estimator<CondensedType, Parameters, Further>::force(int segment) const -> Scalar {
+  return parts_.force(segment);
+}
+
+template <class CondensedType, int Parameters, int Further>
+auto Estimator<CondensedType, Parameters, Further>::estimate(int segment) const -> ForceEstimate<Scalar> {
+  return parts_.estimate(segment);
+}
+
+template <class CondensedType, int Parameters, int Further>
+auto Estimator<CondensedType, Parameters, Further>::estimate_strut(const typename CondensedType::Struts& rows,
+                                                                   int strut) const -> ForceEstimate<Scalar> {
+  if (!parts_.tracker.is_started()) return {};
+  return taut::estimate_strut(parts_.tracker, rows, parts_.jacks, parts_.filter, parts_.filter.prior(),
+                              strut);
+}
+
+template <class CondensedType, int Parameters, int Further>
+Status Estimator<CondensedType, Parameters, Further>::bring(TrackerType& other) const {
+  const auto& condensed = parts_.tracker.condensed();
+  const Status there = other.restore(condensed, parts_.filter.friction(linear_part(condensed)),
+                                     parts_.tracker.save(), load_errors(parts_));
+  return there ? parts_.filter.bring(other) : there;
 }
 
 template <class CondensedType, int Parameters, int Further>

@@ -1,0 +1,6 @@
+// The source that compiles the trackers, that of an estimator and one by itself.
+#include "apart.hpp"
+
+template class taut::Tracker<taut::Condensed<float, saddles::Capacity>, saddles::unknowns>;
+template class taut::Tracker<taut::SecondOrder<float, beam_string::Capacity>, beam_string::unknowns>;
+template class taut::Tracker<taut::Condensed<float, saddles::Capacity>>;
