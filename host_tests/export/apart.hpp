@@ -13,6 +13,7 @@ using Leaning = taut::Estimator<taut::SecondOrder<float, beam_string::Capacity>,
                                 beam_string::reading_unknowns>;
 
 #ifndef TOGETHER
+extern template class taut::LoadFilter<float>;
 extern template class taut::Tracker<taut::Condensed<float, saddles::Capacity>, saddles::unknowns>;
 extern template class taut::Tracker<taut::SecondOrder<float, beam_string::Capacity>, beam_string::unknowns>;
 extern template class taut::Tracker<taut::Condensed<float, saddles::Capacity>>;

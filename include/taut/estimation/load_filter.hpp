@@ -113,11 +113,7 @@ class LoadFilter : LoadFilterTuning {
   /// not matter. What is not finite is refused, and may be anything else. Cost: while readings wait a few
   /// operations; else those of four hypotheses; at worst, when sixteen that wait are taken apart, six times
   /// that.
-  ConditionedLoad<Scalar> take(Scalar reading, Scalar dt) {
-    const auto step = static_cast<Level>(dt);
-    if (block_.has_room() || begins_to_wait()) return wait(reading, step);
-    return sd_ == 0 ? take_exact(reading) : take_one(reading, step);
-  }
+  ConditionedLoad<Scalar> take(Scalar reading, Scalar dt);
 
  private:
   // Forces of lines are in standard deviations of a reading, from `base_`; densities are those of such
@@ -584,5 +580,14 @@ class LoadFilter : LoadFilterTuning {
   std::int8_t since_birth_ = 0;  // samples since a line began
   std::int8_t calm_ = 0;         // samples without surprise
 };
+
+// Outside of the class, so that a source with an `extern template` of it compiles none of it.
+
+template <class Scalar>
+ConditionedLoad<Scalar> LoadFilter<Scalar>::take(Scalar reading, Scalar dt) {
+  const auto step = static_cast<Level>(dt);
+  if (block_.has_room() || begins_to_wait()) return wait(reading, step);
+  return sd_ == 0 ? take_exact(reading) : take_one(reading, step);
+}
 
 }  // namespace taut
