@@ -80,7 +80,8 @@ class EventPath {
   using Ending = taut::Ending<Real>;
 
   /// Goes along the present piece to its end. If the forces there break a law, the state is the one before.
-  Status follow_piece(Ending& ending, Real& rest, bool& done) {
+  /// Not in one frame with the decisions, which need the most stack.
+  [[gnu::noinline]] Status follow_piece(Ending& ending, Real& rest, bool& done) {
     EventSearch<Cables> events(cables_);
     Inputs dx, x;
     cables_.directions(dx);
