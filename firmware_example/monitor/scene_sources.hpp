@@ -154,22 +154,25 @@ void add_scene(Crc32& crc, const taut::Condensed<float, Capacity>& model) {
 template <class Capacity>
 void add_scene(Crc32& crc, const taut::SecondOrder<float, Capacity>& model) {
   add_scene(crc, model.low);
-  add_scene(crc, model.high);
   const auto add = [&crc](const auto& value) { crc.add(&value, sizeof value); };
   const auto add_rows = [&](const auto& rows) {
     if constexpr (Capacity::loads > 0) add(rows.load);
     add(rows.prestrain);
     add(rows.elongation);
   };
+  const auto add_leaning = [&](const auto& leaning) {
+    add_rows(leaning.rows);
+    if constexpr (Capacity::struts + Capacity::beams > 0) add(leaning.by_bar);
+  };
+  if constexpr (Capacity::struts + Capacity::beams > 0) add(model.low_by_bar);
+  add_leaning(model.rise);
+  add_leaning(model.bow);
   if constexpr (Capacity::joints > 0) {
-    add_rows(model.lean.bends);
+    add_leaning(model.lean.bends);
     add(model.lean.kappa_by_bend);
   }
   add_rows(model.lean.aside);
-  if constexpr (Capacity::struts + Capacity::beams > 0) {
-    add(model.lean.low_tension_by_bar);
-    add(model.lean.tension_by_bar);
-  }
+  add(model.lean.by_own_lean);
   add(model.target_force);
   add(model.curve);
 }

@@ -204,22 +204,22 @@ class Constants {
     const CondensedArrays& a = arrays_;
     const std::string cables = type() + " make_cables(" + name() + ") {\n" + this->cables() + "}\n";
     if (!a.level) return cables + linear("make_condensed", a);
-    return cables + linear("make_low", a) + linear("make_high", a.level->high) + lean(*a.level) +
-           "constexpr ::taut::SecondOrder<" + name() + ", Capacity> make_condensed(" + name() + ") {\n" +
-           "  return {make_low(" + name() + "()), make_high(" + name() + "()), make_lean(" + name() +
-           "()),\n" + "          /*target_force*/ " + number(a.level->target_force) + ", /*curve*/ " +
-           number(a.level->curve) + "};\n}\n";
+    return cables + linear("make_low", a) + lean(*a.level) + "constexpr ::taut::SecondOrder<" + name() +
+           ", Capacity> make_condensed(" + name() + ") {\n" + "  return {make_low(" + name() + "()),\n" +
+           field("low_by_bar", rows(by_bar(a.level->low_by_bar))) + field("rise", leaning(a.level->rise)) +
+           field("bow", leaning(a.level->bow)) + field("lean", "make_lean(" + name() + "())") +
+           "          /*target_force*/ " + number(a.level->target_force) + ", /*curve*/ {" +
+           number(a.level->curve) + "}};\n}\n";
   }
   std::string struts() const {
     const CondensedArrays& a = arrays_;
-    const std::string rows_of_struts = table(a.struts);
     if (!a.level)
       return "constexpr ::taut::CondensedStruts<" + name() + ", Capacity> make_struts(" + name() + ") {\n" +
-             "  return " + rows_of_struts + ";\n}\n";
+             "  return " + table(a.struts) + ";\n}\n";
     return "constexpr ::taut::LevelStruts<" + name() + ", Capacity> make_struts(" + name() + ") {\n" +
-           "  return {/*low*/ " + rows_of_struts + ",\n" + field("high", table(a.level->high_struts)) +
-           field("low_by_bar", rows(by_bar(a.level->low_strut_by_bar))) +
-           field("by_bar", rows(by_bar(a.level->strut_by_bar))) +
+           "  return {/*low*/ " + leaning({a.struts, a.level->low_strut_by_bar}) + ",\n" +
+           field("rise", leaning(a.level->strut_rise)) + field("bow", leaning(a.level->strut_bow)) +
+           field("curve", numbers(a.level->strut_curve, 10)) +
            field("by_own_lean", numbers(a.level->strut_by_own_lean, 10)) + "          /*count*/ " +
            std::to_string(a.level->struts) + "};\n}\n";
   }
@@ -262,16 +262,19 @@ class Constants {
   }
   std::string lean(const LevelArrays& level) const {
     return "constexpr ::taut::CondensedLean<" + name() + ", Capacity> make_lean(" + name() + ") {\n" +
-           "  return {/*bends*/ " + table(level.bends) + ",\n" +
+           "  return {/*bends*/ " + leaning(level.bends) + ",\n" +
            field("kappa_by_bend", numbers(level.kappa_by_bend, 10)) + field("aside", table(asides(level))) +
-           field("low_tension_by_bar", rows(by_bar(level.low_tension_by_bar))) +
-           field("tension_by_bar", rows(by_bar(level.tension_by_bar))) + "          /*struts*/ " +
+           field("by_own_lean", numbers(level.by_own_lean, 10)) + "          /*struts*/ " +
            std::to_string(level.struts) + ", /*beams*/ " + std::to_string(level.beams) + "};\n}\n";
   }
   // CondensedRows.
   static std::string table(const RowsArrays& all) {
     return "{/*load*/ " + rows(all.load) + ",\n" + field("prestrain", numbers(all.prestrain, 10)) +
            "          /*elongation*/ " + rows(all.elongation) + "}";
+  }
+  // LeaningRows.
+  std::string leaning(const LeaningArrays& all) const {
+    return "{/*rows*/ " + table(all.rows) + ",\n          /*by_bar*/ " + rows(by_bar(all.by_bar)) + "}";
   }
   // From the bars of the scene to those of the capacity: segments, struts and beams have their places there.
   RowsArrays asides(const LevelArrays& level) const {

@@ -56,13 +56,16 @@ bool are_possible(const LinearArrays& arrays) {
   return are_possible(arrays.coupling) && are_possible(arrays.prestrain) && are_possible(arrays.load) &&
          are_possible(arrays.rho) && are_possible(arrays.cos_alpha) && are_possible(arrays.sin_alpha);
 }
+bool are_possible(const LeaningArrays& arrays) {
+  return are_possible(arrays.rows) && are_possible(arrays.by_bar);
+}
 bool are_possible(const LevelArrays& arrays) {
-  return are_possible(arrays.high) && are_possible(arrays.high_struts) && are_possible(arrays.bends) &&
-         are_possible(arrays.kappa_by_bend) && are_possible(arrays.aside) &&
-         are_possible(arrays.low_tension_by_bar) && are_possible(arrays.tension_by_bar) &&
-         are_possible(arrays.low_strut_by_bar) && are_possible(arrays.strut_by_bar) &&
-         are_possible(arrays.strut_by_own_lean) && is_possible(arrays.target_force) &&
-         is_possible(arrays.curve);
+  return are_possible(arrays.low_by_bar) && are_possible(arrays.rise) && are_possible(arrays.bow) &&
+         are_possible(arrays.low_strut_by_bar) && are_possible(arrays.strut_rise) &&
+         are_possible(arrays.strut_bow) && are_possible(arrays.strut_curve) &&
+         are_possible(arrays.strut_by_own_lean) && are_possible(arrays.bends) && are_possible(arrays.aside) &&
+         are_possible(arrays.kappa_by_bend) && are_possible(arrays.by_own_lean) &&
+         is_possible(arrays.target_force) && is_possible(arrays.curve);
 }
 bool are_possible(const CondensedArrays& arrays) {
   return is_possible(arrays.condensing.condition) && are_possible(static_cast<const LinearArrays&>(arrays)) &&
@@ -115,6 +118,11 @@ std::vector<Row> by_bar(const Table& table, const LevelArrays& level, int length
   return rows;
 }
 
+template <class Cap, class Rows, class Model>
+LeaningArrays leaning(const Rows& rows, const Model& condensed, const LevelArrays& level, int count) {
+  return {copied(rows.rows, condensed, count), by_bar<Cap>(rows.by_bar, level, count)};
+}
+
 // In the plane nothing leans along the second normal.
 template <int Dimension, class Scalar, class Cap>
 LevelArrays level_arrays(const SecondOrder<Scalar, Cap>& condensed, const LevelStruts<Scalar, Cap>& struts) {
@@ -124,10 +132,17 @@ LevelArrays level_arrays(const SecondOrder<Scalar, Cap>& condensed, const LevelS
   arrays.beams = condensed.lean.beams;
   arrays.normals = Dimension - 1;
   arrays.target_force = static_cast<double>(condensed.target_force);
-  arrays.curve = static_cast<double>(condensed.curve);
-  arrays.high = copied(condensed.high);
-  arrays.high_struts = copied(struts.high, low, arrays.struts);
-  arrays.bends = copied(condensed.lean.bends, low, low.joints);
+  arrays.curve = static_cast<double>(condensed.curve.k);
+  arrays.low_by_bar = by_bar<Cap>(condensed.low_by_bar, arrays, low.segments);
+  arrays.rise = leaning<Cap>(condensed.rise, low, arrays, low.segments);
+  arrays.bow = leaning<Cap>(condensed.bow, low, arrays, low.segments);
+  arrays.low_strut_by_bar = by_bar<Cap>(struts.low.by_bar, arrays, arrays.struts);
+  arrays.strut_rise = leaning<Cap>(struts.rise, low, arrays, arrays.struts);
+  arrays.strut_bow = leaning<Cap>(struts.bow, low, arrays, arrays.struts);
+  arrays.strut_curve = row_of(struts.curve, arrays.struts);
+  arrays.strut_by_own_lean = row_of(struts.by_own_lean, arrays.struts);
+  arrays.bends = leaning<Cap>(condensed.lean.bends, low, arrays, low.joints);
+  arrays.by_own_lean = row_of(condensed.lean.by_own_lean, low.segments);
   arrays.kappa_by_bend = row_of(condensed.lean.kappa_by_bend, low.joints);
   const RowsArrays aside = copied(condensed.lean.aside, low, max_bars<Cap> * Cap::normals);
   const auto kept = [&](const Row& row) {
@@ -136,11 +151,6 @@ LevelArrays level_arrays(const SecondOrder<Scalar, Cap>& condensed, const LevelS
   for (const Row& row : aside.load) arrays.aside.load.push_back(kept(row));
   arrays.aside.prestrain = kept(aside.prestrain);
   for (const Row& row : aside.elongation) arrays.aside.elongation.push_back(kept(row));
-  arrays.low_tension_by_bar = by_bar<Cap>(condensed.lean.low_tension_by_bar, arrays, low.segments);
-  arrays.tension_by_bar = by_bar<Cap>(condensed.lean.tension_by_bar, arrays, low.segments);
-  arrays.low_strut_by_bar = by_bar<Cap>(struts.low_by_bar, arrays, arrays.struts);
-  arrays.strut_by_own_lean = row_of(struts.by_own_lean, arrays.struts);
-  arrays.strut_by_bar = by_bar<Cap>(struts.by_bar, arrays, arrays.struts);
   return arrays;
 }
 

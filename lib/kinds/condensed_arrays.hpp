@@ -21,6 +21,12 @@ struct RowsArrays {
   std::vector<Row> elongation;
 };
 
+/// The fields of LeaningRows: `by_bar` for the struts of the scene and then its beams.
+struct LeaningArrays {
+  RowsArrays rows;
+  std::vector<RowsArrays::Row> by_bar;
+};
+
 /// The fields of Condensed for what the scene holds; values in float are exact.
 struct LinearArrays {
   using Row = std::vector<double>;
@@ -38,13 +44,14 @@ struct LinearArrays {
 struct LevelArrays {
   using Row = std::vector<double>;
 
-  LinearArrays high;
-  RowsArrays high_struts;
-  RowsArrays bends, aside;
-  Row kappa_by_bend;
-  std::vector<Row> low_tension_by_bar, tension_by_bar, low_strut_by_bar,
-      strut_by_bar;  ///< of struts and beams
-  Row strut_by_own_lean;
+  std::vector<Row> low_by_bar;
+  LeaningArrays rise, bow;  ///< of tensions
+  std::vector<Row> low_strut_by_bar;
+  LeaningArrays strut_rise, strut_bow;
+  Row strut_curve, strut_by_own_lean;
+  LeaningArrays bends;
+  RowsArrays aside;
+  Row kappa_by_bend, by_own_lean;
   int struts = 0, beams = 0, normals = 0;
   double target_force = 0, curve = 0;
 };

@@ -19,9 +19,9 @@ struct CondensationRequest {
   CondensedBeams<Scalar, Cap>* beams = nullptr;
   const FixedList<NodeAxis, Cap::displacements>* displaced = nullptr;  ///< what `displacements` are of
   CondensedRows<Real, max_displacements<Cap>, Cap>* displacements = nullptr;
-  /// What displacements change, Eqs. (44) and (45), but for the tensions from bars that are lengthened.
+  /// What displacements change, Eqs. (44) and (45).
   CondensedLean<Scalar, Cap>* lean = nullptr;
-  /// Those, and then what struts and displacements have of it.
+  /// What tensions, struts and displacements have of a unit elongation of every strut and beam.
   RowsByBar<Real, Cap::segments, Cap>* tension_by_bar = nullptr;
   RowsByBar<Real, Cap::struts, Cap>* strut_by_bar = nullptr;
   RowsByBar<Real, max_displacements<Cap>, Cap>* displacement_by_bar = nullptr;
@@ -178,7 +178,7 @@ class Condensation {
       if (asked_.lean == nullptr) return;
       for (int c = 0; c < scene_->cables.size(); ++c)
         for (int j = 0; j < scene_->cables[c].joints(); ++j)
-          (*row(asked_.lean->bends))[scene_->cables[c].first_joint + j] = bend_change(c, j);
+          (*row(asked_.lean->bends.rows))[scene_->cables[c].first_joint + j] = bend_change(c, j);
       for_each_bar([&](int bar, const auto& nodes, const auto& line) {
         for (int n = 0; n < Cap::normals; ++n)
           (*row(asked_.lean->aside))[bar * Cap::normals + n] = aside(nodes, line, n);
@@ -222,6 +222,8 @@ class Condensation {
     if (asked_.lean != nullptr) {
       asked_.lean->struts = struts;
       asked_.lean->beams = beams;
+      for (int i = 0; i < condensed.segments; ++i)
+        asked_.lean->by_own_lean[i] = 1 / structure_.elements().segments[i].line.length;
       for (int j = 0; j < condensed.joints; ++j)
         asked_.lean->kappa_by_bend[j] =
             JointLean<Real, dimension>::kappa_by_bend(structure_.elements().joints[j]);
@@ -235,6 +237,9 @@ class Condensation {
         (*asked_.tension_by_bar)[to][i] = structure_.tension(i, Real(0));
       for (int i = 0; asked_.strut_by_bar != nullptr && i < struts; ++i)
         (*asked_.strut_by_bar)[to][i] = structure_.strut_force(i, unit(i));
+      for (int c = 0; asked_.lean != nullptr && c < scene_->cables.size(); ++c)
+        for (int j = 0; j < scene_->cables[c].joints(); ++j)
+          asked_.lean->bends.by_bar[to][scene_->cables[c].first_joint + j] = bend_change(c, j);
       for (int i = 0; asked_.displacement_by_bar != nullptr && i < asked_.displaced->size(); ++i)
         (*asked_.displacement_by_bar)[to][i] = displacement(i);
     }

@@ -241,28 +241,47 @@ using CondensedStruts = CondensedRows<Wide<Scalar>, Cap::struts, Cap>;
 template <class Scalar, class Cap>
 using CondensedBeams = CondensedRows<Wide<Scalar>, Cap::beams, Cap>;
 
-/// The rows that give by what part of itself displacements change the bend of the cable at every joint [-],
-/// Eq. (44).
-template <class Scalar, class Cap>
-using CondensedBends = CondensedRows<Wide<Scalar>, Cap::joints, Cap>;
-
 /// Segments, struts and beams, in this order.
 template <class Cap>
 constexpr int max_bars = Cap::segments + Cap::struts + Cap::beams;
+
+/// What `Count` numbers of the state change by with a unit elongation of every strut and, after
+/// Capacity::struts, of every beam.
+template <class Real, int Count, class Cap>
+using RowsByBar = FixedArray<FixedArray<Real, Count>, Cap::struts + Cap::beams>;
+
+/// Rows, and what a unit elongation of bars adds to their numbers, as leaning does: Eq. (43).
+template <class Real, int Count, class Cap>
+struct LeaningRows {
+  CondensedRows<Real, Count, Cap> rows;
+  RowsByBar<Real, Count, Cap> by_bar;
+};
+/// Number `i` of them alone, in a state of the LevelModel whose bars are lengthened by `q` [m]. Costs
+/// segments + bars.
+template <class Model, class Real, int Count, class Cap, class Loads, class Elongations, class Stretches>
+Real number_of(const LeaningRows<Real, Count, Cap>& of, int i, const Model& model, const Loads& drive,
+               const Elongations& e, const Stretches& q) {
+  Real number = number_of(of.rows, i, model, drive, e);
+  model.lean().for_each_bar(model.segments, [&](int b) {
+    number += q[b] * (b < Cap::segments ? of.rows.elongation[b][i] : of.by_bar[b - Cap::segments][i]);
+  });
+  return number;
+}
 
 /// What second-order theory needs to know of displacements.
 template <class Scalar, class Cap>
 struct CondensedLean {
   using Real = Wide<Scalar>;
-  CondensedBends<Scalar, Cap> bends;
+  /// By what part of itself the bend of the cable changes at every joint [-], Eq. (44).
+  LeaningRows<Real, Cap::joints, Cap> bends;
   /// By what part of itself kappa changes where the bend does by such a part.
   FixedArray<Real, Cap::joints> kappa_by_bend;
   /// By how much the ends of every bar move apart across it, for each normal, by the root of twice its
   /// length: their squares are what leaning lengthens it by [m^1/2].
   CondensedRows<Real, max_bars<Cap> * Cap::normals, Cap> aside;
-  /// Tensions from a unit elongation of every strut and, after Capacity::struts, of every beam [N/m], at both
-  /// levels of Eq. (43).
-  FixedArray<FixedArray<Real, Cap::segments>, Cap::struts + Cap::beams> low_tension_by_bar, tension_by_bar;
+  /// Of every segment: by what part of itself its force is more along the axis that it has come to, for a
+  /// metre that its lean lengthens it by: 1 / length, Eq. (45).
+  FixedArray<Real, Cap::segments> by_own_lean;
   int struts = 0, beams = 0;  ///< that the scene has
 
   /// Calls visit(number) for every segment, strut and beam.
@@ -275,11 +294,6 @@ struct CondensedLean {
       for (int i = 0; i < beams; ++i) visit(Cap::segments + Cap::struts + i);
   }
 };
-
-/// What `Count` numbers of the state change by with a unit elongation of every strut and, after
-/// Capacity::struts, of every beam.
-template <class Real, int Count, class Cap>
-using RowsByBar = FixedArray<FixedArray<Real, Count>, Cap::struts + Cap::beams>;
 
 /// A displacement: of a node, along an axis (0, 1 or 2).
 struct NodeAxis {

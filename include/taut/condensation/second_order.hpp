@@ -1,52 +1,68 @@
-// The condensed scene in second-order theory: two linear ones, and what lies between them.
+// The condensed scene in second-order theory: linear at three levels, and what lies between them.
 #pragma once
 
 #include <limits>
 
 #include "taut/condensation/condensed.hpp"
+#include "taut/condensation/level_curve.hpp"
 #include "taut/numerics/larger.hpp"
 
 namespace taut {
 
-/// The rows that give `Count` numbers of the state in second-order theory: between two levels as Eq. (47)
-/// says, and what bars that lean add by their length, Eq. (45), at the same level. An aggregate, too.
+/// The rows that give `Count` numbers of the state in second-order theory: between the levels as Eq. (47)
+/// says, each with a curve of its own, and what bars that lean add by their length, Eq. (45), at the same
+/// level. An aggregate, too.
 template <class Scalar, int Count, class Cap>
 struct LevelRows {
   using Real = Wide<Scalar>;
   using Stretches = FixedArray<Real, max_bars<Cap>>;
 
-  CondensedRows<Real, Count, Cap> low, high;
-  RowsByBar<Real, Count, Cap> low_by_bar, by_bar;
+  LeaningRows<Real, Count, Cap> low, rise, bow;
+  FixedArray<Real, Count> curve;  ///< k of every row
   /// Of strut forces: by what part of itself each is more than what it balances along the axis that its strut
   /// has in the scene, for a metre that its lean lengthens it by: 1 / length, Eq. (45). Otherwise zero.
   FixedArray<Real, Count> by_own_lean;
   int count = 0;  ///< rows in use
 
-  /// All numbers in use at these loads and elongations [m], of which `model` is the LevelModel. Costs (bars +
-  /// segments + count) x segments.
+  /// All numbers in use at these loads and elongations [m], of which `model` is the LevelModel. Costs 3 (bars
+  /// + segments) x count.
   template <class Model, class Loads, class Elongations, class Number, int Size>
   void evaluate(const Model& model, const Loads& drive, const Elongations& e,
                 FixedArray<Number, Size>& numbers) const {
     static_assert(Count <= Size, "there is room for every number");
     Stretches q;
     model.stretches_at(drive, e, q);
-    const Real sum = model.sum_at(drive, e);
-    for (int i = 0; i < count; ++i) numbers[i] = static_cast<Number>(at(i, model, drive, e, sum, q));
+    const Real level = model.level_at(drive, e);
+    for (int i = 0; i < count; ++i) numbers[i] = static_cast<Number>(at(i, model, drive, e, level, q));
   }
-  /// One of them, where all tensions together are `sum` [N] and bars are lengthened by `q` [m].
+  /// One of them at a level, where bars are lengthened by `q` [m].
   template <class Model, class Loads, class Elongations>
-  Real at(int i, const Model& model, const Loads& drive, const Elongations& e, Real sum,
+  Real at(int i, const Model& model, const Loads& drive, const Elongations& e, Real level,
           const Stretches& q) const {
-    const Real below = number_of(low, i, model, drive, e);
-    const Real part = model.part(sum / model.target_force);
-    Real number = below + part * (number_of(high, i, model, drive, e) - below);
-    model.lean().for_each_bar(model.segments, [&](int b) {
-      const bool is_segment = b < Cap::segments;
-      const Real from = is_segment ? low.elongation[b][i] : low_by_bar[b - Cap::segments][i];
-      const Real to = is_segment ? high.elongation[b][i] : by_bar[b - Cap::segments][i];
-      number += q[b] * (from + part * (to - from));
-    });
+    const auto in = [&](const LeaningRows<Real, Count, Cap>& rows) {
+      return number_of(rows, i, model, drive, e, q);
+    };
+    const Real number = in(low) + curve_of(i).weights(level).of(in(rise), in(bow));
     return i < Cap::struts ? number * (1 + by_own_lean[i] * q[Cap::segments + i]) : number;
+  }
+  LevelCurve<Real> curve_of(int i) const { return {curve[i]}; }
+  /// Makes of the rows at the middle level, in `bow`, and at the high level, in `rise`, what Eq. (47) adds.
+  /// The scene has so many segments, loads, struts and beams.
+  template <class Model>
+  void split(const Model& of) {
+    for (int i = 0; i < count; ++i) {
+      LevelCurveFit<Real> fit;
+      for (int k = 0; k < of.low.segments; ++k)
+        fit.add(low.rows.elongation[k][i], bow.rows.elongation[k][i], rise.rows.elongation[k][i]);
+      curve[i] = fit.found().k;
+      const auto part = [&](auto number) { curve_of(i).split(number(low), number(bow), number(rise)); };
+      part([i](auto& at) -> Real& { return at.rows.prestrain[i]; });
+      for (int k = 0; k < of.low.loads; ++k) part([i, k](auto& at) -> Real& { return at.rows.load[k][i]; });
+      for (int k = 0; k < of.low.segments; ++k)
+        part([i, k](auto& at) -> Real& { return at.rows.elongation[k][i]; });
+      of.lean.for_each_bar(
+          0, [&](int b) { part([i, b](auto& at) -> Real& { return at.by_bar[b - Cap::segments][i]; }); });
+    }
   }
 };
 
@@ -64,21 +80,23 @@ Wide<Scalar> number_of(const LevelRows<Scalar, Count, Cap>& rows, int i, const M
                        const Loads& drive, const Elongations& e) {
   typename LevelRows<Scalar, Count, Cap>::Stretches q;
   model.stretches_at(drive, e, q);
-  return rows.at(i, model, drive, e, model.sum_at(drive, e), q);
+  return rows.at(i, model, drive, e, model.level_at(drive, e), q);
 }
 template <class Scalar, int Count, class Cap, class Model, class Elongations>
 Wide<Scalar> change_of(const LevelRows<Scalar, Count, Cap>& rows, int i, const Model& model,
                        const Elongations& e) {
-  const auto low = change_of(rows.low, i, model, e);
-  return low + model.part(model.anchor.level) * (change_of(rows.high, i, model, e) - low);
+  return change_of(rows.low.rows, i, model, e) +
+         rows.curve_of(i)
+             .weights(model.anchor.level)
+             .of(change_of(rows.rise.rows, i, model, e), change_of(rows.bow.rows, i, model, e));
 }
 
 template <class Scalar, class Cap>
 struct LevelModel;
 
-/// A scene condensed with its geometric stiffness, Eq. (43): T = C(tau) e + D(tau) p, with the level
-/// tau = mean T / mean T*, where T* are the tensions at the target state. An aggregate: it can be a constant
-/// in flash.
+/// A scene condensed with its geometric stiffness, Eq. (43): T = C(tau) e + D(tau) p + B(tau) q, with the
+/// level tau = mean T / mean T*, where T* are the tensions at the target state. An aggregate: it can be a
+/// constant in flash.
 template <class Scalar_, class Cap>
 struct SecondOrder {
   static_assert(!has_rigid_saddles<Cap>, "between rigid saddles nothing leans");
@@ -89,29 +107,15 @@ struct SecondOrder {
   using AtLevel = LevelModel<Scalar, Cap>;
   using Struts = LevelStruts<Scalar, Cap>;
   using Displacements = LevelDisplacements<Scalar, Cap>;
-  /// Levels of the two. The lowest is above zero: without tension nothing may hold a pinned strut.
-  static constexpr Real low_level = Real(1) / 48, high_level = 1;
-  Linear low, high;
-  CondensedLean<Scalar, Cap> lean;  ///< at the high level, but for low_tension_by_bar
-  Real target_force = 0;            ///< T* of all segments together [N]
-  Real curve = 0;                   ///< k of Eq. (47): 0 is a straight line between the two
+  using Tensions = LeaningRows<Real, Cap::segments, Cap>;
+  using Curve = LevelCurve<Real>;
 
-  /// How far numbers have come from the low level to the high one: Eq. (47).
-  constexpr Real part(Real level) const {
-    const Real at = larger(level, low_level);
-    return (at - low_level) / (high_level - low_level) * (1 + curve * high_level) / (1 + curve * at);
-  }
-  /// Its derivative with respect to the level.
-  constexpr Real part_slope(Real level) const {
-    const Real by = 1 + curve * level;
-    return (1 + curve * high_level) * (1 + curve * low_level) / ((high_level - low_level) * by * by);
-  }
-  /// The curve that comes to `part` at `level`.
-  static constexpr Real curve_through(Real level, Real part) {
-    const Real steeper = part * (high_level - low_level) / (level - low_level);
-    const Real left = high_level - steeper * level;
-    return steeper > 1 && left > 0 ? (steeper - 1) / left : Real(0);
-  }
+  Linear low;
+  RowsByBar<Real, Cap::segments, Cap> low_by_bar;  ///< tensions there [N/m]
+  Tensions rise, bow;                              ///< of all tensions, Eq. (47)
+  CondensedLean<Scalar, Cap> lean;                 ///< at the high level
+  Real target_force = 0;                           ///< T* of all segments together [N]
+  Curve curve;
 };
 
 /// What a condensed scene says whatever the level is: its counts, the layout of its cables, and friction in
@@ -132,7 +136,7 @@ constexpr const CondensedRows<Real, Count, Cap>& linear_part(const CondensedRows
 template <class Scalar, int Count, class Cap>
 constexpr const CondensedRows<Wide<Scalar>, Count, Cap>& linear_part(
     const LevelRows<Scalar, Count, Cap>& rows) {
-  return rows.low;
+  return rows.low.rows;
 }
 
 /// A second-order scene about one level: what a tracker computes with until the level has changed by a step.
@@ -152,8 +156,9 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   using Tensions = FixedArray<Real, Cap::segments>;
   using Kappas = FixedArray<Real, Cap::joints>;
   using Stretches = FixedArray<Real, max_bars<Cap>>;
+  using Curve = LevelCurve<Real>;
   static constexpr bool has_level = true;
-  /// A step of the level.
+  /// A step of the level, at most. It is half of a level that is small.
   static constexpr Real step = Real(1) / 32;
 
   /// Where a step began: all that the model is made from.
@@ -176,14 +181,14 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     source_ = &source;
     target_force = source.target_force;
     anchor = {};
-    anchor.level = Source::low_level;
+    anchor.level = Curve::low;
     make();
   }
   /// Begins the next step at these loads and elongations [m], of which all tensions together are `sum` [N].
   /// Costs segments^2 x bars.
   template <class Loads>
   void come_to(Real sum, const Loads& drive, const Tensions& e) {
-    anchor.level = larger(sum / target_force, Source::low_level);
+    anchor.level = larger(sum / target_force, Curve::low);
     anchor.prestrain = drive.prestrain;
     anchor.factor = drive.factor;
     anchor.e = e;
@@ -195,6 +200,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     a.fill(Real(0));
     Tensions G;
     G.fill(Real(0));
+    weights_ = source_->curve.weights(anchor.level);
     if (is_tangent()) {
       find_asides(anchor, anchor.e, a);
       find_bend(G);
@@ -205,6 +211,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
       for (int i = 0; i < this->segments; ++i) T[i] += by * G[i];
     };
     const auto& aside = source_->lean.aside;
+    const auto &rise = source_->rise.rows, &bow = source_->bow.rows;
     for (int k = 0; k < this->segments; ++k) {
       Tensions column;
       for (int i = 0; i < this->segments; ++i) column[i] = coupling_at(i, k);
@@ -214,23 +221,24 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     }
     for (int k = 0; k < this->loads; ++k) {
       for (int i = 0; i < this->segments; ++i)
-        this->load[k][i] = between(source_->low.load[k][i], source_->high.load[k][i]);
+        this->load[k][i] = source_->low.load[k][i] + weights_.of(rise.load[k][i], bow.load[k][i]);
       stretch(a, aside.load[k], this->load[k]);
       follow(this->load[k]);
     }
     for (int i = 0; i < this->segments; ++i)
       this->prestrain[i] =
-          between(source_->low.prestrain[i], source_->high.prestrain[i]) - anchor.level * G[i];
+          source_->low.prestrain[i] + weights_.of(rise.prestrain[i], bow.prestrain[i]) - anchor.level * G[i];
     stretch(a, aside.prestrain, this->prestrain);
     // At the anchor itself q is half of what its own derivative gives.
     lean().for_each_bar(this->segments, [&](int b) { lengthen(b, -stretch_of(a, a, b), this->prestrain); });
     follow(this->prestrain);
-    take_friction();
-    most_sum = target_force * (anchor.level + step);
-    least_sum = is_lowest() ? std::numeric_limits<Real>::lowest() : target_force * (anchor.level - step);
+    turn(a);
+    take_friction(a);
+    const Real by = anchor.level < 2 * step ? anchor.level / 2 : step;
+    most_sum = target_force * (anchor.level + by);
+    least_sum = is_lowest() ? std::numeric_limits<Real>::lowest() : target_force * (anchor.level - by);
   }
   const CondensedLean<Scalar, Cap>& lean() const { return source_->lean; }
-  Real part(Real level) const { return source_->part(level); }
   /// rho of a joint that holds rho in the scene's geometry.
   static Real scaled(Real flat, Real by) {
     const Real kappa = by * kappa_of(flat);
@@ -248,6 +256,11 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     this->coupling.add(this->segments, e, T);
     return sum_of(T);
   }
+  /// The level that they come to.
+  template <class Loads, class Elongations>
+  Real level_at(const Loads& drive, const Elongations& e) const {
+    return sum_at(drive, e) / target_force;
+  }
   /// By how much all bars are lengthened as they lean at these loads and elongations [m]. Costs bars x
   /// segments.
   template <class Loads, class Elongations>
@@ -263,12 +276,12 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   static constexpr Real most_kappa = Real(0.999);
 
   /// From no tension on: there must be none then without elongations either.
-  bool is_lowest() const { return anchor.level <= step; }
+  bool is_lowest() const { return anchor.level <= Curve::low; }
   /// While the prestrain comes on there is nowhere to put what does not grow with it.
   bool is_tangent() const { return anchor.prestrain == 1 && !is_lowest(); }
-  Real between(Real low, Real high) const { return low + part(anchor.level) * (high - low); }
   Real coupling_at(int i, int k) const {
-    return between(source_->low.coupling(i, k), source_->high.coupling(i, k));
+    return source_->low.coupling(i, k) +
+           weights_.of(source_->rise.rows.elongation[k][i], source_->bow.rows.elongation[k][i]);
   }
   Real sum_of(const Tensions& T) const {
     Real sum = 0;
@@ -282,14 +295,19 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   }
   /// What the level changes in all tensions [N].
   void find_bend(Tensions& G) const {
-    const Real unit = source_->part_slope(anchor.level);
+    const auto slopes = source_->curve.slopes(anchor.level);
+    const auto &rise = source_->rise.rows, &bow = source_->bow.rows;
     for (int i = 0; i < this->segments; ++i) {
-      Real change = source_->high.prestrain[i] - source_->low.prestrain[i];
-      for (int k = 0; k < this->loads; ++k)
-        change += anchor.factor[k] * (source_->high.load[k][i] - source_->low.load[k][i]);
-      for (int k = 0; k < this->segments; ++k)
-        change += anchor.e[k] * (source_->high.coupling(i, k) - source_->low.coupling(i, k));
-      G[i] = unit * change;
+      Real along = rise.prestrain[i], across = bow.prestrain[i];
+      for (int k = 0; k < this->loads; ++k) {
+        along += anchor.factor[k] * rise.load[k][i];
+        across += anchor.factor[k] * bow.load[k][i];
+      }
+      for (int k = 0; k < this->segments; ++k) {
+        along += anchor.e[k] * rise.elongation[k][i];
+        across += anchor.e[k] * bow.elongation[k][i];
+      }
+      G[i] = slopes.of(along, across);
     }
   }
   template <class Loads, class Elongations>
@@ -311,18 +329,37 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   }
   void lengthen(int bar, Real by, Tensions& T) const {
     if (bits_of(by) == 0) return;
+    const int b = bar - Cap::segments;
+    for (int i = 0; i < this->segments; ++i)
+      T[i] += by * (b < 0 ? coupling_at(i, bar)
+                          : source_->low_by_bar[b][i] +
+                                weights_.of(source_->rise.by_bar[b][i], source_->bow.by_bar[b][i]));
+  }
+  /// Makes of all tensions those along the axes that their segments have come to, Eq. (45).
+  void turn(const Asides& a) {
+    Tensions T = this->prestrain;
+    for (int k = 0; k < this->loads; ++k)
+      for (int i = 0; i < this->segments; ++i) T[i] += anchor.factor[k] * this->load[k][i];
+    this->coupling.add(this->segments, anchor.e, T);
+    const auto& aside = lean().aside;
     for (int i = 0; i < this->segments; ++i) {
-      if (bar < Cap::segments)
-        T[i] += by * coupling_at(i, bar);
-      else
-        T[i] += by * between(lean().low_tension_by_bar[bar - Cap::segments][i],
-                             lean().tension_by_bar[bar - Cap::segments][i]);
+      const Real q = stretch_of(a, a, i);
+      if (bits_of(q) == 0) continue;
+      const Real part = lean().by_own_lean[i], by = 1 + part * q, more = 2 * part * T[i];
+      for (int k = 0; k < this->segments; ++k)
+        this->coupling.set(i, k, by * this->coupling(i, k) + more * stretch_of(a, aside.elongation[k], i));
+      for (int k = 0; k < this->loads; ++k)
+        this->load[k][i] = by * this->load[k][i] + more * stretch_of(a, aside.load[k], i);
+      // At the anchor itself q is half of what its own derivative gives.
+      this->prestrain[i] = by * this->prestrain[i] + more * (stretch_of(a, aside.prestrain, i) - q);
     }
   }
   /// Friction of the displaced geometry, Eq. (44). A joint that locks itself, or has no friction, stays so.
-  void take_friction() {
-    lean().bends.evaluate(*this, anchor, anchor.e, bend);
+  void take_friction(const Asides& a) {
+    Stretches q;
+    for (int b = 0; b < max_bars<Cap>; ++b) q[b] = stretch_of(a, a, b);
     for (int j = 0; j < this->joints; ++j) {
+      bend[j] = number_of(lean().bends, j, *this, anchor, anchor.e, q);
       const Real flat = source_->low.rho[j];
       kappa_ratio[j] = larger(Real(0), 1 + lean().kappa_by_bend[j] * bend[j]);
       if (!this->is_self_locking(j)) this->rho[j] = scaled(flat, kappa_ratio[j]);
@@ -330,6 +367,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   }
 
   const Source* source_ = nullptr;
+  LevelWeights<Real> weights_;  // at the anchor
 };
 
 }  // namespace taut
