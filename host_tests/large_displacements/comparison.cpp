@@ -70,6 +70,16 @@ std::vector<Difference> compare(const std::string& result, const std::string& re
   return differences;
 }
 
+double end_difference(const std::string& message, const std::string& reference) {
+  const auto load_in = [](const std::string& text) {
+    const std::string jack = "C.end ";
+    const auto at = text.find(jack);
+    return at == std::string::npos ? 0.0 : std::stod(text.substr(at + jack.size()));
+  };
+  const double load = load_in(message), expected = load_in(reference);
+  return load > 0 && expected > 0 ? std::fabs(load / expected - 1) : -1;
+}
+
 namespace {
 
 /// One scene of random.cmake: rows that came of it, and differences.

@@ -2,6 +2,7 @@
 //
 //     large_displacements SCENE LOG [-o OUT] [--steps N] [--pieces N] [--present-length]
 //     large_displacements --compare RESULT REFERENCE
+//     large_displacements --ends MESSAGE MESSAGE
 //     large_displacements --summary LINES
 //     large_displacements --scenes
 //     large_displacements --write NAME DIR
@@ -105,6 +106,10 @@ int main(int count, char** words) try {
     for (const Difference& d : compare(file_text(words[2]), file_text(words[3]), until))
       std::printf("%-8s %.3g of %.6g, %s at %g\n", d.kind.c_str(), d.part, d.largest, d.column.c_str(),
                   d.time);
+    return 0;
+  }
+  if (first == "--ends" && count == 4) {
+    std::printf("%.3g\n", end_difference(words[2], words[3]));
     return 0;
   }
   if (first == "--summary" && count == 3) {

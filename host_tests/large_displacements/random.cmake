@@ -33,7 +33,12 @@ foreach(seed RANGE ${FIRST} ${last})
   set(stem ${FOLDER}/${name})
   file(APPEND ${LINES} "scene ${name}\n")
 
-  execute_process(COMMAND "${PROGRAM}" ${stem}.json ${stem}.csv -o ${stem}.reference.csv --present-length TIMEOUT 120
+  # Jacks count by the length without tension; the prestrain of a closed hoop is a part of the distances in the scene.
+  set(length --present-length)
+  if(name MATCHES "closed")
+    set(length "")
+  endif()
+  execute_process(COMMAND "${PROGRAM}" ${stem}.json ${stem}.csv -o ${stem}.reference.csv ${length} TIMEOUT 120
                   RESULT_VARIABLE status ERROR_VARIABLE said)
   rows_of(${stem}.reference.csv rows)
   first_line("${said}" said)
