@@ -205,6 +205,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
       find_asides(anchor, anchor.e, a);
       find_bend(G);
     }
+    const Stretches q = stretches_of(a);
     const Real share = along(G);
     const auto follow = [&](Tensions& T) {
       const Real by = share * sum_of(T);
@@ -230,10 +231,10 @@ struct LevelModel : Condensed<Scalar_, Cap> {
           source_->low.prestrain[i] + weights_.of(rise.prestrain[i], bow.prestrain[i]) - anchor.level * G[i];
     stretch(a, aside.prestrain, this->prestrain);
     // At the anchor itself q is half of what its own derivative gives.
-    lean().for_each_bar(this->segments, [&](int b) { lengthen(b, -stretch_of(a, a, b), this->prestrain); });
+    lean().for_each_bar(this->segments, [&](int b) { lengthen(b, -q[b], this->prestrain); });
     follow(this->prestrain);
-    turn(a);
-    take_friction(a);
+    if (is_tangent()) turn(a, q);
+    take_friction(q);
     const Real by = anchor.level < 2 * step ? anchor.level / 2 : step;
     most_sum = target_force * (anchor.level + by);
     least_sum = is_lowest() ? std::numeric_limits<Real>::lowest() : target_force * (anchor.level - by);
@@ -248,13 +249,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   /// Tensions of all segments together at these loads and elongations [N]. Costs segments^2.
   template <class Loads, class Elongations>
   Real sum_at(const Loads& drive, const Elongations& e) const {
-    Tensions T;
-    for (int i = 0; i < this->segments; ++i) {
-      T[i] = drive.prestrain * this->prestrain[i];
-      for (int k = 0; k < this->loads; ++k) T[i] += drive.factor[k] * this->load[k][i];
-    }
-    this->coupling.add(this->segments, e, T);
-    return sum_of(T);
+    return sum_of(tensions_at(drive, e));
   }
   /// The level that they come to.
   template <class Loads, class Elongations>
@@ -268,7 +263,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     Asides a;
     a.fill(Real(0));
     if (is_tangent()) find_asides(drive, e, a);
-    for (int b = 0; b < max_bars<Cap>; ++b) q[b] = stretch_of(a, a, b);
+    q = stretches_of(a);
   }
 
  private:
@@ -282,6 +277,16 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   Real coupling_at(int i, int k) const {
     return source_->low.coupling(i, k) +
            weights_.of(source_->rise.rows.elongation[k][i], source_->bow.rows.elongation[k][i]);
+  }
+  template <class Loads, class Elongations>
+  Tensions tensions_at(const Loads& drive, const Elongations& e) const {
+    Tensions T;
+    for (int i = 0; i < this->segments; ++i) {
+      T[i] = drive.prestrain * this->prestrain[i];
+      for (int k = 0; k < this->loads; ++k) T[i] += drive.factor[k] * this->load[k][i];
+    }
+    this->coupling.add(this->segments, e, T);
+    return T;
   }
   Real sum_of(const Tensions& T) const {
     Real sum = 0;
@@ -323,6 +328,12 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     for (int n = 0; n < Cap::normals; ++n) sum += a[bar * Cap::normals + n] * b[bar * Cap::normals + n];
     return sum;
   }
+  /// Of every bar that leans by `a`.
+  static Stretches stretches_of(const Asides& a) {
+    Stretches q;
+    for (int b = 0; b < max_bars<Cap>; ++b) q[b] = stretch_of(a, a, b);
+    return q;
+  }
   /// Adds what bars do that lean by `a` already and by `da` more.
   void stretch(const Asides& a, const Asides& da, Tensions& T) const {
     lean().for_each_bar(this->segments, [&](int b) { lengthen(b, 2 * stretch_of(a, da, b), T); });
@@ -336,28 +347,22 @@ struct LevelModel : Condensed<Scalar_, Cap> {
                                 weights_.of(source_->rise.by_bar[b][i], source_->bow.by_bar[b][i]));
   }
   /// Makes of all tensions those along the axes that their segments have come to, Eq. (45).
-  void turn(const Asides& a) {
-    Tensions T = this->prestrain;
-    for (int k = 0; k < this->loads; ++k)
-      for (int i = 0; i < this->segments; ++i) T[i] += anchor.factor[k] * this->load[k][i];
-    this->coupling.add(this->segments, anchor.e, T);
+  void turn(const Asides& a, const Stretches& q) {
+    const Tensions T = tensions_at(anchor, anchor.e);
     const auto& aside = lean().aside;
     for (int i = 0; i < this->segments; ++i) {
-      const Real q = stretch_of(a, a, i);
-      if (bits_of(q) == 0) continue;
-      const Real part = lean().by_own_lean[i], by = 1 + part * q, more = 2 * part * T[i];
+      if (bits_of(q[i]) == 0) continue;
+      const Real part = lean().by_own_lean[i], by = 1 + part * q[i], more = 2 * part * T[i];
       for (int k = 0; k < this->segments; ++k)
         this->coupling.set(i, k, by * this->coupling(i, k) + more * stretch_of(a, aside.elongation[k], i));
       for (int k = 0; k < this->loads; ++k)
         this->load[k][i] = by * this->load[k][i] + more * stretch_of(a, aside.load[k], i);
       // At the anchor itself q is half of what its own derivative gives.
-      this->prestrain[i] = by * this->prestrain[i] + more * (stretch_of(a, aside.prestrain, i) - q);
+      this->prestrain[i] = by * this->prestrain[i] + more * (stretch_of(a, aside.prestrain, i) - q[i]);
     }
   }
   /// Friction of the displaced geometry, Eq. (44). A joint that locks itself, or has no friction, stays so.
-  void take_friction(const Asides& a) {
-    Stretches q;
-    for (int b = 0; b < max_bars<Cap>; ++b) q[b] = stretch_of(a, a, b);
+  void take_friction(const Stretches& q) {
     for (int j = 0; j < this->joints; ++j) {
       bend[j] = number_of(lean().bends, j, *this, anchor, anchor.e, q);
       const Real flat = source_->low.rho[j];
