@@ -12,8 +12,14 @@
 
 namespace monitor {
 
+template <class Board, class SettingsType>
+struct ApplicationOn {
+  template <class... Sources>
+  using With = Application<Board, SettingsType, Sources...>;
+};
+
 template <class Board, class SettingsType = Settings>
-using Monitor =
-    Application<Board, SettingsType, OfFlashScenes<FromFlash>, CondensedAtStartUp<scenes::truss_string>>;
+using Monitor = OfFlashScenes<ApplicationOn<Board, SettingsType>::template With, FromFlash,
+                              CondensedAtStartUp<scenes::truss_string>>;
 
 }  // namespace monitor

@@ -1,0 +1,1 @@
+// A target that others have their precompiled header from needs a source.
