@@ -20,8 +20,9 @@ std::vector<Difference> compare(const std::string& result, const std::string& re
                                 double until = std::numeric_limits<double>::infinity());
 
 /// By what part the loads differ at which two messages say that a path ended, "... C.end 2.46e+06 N ...", of
-/// the second one; negative where one of them names no load.
-double end_difference(const std::string& message, const std::string& reference);
+/// the second one. One that names no load came to the largest of the log, so that this is the least part;
+/// negative where neither does.
+double end_difference(const std::string& message, const std::string& reference, const std::string& log);
 
 /// Tables of what random.cmake found, a line for each kind of structure: how far both came, then the largest
 /// difference of each kind and that which 95 % of the scenes stay below [% of the largest value]. Once up to

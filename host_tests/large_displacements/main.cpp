@@ -2,7 +2,7 @@
 //
 //     large_displacements SCENE LOG [-o OUT] [--steps N] [--pieces N] [--present-length]
 //     large_displacements --compare RESULT REFERENCE
-//     large_displacements --ends MESSAGE MESSAGE
+//     large_displacements --ends MESSAGE MESSAGE LOG
 //     large_displacements --summary LINES
 //     large_displacements --scenes
 //     large_displacements --write NAME DIR
@@ -108,8 +108,8 @@ int main(int count, char** words) try {
                   d.time);
     return 0;
   }
-  if (first == "--ends" && count == 4) {
-    std::printf("%.3g\n", end_difference(words[2], words[3]));
+  if (first == "--ends" && count == 5) {
+    std::printf("%.3g\n", end_difference(words[2], words[3], file_text(words[4])));
     return 0;
   }
   if (first == "--summary" && count == 3) {

@@ -121,7 +121,7 @@ Jacking beam_string(const BeamString& given) {
   beam.nodes = roof;
   beam.E = steel;
   beam.A = 0.025 * span / 80;
-  const double depth = span / 120;
+  const double depth = span / given.slenderness;
   beam.Iz = beam.A * depth * depth / 5.5;
   model.beams.push_back(beam);
   model.cables.push_back(cable_along(cable, force / 5e8, given.mu, given.law, false));
@@ -138,6 +138,7 @@ Jacking beam_string(const BeamString& given) {
   }
   const char* const kinds[] = {"vertical", "radial", "v", "fixed"};
   model.name = "beam-string-" + short_number(span) + "-" + std::to_string(given.struts) + "-" +
+               (given.slenderness == 120 ? "" : "d" + short_number(given.slenderness) + "-") +
                (given.rise > 0 ? "arched-" : "") + kinds[static_cast<int>(given.kind)] + "-" +
                short_number(given.mu);
   made.target = {true, {1, 0}, {{0, force}}};
@@ -248,10 +249,11 @@ namespace {
 
 void each_scene(const std::function<void(const std::function<Jacking()>&)>& see) {
   const std::pair<double, int> spans[] = {{60, 7}, {80, 9}, {120, 11}};
-  for (const auto& [span, struts] : spans)
+  const auto beam_strings = [&](double slenderness, double span, int struts) {
     for (const double mu : {.03, .05, .1, .2, .3})
       for (const Struts kind : {Struts::radial, Struts::vertical, Struts::v, Struts::fixed}) {
         BeamString given;
+        given.slenderness = slenderness;
         given.span = span;
         given.struts = struts;
         given.mu = mu;
@@ -263,6 +265,9 @@ void each_scene(const std::function<void(const std::function<Jacking()>&)>& see)
         given.rise = 0.05;
         if (kind == Struts::radial) see([given] { return beam_string(given); });
       }
+  };
+  for (const double slenderness : {120, 60, 40})
+    for (const auto& [span, struts] : spans) beam_strings(slenderness, span, struts);
   for (const double mu : {.05, .1, .3})
     for (const int rods : {1, 2})
       for (const bool jacked : {true, false}) see([=] { return dome_hoop({16, rods, mu, jacked}); });

@@ -27,6 +27,8 @@ struct BeamString {
   Struts kind = Struts::radial;
   double sag = 1.0 / 12;  ///< of the span; the cable is a parabola
   double rise = 0;        ///< of the roof beam, of the span
+  double slenderness =
+      120;  ///< span / depth of the roof beam: at 120, 5 % more force lifts it by half a metre
   Law law = Law::point;
 };
 Jacking beam_string(const BeamString& given);
@@ -49,7 +51,8 @@ std::vector<Row> ramp_and_lock(const Model& model, const Target& target, double 
 /// meant to. Three of four are beam strings.
 Jacking random_jacking(std::uint64_t seed);
 
-/// The first two kinds by name, such as beam-string-80-9-radial-0.1 and dome-hoop-1-jacked-0.1.
+/// The first two kinds by name, such as beam-string-80-9-radial-0.1, beam-string-80-9-d40-radial-0.1 and
+/// dome-hoop-1-jacked-0.1.
 std::vector<std::string> scene_names();
 /// These, and random ones: random-7-radial, random-7 for short. Throws std::out_of_range.
 Jacking scene_by_name(const std::string& name);
