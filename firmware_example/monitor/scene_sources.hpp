@@ -173,6 +173,7 @@ void add_scene(Crc32& crc, const taut::SecondOrder<float, Capacity>& model) {
   }
   add_rows(model.lean.aside);
   add(model.lean.by_own_lean);
+  add(model.lean.own_aside);
   add(model.target_force);
   add(model.curve);
 }

@@ -128,6 +128,7 @@ void check_bits(const std::string& file, const SecondOrder<Scalar, Cap>& found,
   check_rows(found.lean.aside, expected.lean.aside);
   CHECK(same_bits(found.lean.kappa_by_bend, expected.lean.kappa_by_bend));
   CHECK(same_bits(found.lean.by_own_lean, expected.lean.by_own_lean));
+  CHECK(same_bits(found.lean.own_aside, expected.lean.own_aside));
   REQUIRE(rows != nullptr);
   check_leaning(rows->low, expected_rows.low);
   check_leaning(rows->rise, expected_rows.rise);

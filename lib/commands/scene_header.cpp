@@ -264,8 +264,10 @@ class Constants {
     return "constexpr ::taut::CondensedLean<" + name() + ", Capacity> make_lean(" + name() + ") {\n" +
            "  return {/*bends*/ " + leaning(level.bends) + ",\n" +
            field("kappa_by_bend", numbers(level.kappa_by_bend, 10)) + field("aside", table(asides(level))) +
-           field("by_own_lean", numbers(level.by_own_lean, 10)) + "          /*struts*/ " +
-           std::to_string(level.struts) + ", /*beams*/ " + std::to_string(level.beams) + "};\n}\n";
+           field("by_own_lean", numbers(placed(level.by_own_lean, level, 1, 1), 10)) +
+           field("own_aside", numbers(placed(level.own_aside, level, level.normals, capacity_.normals), 10)) +
+           "          /*struts*/ " + std::to_string(level.struts) + ", /*beams*/ " +
+           std::to_string(level.beams) + "};\n}\n";
   }
   // CondensedRows.
   static std::string table(const RowsArrays& all) {
@@ -276,31 +278,29 @@ class Constants {
   std::string leaning(const LeaningArrays& all) const {
     return "{/*rows*/ " + table(all.rows) + ",\n          /*by_bar*/ " + rows(by_bar(all.by_bar)) + "}";
   }
-  // From the bars of the scene to those of the capacity: segments, struts and beams have their places there.
-  RowsArrays asides(const LevelArrays& level) const {
-    const auto placed = [&](const Row& row) {
-      const auto stride = static_cast<std::size_t>(capacity_.normals),
-                 given = static_cast<std::size_t>(level.normals);
-      const auto segments = static_cast<int>(arrays_.prestrain.size());
-      Row all;
-      std::size_t from = 0;
-      const auto add = [&](int first, int bars) {
-        all.resize(static_cast<std::size_t>(first) * stride);
-        for (int bar = 0; bar < bars; ++bar, from += given) {
-          const auto begin = row.begin() + static_cast<std::ptrdiff_t>(from);
-          all.insert(all.end(), begin, begin + static_cast<std::ptrdiff_t>(given));
-          all.resize(all.size() + stride - given);
-        }
-      };
-      add(0, segments);
-      add(capacity_.segments, level.struts);
-      add(capacity_.segments + capacity_.struts, level.beams);
-      return all;
+  // From the bars of the scene, with `given` numbers each, to those of the capacity, with `stride`: segments,
+  // struts and beams have their places there.
+  Row placed(const Row& row, const LevelArrays& level, int given, int stride) const {
+    Row all;
+    auto from = row.begin();
+    const auto add = [&](int first, int bars) {
+      all.resize(static_cast<std::size_t>(first * stride));
+      for (int bar = 0; bar < bars; ++bar, from += given) {
+        all.insert(all.end(), from, from + given);
+        all.resize(all.size() + static_cast<std::size_t>(stride - given));
+      }
     };
+    add(0, static_cast<int>(arrays_.prestrain.size()));
+    add(capacity_.segments, level.struts);
+    add(capacity_.segments + capacity_.struts, level.beams);
+    return all;
+  }
+  RowsArrays asides(const LevelArrays& level) const {
+    const auto at = [&](const Row& row) { return placed(row, level, level.normals, capacity_.normals); };
     RowsArrays all;
-    for (const Row& row : level.aside.load) all.load.push_back(placed(row));
-    all.prestrain = placed(level.aside.prestrain);
-    for (const Row& row : level.aside.elongation) all.elongation.push_back(placed(row));
+    for (const Row& row : level.aside.load) all.load.push_back(at(row));
+    all.prestrain = at(level.aside.prestrain);
+    for (const Row& row : level.aside.elongation) all.elongation.push_back(at(row));
     return all;
   }
   std::vector<Row> by_bar(const std::vector<Row>& of) const {

@@ -65,7 +65,7 @@ bool are_possible(const LevelArrays& arrays) {
          are_possible(arrays.strut_bow) && are_possible(arrays.strut_curve) &&
          are_possible(arrays.strut_by_own_lean) && are_possible(arrays.bends) && are_possible(arrays.aside) &&
          are_possible(arrays.kappa_by_bend) && are_possible(arrays.by_own_lean) &&
-         is_possible(arrays.target_force) && is_possible(arrays.curve);
+         are_possible(arrays.own_aside) && is_possible(arrays.target_force) && is_possible(arrays.curve);
 }
 bool are_possible(const CondensedArrays& arrays) {
   return is_possible(arrays.condensing.condition) && are_possible(static_cast<const LinearArrays&>(arrays)) &&
@@ -94,14 +94,13 @@ LinearArrays copied(const Condensed<Scalar, Cap>& condensed) {
   return arrays;
 }
 
-// The numbers of a scene's bars among those of the capacity, `normals` of `stride` numbers each.
+// The numbers of a scene's bars among those of the capacity, `kept` of `stride` numbers each.
 template <class Cap>
-Row bars_of(const Row& all, int segments, const LevelArrays& level, std::size_t stride) {
+Row bars_of(const Row& all, int segments, const LevelArrays& level, int kept, int stride) {
   Row numbers;
   const auto add = [&](int first, int count) {
     for (int bar = first; bar < first + count; ++bar)
-      for (std::size_t n = 0; n < static_cast<std::size_t>(level.normals); ++n)
-        numbers.push_back(all[static_cast<std::size_t>(bar) * stride + n]);
+      for (int n = 0; n < kept; ++n) numbers.push_back(all[static_cast<std::size_t>(bar * stride + n)]);
   };
   add(0, segments);
   add(Cap::segments, level.struts);
@@ -142,12 +141,14 @@ LevelArrays level_arrays(const SecondOrder<Scalar, Cap>& condensed, const LevelS
   arrays.strut_curve = row_of(struts.curve, arrays.struts);
   arrays.strut_by_own_lean = row_of(struts.by_own_lean, arrays.struts);
   arrays.bends = leaning<Cap>(condensed.lean.bends, low, arrays, low.joints);
-  arrays.by_own_lean = row_of(condensed.lean.by_own_lean, low.segments);
+  arrays.by_own_lean =
+      bars_of<Cap>(row_of(condensed.lean.by_own_lean, max_bars<Cap>), low.segments, arrays, 1, 1);
   arrays.kappa_by_bend = row_of(condensed.lean.kappa_by_bend, low.joints);
   const RowsArrays aside = copied(condensed.lean.aside, low, max_bars<Cap> * Cap::normals);
   const auto kept = [&](const Row& row) {
-    return bars_of<Cap>(row, low.segments, arrays, static_cast<std::size_t>(Cap::normals));
+    return bars_of<Cap>(row, low.segments, arrays, arrays.normals, Cap::normals);
   };
+  arrays.own_aside = kept(row_of(condensed.lean.own_aside, max_bars<Cap> * Cap::normals));
   for (const Row& row : aside.load) arrays.aside.load.push_back(kept(row));
   arrays.aside.prestrain = kept(aside.prestrain);
   for (const Row& row : aside.elongation) arrays.aside.elongation.push_back(kept(row));

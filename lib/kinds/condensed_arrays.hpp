@@ -40,7 +40,7 @@ struct LinearArrays {
 };
 
 /// What SecondOrder and LevelStruts hold beside the low level. Bars are segments, struts and beams of the
-/// scene, one after the other; in `aside` each has Capacity::normals numbers.
+/// scene, one after the other; in `aside` and `own_aside` each has Capacity::normals numbers.
 struct LevelArrays {
   using Row = std::vector<double>;
 
@@ -51,7 +51,7 @@ struct LevelArrays {
   Row strut_curve, strut_by_own_lean;
   LeaningArrays bends;
   RowsArrays aside;
-  Row kappa_by_bend, by_own_lean;
+  Row kappa_by_bend, by_own_lean, own_aside;
   int struts = 0, beams = 0, normals = 0;
   double target_force = 0, curve = 0;
 };

@@ -222,8 +222,10 @@ class Condensation {
     if (asked_.lean != nullptr) {
       asked_.lean->struts = struts;
       asked_.lean->beams = beams;
-      for (int i = 0; i < condensed.segments; ++i)
-        asked_.lean->by_own_lean[i] = 1 / structure_.elements().segments[i].line.length;
+      for_each_bar(
+          [&](int bar, const auto&, const auto& line) { asked_.lean->by_own_lean[bar] = 1 / line.length; });
+      for (int n = 0; n < condensed.segments * Cap::normals; ++n)
+        asked_.lean->own_aside[n] = asked_.lean->aside.elongation[n / Cap::normals][n];
       for (int j = 0; j < condensed.joints; ++j)
         asked_.lean->kappa_by_bend[j] =
             JointLean<Real, dimension>::kappa_by_bend(structure_.elements().joints[j]);
@@ -240,6 +242,11 @@ class Condensation {
       for (int c = 0; asked_.lean != nullptr && c < scene_->cables.size(); ++c)
         for (int j = 0; j < scene_->cables[c].joints(); ++j)
           asked_.lean->bends.by_bar[to][scene_->cables[c].first_joint + j] = bend_change(c, j);
+      if (asked_.lean != nullptr)
+        for_each_bar([&](int bar, const auto& nodes, const auto& line) {
+          for (int n = 0; bar == Cap::segments + to && n < Cap::normals; ++n)
+            asked_.lean->own_aside[bar * Cap::normals + n] = aside(nodes, line, n);
+        });
       for (int i = 0; asked_.displacement_by_bar != nullptr && i < asked_.displaced->size(); ++i)
         (*asked_.displacement_by_bar)[to][i] = displacement(i);
     }

@@ -279,9 +279,11 @@ struct CondensedLean {
   /// By how much the ends of every bar move apart across it, for each normal, by the root of twice its
   /// length: their squares are what leaning lengthens it by [m^1/2].
   CondensedRows<Real, max_bars<Cap> * Cap::normals, Cap> aside;
-  /// Of every segment: by what part of itself its force is more along the axis that it has come to, for a
-  /// metre that its lean lengthens it by: 1 / length, Eq. (45).
-  FixedArray<Real, Cap::segments> by_own_lean;
+  /// 1 / length of every bar [1/m]: by what part of itself its force is more along the axis that it has come
+  /// to, for a metre that its lean lengthens it by, Eq. (45).
+  FixedArray<Real, max_bars<Cap>> by_own_lean;
+  /// What a unit elongation of a bar does to its own `aside` [m^-1/2].
+  FixedArray<Real, max_bars<Cap> * Cap::normals> own_aside;
   int struts = 0, beams = 0;  ///< that the scene has
 
   /// Calls visit(number) for every segment, strut and beam.

@@ -146,7 +146,7 @@ constexpr const CondensedRows<Wide<Scalar>, Count, Cap>& linear_part(
 ///     T = C(tau) e + D(tau) p + B q(e, p),                                                             (43)
 ///
 /// and this is its tangent, Eq. (46), where the step began, at the anchor e_0, p_0, tau_0: G = C' e_0 + D'
-/// p_0 is what the level does, tau follows from T itself, and dq = 2 a . da. So the next step begins where
+/// p_0 is what the level does, tau follows from T itself, and dq = 2 f a . da. So the next step begins where
 /// this one ends, but for products of changes.
 template <class Scalar_, class Cap>
 struct LevelModel : Condensed<Scalar_, Cap> {
@@ -196,16 +196,17 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   }
   /// Goes on where another one was, with its anchor.
   void make() {
-    Asides a;
-    a.fill(Real(0));
+    Asides given;
+    given.fill(Real(0));
     Tensions G;
     G.fill(Real(0));
     weights_ = source_->curve.weights(anchor.level);
     if (is_tangent()) {
-      find_asides(anchor, anchor.e, a);
+      find_asides(anchor, anchor.e, given);
       find_bend(G);
     }
-    const Stretches q = stretches_of(a);
+    const Asides a = leant(given);
+    const Stretches grown = growths_of(a), q = stretches_of(a);
     const Real share = along(G);
     const auto follow = [&](Tensions& T) {
       const Real by = share * sum_of(T);
@@ -216,24 +217,26 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     for (int k = 0; k < this->segments; ++k) {
       Tensions column;
       for (int i = 0; i < this->segments; ++i) column[i] = coupling_at(i, k);
-      stretch(a, aside.elongation[k], column);
+      stretch(a, grown, aside.elongation[k], column);
       follow(column);
       for (int i = 0; i < this->segments; ++i) this->coupling.set(i, k, column[i]);
     }
     for (int k = 0; k < this->loads; ++k) {
       for (int i = 0; i < this->segments; ++i)
         this->load[k][i] = source_->low.load[k][i] + weights_.of(rise.load[k][i], bow.load[k][i]);
-      stretch(a, aside.load[k], this->load[k]);
+      stretch(a, grown, aside.load[k], this->load[k]);
       follow(this->load[k]);
     }
     for (int i = 0; i < this->segments; ++i)
       this->prestrain[i] =
           source_->low.prestrain[i] + weights_.of(rise.prestrain[i], bow.prestrain[i]) - anchor.level * G[i];
-    stretch(a, aside.prestrain, this->prestrain);
-    // At the anchor itself q is half of what its own derivative gives.
-    lean().for_each_bar(this->segments, [&](int b) { lengthen(b, -q[b], this->prestrain); });
+    stretch(a, grown, aside.prestrain, this->prestrain);
+    // At the anchor itself q is not what its own derivative gives.
+    lean().for_each_bar(this->segments, [&](int b) {
+      lengthen(b, q[b] - 2 * grown[b] * stretch_of(a, given, b), this->prestrain);
+    });
     follow(this->prestrain);
-    if (is_tangent()) turn(a, q);
+    if (is_tangent()) turn(a, given, grown, q);
     take_friction(q);
     const Real by = anchor.level < 2 * step ? anchor.level / 2 : step;
     most_sum = target_force * (anchor.level + by);
@@ -263,7 +266,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     Asides a;
     a.fill(Real(0));
     if (is_tangent()) find_asides(drive, e, a);
-    q = stretches_of(a);
+    q = stretches_of(leant(a));
   }
 
  private:
@@ -328,15 +331,42 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     for (int n = 0; n < Cap::normals; ++n) sum += a[bar * Cap::normals + n] * b[bar * Cap::normals + n];
     return sum;
   }
-  /// Of every bar that leans by `a`.
-  static Stretches stretches_of(const Asides& a) {
+  /// By how much bars lean that their own lengthening takes back a part of, Eq. (45).
+  Asides leant(const Asides& given) const {
+    Asides a = given;
+    for (int round = 0; round < 3; ++round) {
+      const Stretches q = stretches_of(a);
+      lean().for_each_bar(this->segments, [&](int b) {
+        for (int n = b * Cap::normals; n < (b + 1) * Cap::normals; ++n)
+          a[n] = given[n] + lean().own_aside[n] * q[b];
+      });
+    }
+    return a;
+  }
+  /// Of every bar that leans by `a`: a . a (1 + a . a / 2L).
+  Stretches stretches_of(const Asides& a) const {
     Stretches q;
-    for (int b = 0; b < max_bars<Cap>; ++b) q[b] = stretch_of(a, a, b);
+    q.fill(Real(0));
+    lean().for_each_bar(this->segments, [&](int b) {
+      const Real by = stretch_of(a, a, b);
+      q[b] = by * (1 + lean().by_own_lean[b] / 2 * by);
+    });
     return q;
   }
+  /// f of Eq. (46). A lean that grew by itself would be no small one: f is at most twice what it is without
+  /// that.
+  Stretches growths_of(const Asides& a) const {
+    Stretches grown;
+    grown.fill(Real(0));
+    lean().for_each_bar(this->segments, [&](int b) {
+      const Real by = 1 + lean().by_own_lean[b] * stretch_of(a, a, b);
+      grown[b] = by / larger(Real(0.5), 1 - 2 * by * stretch_of(a, lean().own_aside, b));
+    });
+    return grown;
+  }
   /// Adds what bars do that lean by `a` already and by `da` more.
-  void stretch(const Asides& a, const Asides& da, Tensions& T) const {
-    lean().for_each_bar(this->segments, [&](int b) { lengthen(b, 2 * stretch_of(a, da, b), T); });
+  void stretch(const Asides& a, const Stretches& grown, const Asides& da, Tensions& T) const {
+    lean().for_each_bar(this->segments, [&](int b) { lengthen(b, 2 * grown[b] * stretch_of(a, da, b), T); });
   }
   void lengthen(int bar, Real by, Tensions& T) const {
     if (bits_of(by) == 0) return;
@@ -347,18 +377,19 @@ struct LevelModel : Condensed<Scalar_, Cap> {
                                 weights_.of(source_->rise.by_bar[b][i], source_->bow.by_bar[b][i]));
   }
   /// Makes of all tensions those along the axes that their segments have come to, Eq. (45).
-  void turn(const Asides& a, const Stretches& q) {
+  void turn(const Asides& a, const Asides& given, const Stretches& grown, const Stretches& q) {
     const Tensions T = tensions_at(anchor, anchor.e);
     const auto& aside = lean().aside;
     for (int i = 0; i < this->segments; ++i) {
       if (bits_of(q[i]) == 0) continue;
-      const Real part = lean().by_own_lean[i], by = 1 + part * q[i], more = 2 * part * T[i];
+      const Real part = lean().by_own_lean[i], by = 1 + part * q[i], more = 2 * part * grown[i] * T[i];
       for (int k = 0; k < this->segments; ++k)
         this->coupling.set(i, k, by * this->coupling(i, k) + more * stretch_of(a, aside.elongation[k], i));
       for (int k = 0; k < this->loads; ++k)
         this->load[k][i] = by * this->load[k][i] + more * stretch_of(a, aside.load[k], i);
-      // At the anchor itself q is half of what its own derivative gives.
-      this->prestrain[i] = by * this->prestrain[i] + more * (stretch_of(a, aside.prestrain, i) - q[i]);
+      // At the anchor itself nothing is more than `by` says.
+      this->prestrain[i] =
+          by * this->prestrain[i] + more * (stretch_of(a, aside.prestrain, i) - stretch_of(a, given, i));
     }
   }
   /// Friction of the displaced geometry, Eq. (44). A joint that locks itself, or has no friction, stays so.
