@@ -242,15 +242,21 @@ class Condensation {
       for (int c = 0; asked_.lean != nullptr && c < scene_->cables.size(); ++c)
         for (int j = 0; j < scene_->cables[c].joints(); ++j)
           asked_.lean->bends.by_bar[to][scene_->cables[c].first_joint + j] = bend_change(c, j);
-      if (asked_.lean != nullptr)
-        for_each_bar([&](int bar, const auto& nodes, const auto& line) {
-          for (int n = 0; bar == Cap::segments + to && n < Cap::normals; ++n)
-            asked_.lean->own_aside[bar * Cap::normals + n] = aside(nodes, line, n);
-        });
+      if (asked_.lean != nullptr) {
+        if (b < struts) keep_own_aside(Cap::segments + to, structure_.elements().struts[b]);
+        if constexpr (Cap::beams > 0)
+          if (b >= struts) keep_own_aside(Cap::segments + to, structure_.elements().beams[b - struts]);
+      }
       for (int i = 0; asked_.displacement_by_bar != nullptr && i < asked_.displaced->size(); ++i)
         (*asked_.displacement_by_bar)[to][i] = displacement(i);
     }
     return Status::success();
+  }
+  /// Of a bar that was lengthened in the last solution.
+  template <class Element>
+  void keep_own_aside(int bar, const Element& element) {
+    for (int n = 0; n < Cap::normals; ++n)
+      asked_.lean->own_aside[bar * Cap::normals + n] = aside(element.nodes, element.line, n);
   }
   /// One of those asked for, in the last solution [m].
   Real displacement(int i) const {
