@@ -286,6 +286,7 @@ Jacking scene_by_name(const std::string& name) {
     return random_jacking(std::stoull(name.substr(random.size())));
   Jacking found;
   each_scene([&](const auto& make) {
+    if (!found.model.name.empty()) return;
     Jacking made = make();
     if (made.model.name == name) found = std::move(made);
   });
