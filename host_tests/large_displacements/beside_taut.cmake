@@ -1,5 +1,5 @@
 # Follows jackings with second-order theory and with the reference, and compares forces, extensions and displacements up to
-# a time, of slender roofs to an earlier one, and the jack forces at which they end before the log does:
+# a time, of slender roofs to an earlier one, and the jack forces at which they end before the log does, where taut must name a strut:
 #   cmake -DTAUT=... -DPROGRAM=... -DFOLDER=... -DUNTIL=3240 -DSLENDER_UNTIL=2400 "-DNAMES=a;b" "-DWITHIN=0.001;0.005;0.01;0.01;0.02" -P beside_taut.cmake
 # WITHIN are the parts by which segments, struts, extensions, displacements and these forces may differ, of the largest of
 # each; without it the differences are printed, those of linear theory beside them.
@@ -69,6 +69,9 @@ foreach(name IN LISTS NAMES)
     endforeach()
     if(rows EQUAL 0)
       string(APPEND failures "${name}: no rows\n")
+    endif()
+    if(NOT end STREQUAL "-" AND NOT said MATCHES "runs away \\(strut")
+      string(APPEND failures "${name}: no strut is named: ${said}\n")
     endif()
   else()
     file(READ ${stem}.json scene)

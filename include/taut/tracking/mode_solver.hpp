@@ -80,7 +80,8 @@ class ModeSolver {
   bool is_active(int pair) const { return place_[pair] != inactive; }
   Real value(int pair) const { return value_[pair]; }
   const Tensions& rates() const { return T_; }
-  /// After a ray: whether it is a motion that no tension resists, and the pair that moves, or -1.
+  /// After a ray: whether it is a motion that no tension resists, and the pair that moves. Where the path
+  /// ends since two pairs wait for a pivot: the one that waited first. Otherwise -1.
   bool is_free() const { return is_free_; }
   int last_pair() const { return last_; }
 
@@ -505,7 +506,10 @@ class ModeSolver {
     }
     for (int k = 0; k < count; ++k) {
       if (waiting[k] < 0) continue;
-      if (is_pending_) return Outcome::singular;
+      if (is_pending_) {
+        last_ = pending_;
+        return Outcome::singular;
+      }
       is_pending_ = true;
       pending_ = waiting[k];
       place_[pending_] = 1;
