@@ -115,7 +115,7 @@ void check_bits(const std::string& file, const SecondOrder<Scalar, Cap>& found,
   SecondOrder<Scalar, Whole<Cap>> expected;
   LevelStruts<Scalar, Whole<Cap>> expected_rows;
   const auto target = target_of<Scalar, Whole<Cap>>(*described.second_order);
-  REQUIRE(condensation->run(*scene, target, expected, &expected_rows).ok());
+  REQUIRE(condensation->run(*scene, target, expected, expected_rows).ok());
   check_linear(found.low, expected.low);
   CHECK(same_bits(found.low_by_bar, expected.low_by_bar));
   check_leaning(found.rise, expected.rise);

@@ -71,7 +71,7 @@ struct Condensed {
   Condensed(const Scene& scene, const Sample& target) {
     const auto condensation = std::make_unique<taut::SecondOrderCondensation<double, Scene>>();
     for (int axis = 0; axis < 2; ++axis) displacements.add(joint_node, axis);
-    const taut::Status status = condensation->run(scene, target, model, &struts, nullptr, &displacements);
+    const taut::Status status = condensation->run(scene, target, model, struts, nullptr, &displacements);
     REQUIRE(status.ok());
   }
   // Of the joint's node.

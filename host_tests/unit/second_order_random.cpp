@@ -78,6 +78,7 @@ Jacking random_jacking(support::Random random, double angle, bool mirrored) {
 
 struct Run {
   Model model;
+  Model::Struts struts;
   Tracker tracker;
 };
 
@@ -89,7 +90,7 @@ Sample pulled(const Jacking& given, double force) {
 
 bool begin(const Jacking& given, Run& run) {
   const auto condensation = std::make_unique<taut::SecondOrderCondensation<double, Scene>>();
-  if (!condensation->run(given.scene, pulled(given, given.forces[0]), run.model)) return false;
+  if (!condensation->run(given.scene, pulled(given, given.forces[0]), run.model, run.struts)) return false;
   return run.tracker.start(run.model).status.ok();
 }
 

@@ -66,7 +66,7 @@
 //
 //   run() takes the loads and jack forces of the target besides. It fails as Condensation does, there also
 //   with `mechanism` where tension and thrust at the target leave a node without stiffness, and with
-//   `out_of_range` if no cable has tension there. Costs eight condensations, with a solve more for every
+//   `out_of_range` if no cable has tension there. Costs twelve condensations, with a solve more for every
 //   strut and beam, and three paths to the target. A tracker has n^2 numbers more, and n^2 operations for
 //   every bar where its level changes by a 32nd.
 //

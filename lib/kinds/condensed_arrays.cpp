@@ -8,6 +8,7 @@
 #include "lib/kinds/condensed_kind.hpp"
 #include "lib/kinds/scene_gauges.hpp"
 #include "lib/kinds/valid_scene.hpp"
+#include "lib/kinds/zeroed.hpp"
 
 namespace taut::host {
 namespace {
@@ -157,8 +158,8 @@ LevelArrays level_arrays(const SecondOrder<Scalar, Cap>& condensed, const LevelS
 
 template <class Scalar, int Dimension, class Cap>
 CondensedArrays condensed_arrays(const SceneDescription& scene) {
-  const auto condensed = std::make_unique<CondensedOf<Scalar, Cap>>();
-  const auto struts = std::make_unique<StrutsOf<Scalar, Cap>>();
+  const auto condensed = make_zeroed<CondensedOf<Scalar, Cap>>();
+  const auto struts = make_zeroed<StrutsOf<Scalar, Cap>>();
   CondensedArrays arrays;
   arrays.rigid = has_rigid_saddles<Cap>;
   arrays.condensing = condense_scene<Scalar, Dimension, Cap>(scene, *condensed, *struts);

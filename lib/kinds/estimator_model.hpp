@@ -13,6 +13,7 @@
 #include "lib/kinds/model.hpp"
 #include "lib/kinds/scene_gauges.hpp"
 #include "lib/kinds/solver_values.hpp"
+#include "lib/kinds/zeroed.hpp"
 #include "taut/estimation/estimator.hpp"
 #include "taut/estimation/unknown_past.hpp"
 
@@ -24,8 +25,8 @@ class EstimatorModel : public Model {
   EstimatorModel(const SceneDescription& scene, const AlarmLimits<double>& limits)
       : scene_(scene),
         limits_(AlarmLimits<Scalar>::of(limits)),
-        condensed_(new CondensedType),
-        struts_(new StrutRows),
+        condensed_(make_zeroed<CondensedType>()),
+        struts_(make_zeroed<StrutRows>()),
         prior_(new PriorType),
         estimator_(new EstimatorType),
         readings_(new ReadingsType) {}
@@ -164,8 +165,8 @@ class EstimatorModel : public Model {
   SceneGauges gauges_;
   std::vector<LoadCell<Scalar>> cells_;
   AlarmLimits<Scalar> limits_;
-  std::unique_ptr<CondensedType> condensed_;
-  std::unique_ptr<StrutRows> struts_;
+  Zeroed<CondensedType> condensed_;
+  Zeroed<StrutRows> struts_;
   std::unique_ptr<PriorType> prior_;
   std::unique_ptr<EstimatorType> estimator_;
   FrictionBefore before_;

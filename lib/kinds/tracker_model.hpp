@@ -8,6 +8,7 @@
 #include "lib/kinds/condense_scene.hpp"
 #include "lib/kinds/leg_model.hpp"
 #include "lib/kinds/solver_values.hpp"
+#include "lib/kinds/zeroed.hpp"
 #include "taut/tracking/tracker.hpp"
 
 namespace taut::host {
@@ -17,9 +18,9 @@ class TrackerModel : public LegModel {
  public:
   explicit TrackerModel(const SceneDescription& scene)
       : scene_(scene),
-        condensed_(new CondensedType),
-        struts_(new StrutRows),
-        displacements_(scene.displaced.empty() ? nullptr : new Displacements),
+        condensed_(make_zeroed<CondensedType>()),
+        struts_(make_zeroed<StrutRows>()),
+        displacements_(scene.displaced.empty() ? nullptr : make_zeroed<Displacements>()),
         tracker_(new TrackerType) {}
 
   Followed start(int) override {
@@ -85,9 +86,9 @@ class TrackerModel : public LegModel {
   }
 
   const SceneDescription& scene_;
-  std::unique_ptr<CondensedType> condensed_;
-  std::unique_ptr<StrutRows> struts_;
-  std::unique_ptr<Displacements> displacements_;  // if the scene asks for any
+  Zeroed<CondensedType> condensed_;
+  Zeroed<StrutRows> struts_;
+  Zeroed<Displacements> displacements_;  // if the scene asks for any
   std::unique_ptr<TrackerType> tracker_;
 };
 

@@ -27,11 +27,12 @@ class SecondOrderCondensation {
   /// at the target. Where a strut runs away before the target, the forces there are taken in proportion; the
   /// high level is then at twice of them, where that is less.
   ///
-  /// `target` are the loads and jack forces of the state whose geometric stiffness is taken. `displacements`,
-  /// if given, receives the rows for the displacements that were chosen in it. Costs twelve
+  /// `target` are the loads and jack forces of the state whose geometric stiffness is taken. `struts`
+  /// receives the rows of strut forces, which the way there needs; they can be left out afterwards.
+  /// `displacements`, if given, receives the rows for the displacements that were chosen in it. Costs twelve
   /// condensations, each with a solve more for every strut and beam, and three ways to the target.
   Status run(const SceneType& scene, const Sample<Scalar, Cap>& target, Model& condensed,
-             typename Model::Struts* struts = nullptr, const Real* substructure_geometry = nullptr,
+             typename Model::Struts& struts, const Real* substructure_geometry = nullptr,
              LevelDisplacements<Scalar, Cap>* displacements = nullptr) {
     geometry_ = {};
     reach_ = 1;
@@ -42,10 +43,9 @@ class SecondOrderCondensation {
     find_guess(scene, target);
     for (int round = 0;; ++round) {
       const bool is_last = round == rounds;
-      const Status status = condense(scene, condensed, !is_last || struts == nullptr ? struts_ : *struts,
-                                     is_last ? displacements : nullptr);
+      const Status status = condense(scene, condensed, struts, is_last ? displacements : nullptr);
       if (!status || is_last) return status;
-      if (!take_forces(scene, condensed, target)) round = rounds - 1;
+      if (!take_forces(scene, condensed, target, struts)) round = rounds - 1;
     }
   }
   Real condition() const { return condensation_.condition(); }
@@ -147,7 +147,8 @@ class SecondOrderCondensation {
   }
   /// The forces on the way to the target with the present geometry, as parts of what all tensions are there.
   /// Where the way ends earlier, the target comes nearer. False if that is nowhere: then what was stays.
-  bool take_forces(const SceneType& scene, const Model& condensed, const Sample<Scalar, Cap>& target) {
+  bool take_forces(const SceneType& scene, const Model& condensed, const Sample<Scalar, Cap>& target,
+                   const typename Model::Struts& struts) {
     if (!tracker_.start(condensed).status) return false;
     std::array<Real, 3> sums{};
     Real reached = 0;  // a part of the way
@@ -156,7 +157,7 @@ class SecondOrderCondensation {
       if (l == 0 || !(reached < levels[l - 1])) {
         reached += follow(part_of(scene, target, reach_ * levels[l])) * (levels[l] - reached);
       }
-      sums[l] = take_state(scene, found[l]);
+      sums[l] = take_state(scene, struts, found[l]);
     }
     if (!(reached * reach_ > least_part && sums[2] > 0)) return false;
     const Real ended = reached > Curve::middle ? reached : Curve::middle;
@@ -190,7 +191,7 @@ class SecondOrderCondensation {
     return sample;
   }
   /// The forces that the tracker has come to; gives the sum of all tensions [N].
-  Real take_state(const SceneType& scene, Geometry& geometry) const {
+  Real take_state(const SceneType& scene, const typename Model::Struts& struts, Geometry& geometry) const {
     const auto e = tracker_.elongations();
     Real sum = 0;
     for (int c = 0; c < scene.cables.size(); ++c)
@@ -202,14 +203,13 @@ class SecondOrderCondensation {
         geometry.segment_force[i] = T / (1 + longer);
         sum += T;
       }
-    struts_.evaluate(tracker_.model(), tracker_.loads(), e, geometry.strut_force);
+    struts.evaluate(tracker_.model(), tracker_.loads(), e, geometry.strut_force);
     beams_.evaluate(tracker_.model(), tracker_.loads(), e, geometry.beam_force);
     return sum;
   }
 
   Condensation<Scalar, SceneType, Geometry> condensation_;
   typename Model::Linear middle_, high_;
-  typename Model::Struts struts_;
   CondensedBeams<Scalar, Cap> beams_;
   Tracker<Model> tracker_;
   std::array<Geometry, 3> geometry_;  // of every level
