@@ -31,9 +31,13 @@ class Constraints {
   /// Puts the slips of the present states at work, in their order. Where laws imply one another, a node is
   /// held by its cables alone; weak springs then choose among its places, and forces do not depend on them.
   bool set_up() {
+    joint_without_pivot_ = -1;
     cables_.is_set_up = add_all(Real(0)) || add_all(held_at_zero);
     return cables_.is_set_up;
   }
+  /// After set_up(): the first joint that nothing holds any more as it slides, after those before it in the
+  /// order; -1 if there is none.
+  int joint_without_pivot() const { return joint_without_pivot_; }
   /// Puts the active variables at work only if every pivot keeps digits: a guess is not worth less.
   bool set_up_soundly() {
     cables_.is_set_up = add_all(Real(0), sound_pivot);
@@ -105,7 +109,10 @@ class Constraints {
   }
   bool add_slides(Real least) {
     for (const int j : state_.order)
-      if (!map_.set().append(laws_, laws_.sliding(SlipMode::of(j, state_.slides[j])), least)) return false;
+      if (!map_.set().append(laws_, laws_.sliding(SlipMode::of(j, state_.slides[j])), least)) {
+        if (joint_without_pivot_ < 0) joint_without_pivot_ = j;
+        return false;
+      }
     return true;
   }
   template <class Settle>
@@ -166,6 +173,7 @@ class Constraints {
   const Laws& laws_;
   State& state_;
   Map& map_;
+  int joint_without_pivot_ = -1;
 };
 
 }  // namespace taut

@@ -92,9 +92,9 @@ class ModeDecision {
   Status find_again() {
     free_joint_ = doubtful_joint_ = -1;
     cables_.drop_map();
-    const Status status = find_near(events_.free_node(), near_level);
-    if (status) return status;
-    return doubtful_joint_ >= 0 ? cables_.at_joint(Code::gives_way, doubtful_joint_) : status;
+    // Just before there was an answer: no node is free.
+    const Status status = find_near(cables_.at_joint(Code::gives_way, -1), near_level);
+    return status ? status : cables_.at_joint(Code::gives_way, doubtful_joint_);
   }
   /// After decide() or find_further_on(): how far all forces were found anew, as a part of what was left of
   /// the path; 0 if the modes were decided where the piece before ended.
@@ -279,7 +279,7 @@ class ModeDecision {
     for (const SlipMode& each : modes) solver.add_slip(each);
     if (solver.solve(stuck, due, nothing(totally), true, is_mapped ? &mapped : nullptr) !=
         Solver::Outcome::solved) {
-      remember_ray(solver);
+      remember_last(solver);
       cables_.drop_set();
       return false;
     }
@@ -290,7 +290,7 @@ class ModeDecision {
     return true;
   }
   /// Where no rate was found: a joint that its node would follow freely, and the last one that was tried.
-  void remember_ray(const Solver& solver) {
+  void remember_last(const Solver& solver) {
     const int p = solver.last_pair();
     if (p < 0 || solver.pairs()[p].is_segment()) return;
     doubtful_joint_ = solver.pairs()[p].index;
@@ -382,7 +382,7 @@ class ModeDecision {
       if (solved)
         adopt(solver, zero, totally);
       else
-        remember_ray(solver);
+        remember_last(solver);
     }
     solved = solved && constraints_.set_up();
     if (solved) {
@@ -527,7 +527,9 @@ class ModeDecision {
     cables_.drop_map();
     Spans taut;
     for (int r = 0; r < spans_.size(); ++r) taut[r] = !state_.rests[r] && !state_.slack[r];
-    if (!constraints_.set_up() || !go_on(all_limits(taut), true)) return false;
+    const bool is_set_up = constraints_.set_up();
+    if (constraints_.joint_without_pivot() >= 0) doubtful_joint_ = constraints_.joint_without_pivot();
+    if (!is_set_up || !go_on(all_limits(taut), true)) return false;
     constraints_.rebuild();
     cables_.find_forces();
     return constraints_.is_held(true);

@@ -80,8 +80,8 @@ class ModeSolver {
   bool is_active(int pair) const { return place_[pair] != inactive; }
   Real value(int pair) const { return value_[pair]; }
   const Tensions& rates() const { return T_; }
-  /// After a ray: whether it is a motion that no tension resists, and the pair that moves. Where the path
-  /// ends since two pairs wait for a pivot: the one that waited first. Otherwise -1.
+  /// After a ray: whether it is a motion that no tension resists, and the pair that moves. Where there was no
+  /// pivot at the end: the pair that waited for one, or would leave. Otherwise -1.
   bool is_free() const { return is_free_; }
   int last_pair() const { return last_; }
 
@@ -493,7 +493,10 @@ class ModeSolver {
     if (direction.enters) waiting[count++] = direction.pair;
     if (blocking.what == Leaves::pending) place_[pending_] = inactive;
     is_pending_ = false;
-    if (blocking.what == Leaves::active && !leave(blocking.pair)) return Outcome::singular;
+    if (blocking.what == Leaves::active && !leave(blocking.pair)) {
+      last_ = blocking.pair;
+      return Outcome::singular;
+    }
     // The one with the larger pivot first.
     for (int i = 0; i < count; ++i) {
       bool entered = false;

@@ -1,0 +1,22 @@
+# Whether taut names a strut wherever one runs away before a log ends:
+#   cmake -DTAUT=... -DPROGRAM=... -DFOLDER=... "-DNAMES=a;b" -P run_away.cmake
+file(REMOVE_RECURSE ${FOLDER})
+file(MAKE_DIRECTORY ${FOLDER})
+set(failures "")
+foreach(name IN LISTS NAMES)
+  execute_process(COMMAND "${PROGRAM}" --write ${name} ${FOLDER} RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "--write ${name}: ${status}")
+  endif()
+  file(GLOB scene ${FOLDER}/${name}.json ${FOLDER}/${name}-*.json)
+  string(REGEX REPLACE "json$" "csv" log ${scene})
+  execute_process(COMMAND "${TAUT}" simulate ${scene} ${log} -o ${FOLDER}/result.csv RESULT_VARIABLE status
+                  ERROR_VARIABLE said)
+  if(NOT status EQUAL 1 OR NOT said MATCHES "runs away \\(strut [0-9]+ from node")
+    string(APPEND failures "${name}: status ${status}: ${said}")
+  endif()
+  file(REMOVE ${scene} ${log})
+endforeach()
+if(failures)
+  message(FATAL_ERROR "${failures}")
+endif()
