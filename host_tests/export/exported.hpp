@@ -134,7 +134,6 @@ void check_bits(const std::string& file, const SecondOrder<Scalar, Cap>& found,
   check_leaning(rows->rise, expected_rows.rise);
   check_leaning(rows->bow, expected_rows.bow);
   CHECK(same_bits(rows->curve, expected_rows.curve));
-  CHECK(same_bits(rows->by_own_lean, expected_rows.by_own_lean));
   CHECK(rows->count == expected_rows.count);
 }
 

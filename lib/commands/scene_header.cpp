@@ -219,8 +219,7 @@ class Constants {
     return "constexpr ::taut::LevelStruts<" + name() + ", Capacity> make_struts(" + name() + ") {\n" +
            "  return {/*low*/ " + leaning({a.struts, a.level->low_strut_by_bar}) + ",\n" +
            field("rise", leaning(a.level->strut_rise)) + field("bow", leaning(a.level->strut_bow)) +
-           field("curve", numbers(a.level->strut_curve, 10)) +
-           field("by_own_lean", numbers(a.level->strut_by_own_lean, 10)) + "          /*count*/ " +
+           field("curve", numbers(a.level->strut_curve, 10)) + "          /*count*/ " +
            std::to_string(a.level->struts) + "};\n}\n";
   }
   std::string prior() const {

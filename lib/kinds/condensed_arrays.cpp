@@ -63,10 +63,10 @@ bool are_possible(const LeaningArrays& arrays) {
 bool are_possible(const LevelArrays& arrays) {
   return are_possible(arrays.low_by_bar) && are_possible(arrays.rise) && are_possible(arrays.bow) &&
          are_possible(arrays.low_strut_by_bar) && are_possible(arrays.strut_rise) &&
-         are_possible(arrays.strut_bow) && are_possible(arrays.strut_curve) &&
-         are_possible(arrays.strut_by_own_lean) && are_possible(arrays.bends) && are_possible(arrays.aside) &&
-         are_possible(arrays.kappa_by_bend) && are_possible(arrays.by_own_lean) &&
-         are_possible(arrays.own_aside) && is_possible(arrays.target_force) && is_possible(arrays.curve);
+         are_possible(arrays.strut_bow) && are_possible(arrays.strut_curve) && are_possible(arrays.bends) &&
+         are_possible(arrays.aside) && are_possible(arrays.kappa_by_bend) &&
+         are_possible(arrays.by_own_lean) && are_possible(arrays.own_aside) &&
+         is_possible(arrays.target_force) && is_possible(arrays.curve);
 }
 bool are_possible(const CondensedArrays& arrays) {
   return is_possible(arrays.condensing.condition) && are_possible(static_cast<const LinearArrays&>(arrays)) &&
@@ -140,7 +140,6 @@ LevelArrays level_arrays(const SecondOrder<Scalar, Cap>& condensed, const LevelS
   arrays.strut_rise = leaning<Cap>(struts.rise, low, arrays, arrays.struts);
   arrays.strut_bow = leaning<Cap>(struts.bow, low, arrays, arrays.struts);
   arrays.strut_curve = row_of(struts.curve, arrays.struts);
-  arrays.strut_by_own_lean = row_of(struts.by_own_lean, arrays.struts);
   arrays.bends = leaning<Cap>(condensed.lean.bends, low, arrays, low.joints);
   arrays.by_own_lean =
       bars_of<Cap>(row_of(condensed.lean.by_own_lean, max_bars<Cap>), low.segments, arrays, 1, 1);

@@ -48,7 +48,7 @@ struct LevelArrays {
   LeaningArrays rise, bow;  ///< of tensions
   std::vector<Row> low_strut_by_bar;
   LeaningArrays strut_rise, strut_bow;
-  Row strut_curve, strut_by_own_lean;
+  Row strut_curve;
   LeaningArrays bends;
   RowsArrays aside;
   Row kappa_by_bend, by_own_lean, own_aside;

@@ -11,18 +11,16 @@ namespace taut {
 
 /// The rows that give `Count` numbers of the state in second-order theory: between the levels as Eq. (47)
 /// says, each with a curve of its own, and what bars that lean add by their length, Eq. (45), at the same
-/// level. An aggregate, too.
-template <class Scalar, int Count, class Cap>
+/// level. `OfStruts`: the numbers are strut forces, along the axes that the struts have come to. An
+/// aggregate, too.
+template <class Scalar, int Count, class Cap, bool OfStruts = false>
 struct LevelRows {
   using Real = Wide<Scalar>;
   using Stretches = FixedArray<Real, max_bars<Cap>>;
 
   LeaningRows<Real, Count, Cap> low, rise, bow;
   FixedArray<Real, Count> curve;  ///< k of every row
-  /// Of strut forces: by what part of itself each is more than what it balances along the axis that its strut
-  /// has in the scene, for a metre that its lean lengthens it by: 1 / length, Eq. (45). Otherwise zero.
-  FixedArray<Real, Count> by_own_lean;
-  int count = 0;  ///< rows in use
+  int count = 0;                  ///< rows in use
 
   /// All numbers in use at these loads and elongations [m], of which `model` is the LevelModel. Costs 3 (bars
   /// + segments) x count.
@@ -43,7 +41,9 @@ struct LevelRows {
       return number_of(rows, i, model, drive, e, q);
     };
     const Real number = in(low) + curve_of(i).weights(level).of(in(rise), in(bow));
-    return i < Cap::struts ? number * (1 + by_own_lean[i] * q[Cap::segments + i]) : number;
+    if constexpr (OfStruts)
+      return number * (1 + model.lean().by_own_lean[Cap::segments + i] * q[Cap::segments + i]);
+    return number;
   }
   LevelCurve<Real> curve_of(int i) const { return {curve[i]}; }
   /// Makes of the rows at the middle level, in `bow`, and at the high level, in `rise`, what Eq. (47) adds.
@@ -68,22 +68,22 @@ struct LevelRows {
 
 /// On request: the rows that give strut forces [N], tension positive.
 template <class Scalar, class Cap>
-using LevelStruts = LevelRows<Scalar, Cap::struts, Cap>;
+using LevelStruts = LevelRows<Scalar, Cap::struts, Cap, true>;
 /// On request: the rows that give displacements of nodes [m], see CondensedDisplacements.
 template <class Scalar, class Cap>
 using LevelDisplacements =
     CondensedDisplacements<Scalar, Cap, LevelRows<Scalar, max_displacements<Cap>, Cap>>;
 
 /// As number_of() and change_of() of CondensedRows; the change at the level of the model.
-template <class Scalar, int Count, class Cap, class Model, class Loads, class Elongations>
-Wide<Scalar> number_of(const LevelRows<Scalar, Count, Cap>& rows, int i, const Model& model,
+template <class Scalar, int Count, class Cap, bool OfStruts, class Model, class Loads, class Elongations>
+Wide<Scalar> number_of(const LevelRows<Scalar, Count, Cap, OfStruts>& rows, int i, const Model& model,
                        const Loads& drive, const Elongations& e) {
-  typename LevelRows<Scalar, Count, Cap>::Stretches q;
+  typename LevelRows<Scalar, Count, Cap, OfStruts>::Stretches q;
   model.stretches_at(drive, e, q);
   return rows.at(i, model, drive, e, model.level_at(drive, e), q);
 }
-template <class Scalar, int Count, class Cap, class Model, class Elongations>
-Wide<Scalar> change_of(const LevelRows<Scalar, Count, Cap>& rows, int i, const Model& model,
+template <class Scalar, int Count, class Cap, bool OfStruts, class Model, class Elongations>
+Wide<Scalar> change_of(const LevelRows<Scalar, Count, Cap, OfStruts>& rows, int i, const Model& model,
                        const Elongations& e) {
   return change_of(rows.low.rows, i, model, e) +
          rows.curve_of(i)
@@ -133,9 +133,9 @@ template <class Real, int Count, class Cap>
 constexpr const CondensedRows<Real, Count, Cap>& linear_part(const CondensedRows<Real, Count, Cap>& rows) {
   return rows;
 }
-template <class Scalar, int Count, class Cap>
+template <class Scalar, int Count, class Cap, bool OfStruts>
 constexpr const CondensedRows<Wide<Scalar>, Count, Cap>& linear_part(
-    const LevelRows<Scalar, Count, Cap>& rows) {
+    const LevelRows<Scalar, Count, Cap, OfStruts>& rows) {
   return rows.low.rows;
 }
 

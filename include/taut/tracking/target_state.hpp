@@ -81,8 +81,6 @@ class SecondOrderCondensation {
     condensed.target_force = target_force_;
     if (!(target_force_ > 0)) return Status::at(Code::out_of_range, Place::none, 0);
     struts.count = scene.struts.size();
-    for (int i = 0; i < scene.struts.size(); ++i)
-      struts.by_own_lean[i] = 1 / StrutElement<Real, SceneType::dimension>::of(scene, i).line.length;
     if (displacements != nullptr) displacements->rows.count = displacements->of.size();
 
     const auto run = [&](std::size_t level, typename Model::Linear& linear,
