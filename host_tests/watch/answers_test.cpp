@@ -3,7 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include <chrono>
+#include <memory>
+#include <vector>
+
 #include "files/result_table.hpp"
+#include "lib/live/answer_board.hpp"
+#include "lib/live/live_answer.hpp"
 #include "watch/http_client.hpp"
 #include "watch/watched_program.hpp"
 #include "watch/watched_scene.hpp"
@@ -81,6 +87,27 @@ TEST_CASE("every row is an event, and the last one is in answer.json, with the n
   CHECK(text_of(scratch.path / "record.csv") == expected.out);
   CHECK(listener.receive(5).size() > 0);
   CHECK(listener.is_over());
+}
+
+TEST_CASE("who has come gets every answer that is put after that, however late it asks for the first one") {
+  taut::host::AnswerBoard board;
+  const auto put = [&](double time) {
+    auto answer = std::make_shared<taut::host::LiveAnswer>();
+    answer->time = time;
+    board.put(answer);
+  };
+  const auto taken = [&](taut::host::AnswerBoard::Place place) {
+    std::vector<double> times;
+    while (const auto answer = board.next(place, std::chrono::milliseconds(0))) times.push_back(answer->time);
+    return times;
+  };
+  const auto first = board.newest_place();
+  put(1);
+  put(2);
+  const auto second = board.newest_place();
+  put(3);
+  CHECK(taken(first) == std::vector<double>{1, 2, 3});
+  CHECK(taken(second) == std::vector<double>{2, 3});
 }
 
 TEST_CASE("twenty clients get every row, though one never reads and one goes away") {

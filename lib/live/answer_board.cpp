@@ -36,12 +36,13 @@ LiveAnswerPtr AnswerBoard::newest() const {
   return answers_.empty() ? nullptr : answers_.back();
 }
 
+AnswerBoard::Place AnswerBoard::newest_place() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return {count_ > 0 ? count_ - 1 : 0};
+}
+
 LiveAnswerPtr AnswerBoard::next(Place& place, std::chrono::milliseconds patience) const {
   std::unique_lock<std::mutex> lock(mutex_);
-  if (place.is_new) {
-    place.next = count_ > 0 ? count_ - 1 : 0;
-    place.is_new = false;
-  }
   changed_.wait_for(lock, patience, [&] { return is_closed_ || count_ > place.next; });
   if (count_ <= place.next) return nullptr;
   const std::size_t oldest = count_ - answers_.size();

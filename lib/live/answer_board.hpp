@@ -20,10 +20,9 @@ class AnswerBoard {
  public:
   static constexpr std::size_t kept = 512;
 
-  /// Of a reader: the answer that it wants next. That of a new reader is the newest.
+  /// Of a reader: the answer that it wants next, at first the first one.
   struct Place {
     std::size_t next = 0;
-    bool is_new = true;
   };
 
   void put(LiveAnswerPtr answer);
@@ -33,6 +32,8 @@ class AnswerBoard {
 
   /// The last one; null if there is none.
   LiveAnswerPtr newest() const;
+  /// Of a reader that begins with the newest answer, and gets all that are put from now on.
+  Place newest_place() const;
   /// The answer at the place, which moves on; null if none comes in that time or ever.
   LiveAnswerPtr next(Place& place, std::chrono::milliseconds patience) const;
   /// How many were put.

@@ -58,7 +58,6 @@ void Terminal::draw_screen() {
 
 void Terminal::write_lines() {
   AnswerBoard::Place place;
-  place.is_new = false;  // from the first one on
   while (true) {
     const LiveAnswerPtr answer = board_.next(place, std::chrono::milliseconds(250));
     if (!answer && board_.is_closed()) return;
