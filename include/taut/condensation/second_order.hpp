@@ -160,6 +160,8 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   static constexpr bool has_level = true;
   /// A step of the level, at most. It is half of a level that is small.
   static constexpr Real step = Real(1) / 32;
+  /// By what part of itself the bend of the cable may change in a step, in the mean of all joints.
+  static constexpr Real bend_step = Real(1) / 512;
 
   /// Where a step began: all that the model is made from.
   struct Anchor {
@@ -172,6 +174,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   Anchor anchor;
   Real target_force = 0;             ///< T* of all segments together [N]
   Real least_sum = 0, most_sum = 0;  ///< of all tensions, while this step holds [N]
+  Real most_bending = 0;             ///< of bending(), up or down, while this step holds
   Kappas bend;                       ///< by what part of itself cot(alpha) has changed: Eq. (44)
   Kappas kappa_ratio;                ///< kappa of the displaced geometry, as a part of that of the scene
 
@@ -182,6 +185,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     target_force = source.target_force;
     anchor = {};
     anchor.level = Curve::low;
+    find_mean_bend();
     make();
   }
   /// Begins the next step at these loads and elongations [m], of which all tensions together are `sum` [N].
@@ -240,7 +244,22 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     take_friction(q);
     const Real by = anchor.level < 2 * step ? anchor.level / 2 : step;
     most_sum = target_force * (anchor.level + by);
+    most_bending = is_tangent() ? bend_step : std::numeric_limits<Real>::max();
     least_sum = is_lowest() ? std::numeric_limits<Real>::lowest() : target_force * (anchor.level - by);
+  }
+  /// By what part of itself the bend of the cable has changed since the step began, in the mean of all
+  /// joints: beta of Eq. (44) without the length by which bars lean. Costs segments.
+  template <class Loads, class Elongations>
+  Real bending(const Loads& drive, const Elongations& e) const {
+    return bending_by(drive.factor, e) - bending_by(anchor.factor, anchor.e);
+  }
+  /// What these load factors and elongations [m] do to it.
+  template <class Factors, class Elongations>
+  Real bending_by(const Factors& factor, const Elongations& e) const {
+    Real sum = 0;
+    for (int k = 0; k < this->loads; ++k) sum += factor[k] * mean_bend_.load[k];
+    for (int k = 0; k < this->segments; ++k) sum += e[k] * mean_bend_.elongation[k];
+    return sum;
   }
   const CondensedLean<Scalar, Cap>& lean() const { return source_->lean; }
   /// rho of a joint that holds rho in the scene's geometry.
@@ -402,8 +421,23 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     }
   }
 
+  void find_mean_bend() {
+    const auto mean = [this](const Kappas& bends) {
+      Real sum = 0;
+      for (int j = 0; j < this->joints; ++j) sum += bends[j];
+      return this->joints > 0 ? sum / static_cast<Real>(this->joints) : Real(0);
+    };
+    const auto& rows = lean().bends.rows;
+    for (int k = 0; k < this->loads; ++k) mean_bend_.load[k] = mean(rows.load[k]);
+    for (int k = 0; k < this->segments; ++k) mean_bend_.elongation[k] = mean(rows.elongation[k]);
+  }
+
   const Source* source_ = nullptr;
   LevelWeights<Real> weights_;  // at the anchor
+  struct {
+    FixedArray<Real, Cap::loads> load;
+    Tensions elongation;
+  } mean_bend_;  // of a unit of each
 };
 
 }  // namespace taut

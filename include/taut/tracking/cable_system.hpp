@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "taut/scene/sliding_spans.hpp"
 #include "taut/status.hpp"
@@ -52,6 +53,13 @@ struct CableSystem {
   // Made from the state.
   Map map;
   Derivatives derivatives;
+  struct Nothing {};
+  struct Bending {
+    Real base = 0;  ///< where the map was made
+    Inputs by;      ///< of a unit of every input
+  };
+  /// Second-order theory: LevelModel::bending() along the map.
+  std::conditional_t<Model::has_level, Bending, Nothing> bending;
   Tensions total;          ///< tensions from all slips, made by the last test of forces [N]
   Tensions force;          ///< where the last event, or the last call with events, ended [N]
   Real push = 0;           ///< largest change of force that the path would make with every joint stuck [N]
@@ -222,6 +230,32 @@ struct CableSystem {
     Inputs x;
     values(state.now, x);
     map.tensions(x, force);
+  }
+
+  // Bend, Eq. (44).
+
+  /// After the map was made.
+  void find_bending() {
+    if constexpr (Model::has_level) {
+      bending.base = model->bending(state.now, elongations_by(slip_state()));
+      for (int k = 0; k < map.inputs(); ++k) {
+        const Input& input = map.input(k);
+        FixedArray<Real, Cap::loads> factor;
+        factor.fill(Real(0));
+        if (input.kind == Input::Kind::load) factor[input.index] = 1;
+        SlipState moving{};
+        for (int i = 0; i < map.active(); ++i) moving.of(map.variable(i)) = map.column_value(k, i);
+        if (input.kind == Input::Kind::extension)
+          moving.extension[input.index / 2][static_cast<std::size_t>(input.index % 2)] = 1;
+        bending.by[k] = model->bending_by(factor, elongations_by(moving));
+      }
+    }
+  }
+  template <class Number, class Values, class Anchor>
+  Number bending_at(const Values& x, const Anchor& anchor) const {
+    auto sum = static_cast<Number>(bending.base);
+    for (int k = 0; k < map.inputs(); ++k) sum += (x[k] - anchor[k]) * static_cast<Number>(bending.by[k]);
+    return sum;
   }
 
   // Tensions, Eqs. (6) and (8).

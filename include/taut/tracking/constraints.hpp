@@ -80,6 +80,7 @@ class Constraints {
     if (!has_total) cables_.total = cables_.totals();
     map_.make(laws_, cables_.total, values, x, [&](const auto& settle) { differentiate(settle); });
     state_.has_map = true;
+    cables_.find_bending();
     state_.built = state_.now;
   }
 

@@ -13,7 +13,7 @@ struct Ending {
   Real falling = 0;                    ///< rate of what reached zero
   Real step = 1;                       ///< where, as a part of what was left of the path
   bool has_total = false;              ///< the forces there were tested: their totals are known
-  bool ends_level = false;             ///< second-order theory: the level has changed by a step
+  bool ends_level = false;             ///< second-order theory: level or bend have changed by a step
 };
 
 /// Looks along the present piece, Eq. (15); changes nothing but derivatives.
@@ -73,7 +73,7 @@ class EventSearch {
       if (map_.variable(i).kind == SlipVariable::Kind::slack_length)
         shorten(map_.stiffness(i) * map_.value(i, x), map_.stiffness(i) * map_.value_rate(i, dx), {},
                 map_.variable(i).index, i);
-    if constexpr (Cables::Model::has_level) shorten_to_level(rate, step, ending);
+    if constexpr (Cables::Model::has_level) shorten_to_level(dx, rate, step, ending);
     return step;
   }
 
@@ -158,8 +158,8 @@ class EventSearch {
   }
 
  private:
-  /// A level holds while the sum of all tensions is between its limits.
-  void shorten_to_level(const Tensions& rate, Real& step, Ending& ending) const {
+  /// A level holds while the sum of all tensions, and the bend of the cable, are between its limits.
+  void shorten_to_level(const Inputs& dx, const Tensions& rate, Real& step, Ending& ending) const {
     Real sum = 0, growth = 0;
     for (int i = 0; i < model_.segments; ++i) {
       sum += cables_.force[i];
@@ -174,6 +174,13 @@ class EventSearch {
     };
     until(model_.most_sum - sum, growth);
     until(sum - model_.least_sum, -growth);
+    Inputs x;
+    cables_.values(state_.now, x);
+    const Real bent = cables_.template bending_at<Real>(x, map_.anchor());
+    Real bending = 0;
+    for (int k = 0; k < map_.inputs(); ++k) bending += dx[k] * cables_.bending.by[k];
+    until(model_.most_bending - bent, bending);
+    until(model_.most_bending + bent, -bending);
   }
 
   /// Of the largest force: what may be lost where a cable moves much further than it stretches.
