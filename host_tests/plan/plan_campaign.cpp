@@ -175,12 +175,12 @@ double error_with_mu(const Site& site, const std::vector<PlanJack>& jacks,
 }
 
 // As `taut watch` plans anew: mu becomes known when half of the first pull is done.
-double error_planned_anew(const Site& site, const Plan& plan, double factor) {
+double error_planned_anew(const Site& site, const Plan& plan, double half_way, double factor) {
   std::vector<double> mu, known(site.scene.cables[0].joints(), 0);
   for (const double each : site.scene.cables[0].mu) mu.push_back(factor * each);
   PlanPast past;
   PlanStage half = plan.stages[0];
-  for (double& force : half.force) force /= 2;
+  for (double& force : half.force) force = half_way;
   // The first row has the loads.
   past.moves = {{{std::vector<double>(half.force.size(), 0), half.locked}, site.goal.factor},
                 {half, site.goal.factor}};
@@ -191,11 +191,11 @@ double error_planned_anew(const Site& site, const Plan& plan, double factor) {
 }
 
 // The same by the planner of the core, on the device's way: from where the jack stands.
-CoreMoves core_planned_anew(const Site& site, const Plan& plan, double& took) {
+CoreMoves core_planned_anew(const Site& site, double half_way, double& took) {
   const auto jack = make_core_jack(site.scene);
   CoreMoves none;
   none.error = 1;
-  if (!jack->go(site.goal.factor, 0) || !jack->go(site.goal.factor, plan.stages[0].force[0] / 2)) return none;
+  if (!jack->go(site.goal.factor, 0) || !jack->go(site.goal.factor, half_way)) return none;
   const auto begin = std::chrono::steady_clock::now();
   const CoreMoves found = jack->plan(site.goal, {0, 40000, 40000});
   took = seconds_since(begin);
@@ -270,17 +270,21 @@ bool compare_one(const Options& options, Kind& kind, std::uint64_t i) {
     of_plan.add(error_with_mu(site, plan.jacks, plan.stages, factor));
     Site other = site;
     for (double& mu : other.scene.cables[0].mu) mu *= factor;
-    const double from_rest = find_plan(other.scene, other.goal).outcome.error;
-    const double again = error_planned_anew(site, plan, factor);
+    const Plan rest = find_plan(other.scene, other.goal);
+    const double from_rest = rest.outcome.error;
+    // Beyond the farthest pull of the best plan there is no way back to it.
+    double farthest = 0;
+    for (const PlanStage& stage : rest.stages) farthest = std::max(farthest, stage.force[0]);
+    const double half_way = std::min(plan.stages[0].force[0] / 2, farthest);
+    const double again = error_planned_anew(site, plan, half_way, factor);
     of_again.add(again);
     double core_took = 0;
-    const CoreMoves core = core_planned_anew(other, plan, core_took);
+    const CoreMoves core = core_planned_anew(other, half_way, core_took);
     of_core.add(core.error);
     kind.core_time.add(10 * core_took);
     kind.core_events = std::max(kind.core_events, core.events);
     kind.core_excess = std::max(kind.core_excess, core.error - again);
     if (core.error > again + 5e-4) fail("planned anew in the core", core.error, again);
-    // Half a pull has taken nothing away.
     if (again > from_rest + worth_a_change + 1e-9) fail("planned anew on the way", again, from_rest);
   };
   other_mu(0.7, kind.straight_low, kind.rule_low, kind.plan_low, kind.again_low, kind.core_low);

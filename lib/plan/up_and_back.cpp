@@ -20,12 +20,19 @@ double mix(double from, double to, double part) { return from + part * (to - fro
 
 // The way up, with a state kept at every event.
 class Pull {
+  static constexpr int most_rounds = 16;
+
  public:
   Pull(Jacking& jacking, const PlanGoal& goal, std::size_t jack, const std::string& start)
       : jacking_(jacking), goal_(goal), jack_(jack) {
     jacking_.go_to(start);
     PlanStage stage = jacking_.beginning();
-    const double first = stage.force[jack], most = std::max(first, jacking_.jacks()[jack].most_force);
+    const double first = stage.force[jack];
+    double most = std::max(first, jacking_.jacks()[jack].most_force);
+    if (!jacking_.loads_are_on()) {
+      most = farthest_with_loads(start, most);
+      jacking_.go_to(start);
+    }
     stage.force[jack] = most;
     leg_ = jacking_.follow(stage, &state_);
     for (const LegPoint& point : leg_.points) force_.push_back(mix(first, most, point.part));
@@ -69,6 +76,20 @@ class Pull {
   }
 
  private:
+  // Where loads come with the pull a farther one has less of them at every force, and may lift the roof off:
+  // the farthest that has an answer with all of them.
+  double farthest_with_loads(const std::string& start, double most) {
+    PlanStage stage = jacking_.beginning();
+    double reached = 0, beyond = most;
+    for (int round = 0; round < most_rounds; ++round) {
+      const double force = round == 0 ? most : reached > 0 ? (reached + beyond) / 2 : beyond / 2;
+      jacking_.go_to(start);
+      stage.force[jack_] = force;
+      (jacking_.jump(stage).whole ? reached : beyond) = force;
+      if (reached >= most) break;
+    }
+    return reached > 0 ? reached : most;
+  }
   // Up to the first limit; or to where all that matters has twice its target: what is lower after a release
   // has slid back then, and does not depend on the pull.
   void find_end() {
@@ -264,8 +285,10 @@ class Search {
     bool has_event = false;
     double nearest = 0;
     int events = 0;
-    for (const double force : pull_.forces()) {
-      if (!(force > from && force < to)) continue;
+    for (std::size_t k = 1; k < pull_.forces().size(); ++k) {
+      const double force = pull_.forces()[k];
+      // In second-order theory most events are steps of the level, where nothing begins to slide or to stick.
+      if (!(force > from && force < to) || pull_.point(k).state == pull_.point(k - 1).state) continue;
       ++events;
       if (!has_event || std::fabs(force - middle) < std::fabs(nearest - middle)) nearest = force;
       has_event = true;
