@@ -10,6 +10,7 @@
 
 #include "support/random.hpp"
 #include "taut/estimation/jack_load.hpp"
+#include "taut/estimation/jump_guard.hpp"
 
 namespace {
 
@@ -195,4 +196,30 @@ TEST_CASE("a refused reading that the next one does not pass by is an outlier, h
       REQUIRE(read.refused());
       CHECK(read.tells(then, 1.46));
     }
+}
+
+TEST_CASE("a plug that is tight again is believed though the load has gone farther than it ever did") {
+  // Eight rows of 1 kN each; then it shows 200 kN for six rows, while the load goes on by 10 kN a row.
+  taut::JumpGuard<double> guard;
+  guard.start(0);
+  double load = 0;
+  for (int i = 0; i < 10; ++i) CHECK_FALSE(guard.holds(load += 1e3, 1, 100));
+  for (int i = 0; i < 6; ++i) {
+    load += 1e4;
+    CHECK(guard.holds(2e5, 1, 100));
+    // As far as it is known to go.
+    CHECK(guard.reach() == doctest::Approx((i + 1) * 700));
+  }
+  CHECK_FALSE(guard.holds(load += 1e4, 1, 100));
+  CHECK_FALSE(guard.holds(load += 1e3, 1, 100));
+}
+
+TEST_CASE("readings that jump in every row are not believed where one is nearer than the one before") {
+  taut::JumpGuard<double> guard;
+  guard.start(0);
+  double load = 0;
+  for (int i = 0; i < 10; ++i) CHECK_FALSE(guard.holds(load += 1e3, 1, 100));
+  for (const double wrong : {2e5, 1e5, 3e5, 6e4, 2e5, 1e5}) CHECK(guard.holds(wrong, 1, 100));
+  // Where it can be after seven rows.
+  CHECK_FALSE(guard.holds(load + 5e3, 1, 100));
 }

@@ -186,8 +186,8 @@ struct JackLoad {
     Scalar reading = possible(given.force, most);
     // How far the jack pulled while the wedge held is not known.
     if (is_released) guard.start(reading);
-    if (cell.sd > 0 && std::isfinite(reading) && guard.holds(reading, since, filter.sd()))
-      reading = std::numeric_limits<Scalar>::quiet_NaN();
+    const bool is_held = cell.sd > 0 && std::isfinite(reading) && guard.holds(reading, since, filter.sd());
+    if (is_held) reading = std::numeric_limits<Scalar>::quiet_NaN();
     const int run_length = filter.run_length();
     new (&at) ConditionedLoad<Scalar>(filter.take(reading, since));
     if (filter.run_length() < run_length) {
@@ -196,6 +196,8 @@ struct JackLoad {
     }
     corners.times_noise = larger(corners.times_noise, follow_noise(given.force, cell));
     at.sd = larger(at.sd, lasts);
+    // Two of them.
+    if (is_held) at.sd = larger(at.sd, guard.reach() / 2);
     // In a row a load stage the jack may well have gone where it was read, or as far again.
     if (at.refused && since > JumpGuard<Scalar>::far_apart && std::isfinite(reading))
       at.sd = larger(at.sd, std::fabs(reading - at.load));
