@@ -98,7 +98,7 @@ TEST_CASE("what finds no room is counted") {
 TEST_CASE("started again, nothing is left of before") {
   Gauges gauges = started({with_free_zero(1), with_noise(1)});
   gauges.set_mark({0}, 7);
-  gauges.begin_row(100, 1);
+  gauges.begin_row(100, 100, 1);
   gauges.count({0});
   Numbering numbering;
   REQUIRE(start(gauges, {with_free_zero(2)}, numbering) == 0);
@@ -158,38 +158,41 @@ TEST_CASE("an instrument with a free zero lacks its mark until it is set, and af
   CHECK(gauges.mark({1}) == -12.5);
 }
 
-TEST_CASE("readings count once, and then where the jacks have gone a part of the largest load since") {
+TEST_CASE("readings count once, and then where the jacks are a part of the largest load away") {
   Gauges gauges = started({with_noise(1), with_noise(1)});
   const double largest = 25600, part = largest / 256;
   CHECK(gauges.is_due({0}));
-  gauges.begin_row(largest, 1);
+  gauges.begin_row(largest, largest, 1);
   CHECK(gauges.is_due({0}));
   gauges.count({0});
   CHECK_FALSE(gauges.is_due({0}));
   // The other one has not been read yet.
   CHECK(gauges.is_due({1}));
   gauges.count({1});
-  // Down and up counts as well as ahead; standing still does not.
+  // Down counts as well as ahead; down and up again is nowhere else.
   double load = largest;
-  for (const double change : {0.0, -0.25, 0.25, -0.25}) {
+  for (const double change : {0.0, -0.5, 0.5, -0.75}) {
     load += change * part;
-    gauges.begin_row(load, 1);
+    gauges.begin_row(load, load, 1);
     CHECK_FALSE(gauges.is_due({0}));
   }
+  // The model may be driven on as it likes.
+  gauges.begin_row(load - 5 * part, load, 1);
+  CHECK_FALSE(gauges.is_due({0}));
   load -= 0.25 * part;
-  gauges.begin_row(load, 1);
+  gauges.begin_row(load, load, 1);
   CHECK(gauges.is_due({0}));
   gauges.count({0});
   CHECK_FALSE(gauges.is_due({0}));
   CHECK(gauges.is_due({1}));
-  gauges.begin_row(load - 0.75 * part, 1);
+  gauges.begin_row(load - 0.75 * part, load - 0.75 * part, 1);
   CHECK_FALSE(gauges.is_due({0}));
   // The largest load counts, not the present one: far below it the way is as long.
-  gauges.begin_row(0, 1);
+  gauges.begin_row(0, 0, 1);
   gauges.count({0});
-  gauges.begin_row(0.99 * part, 1);
+  gauges.begin_row(0.99 * part, 0.99 * part, 1);
   CHECK_FALSE(gauges.is_due({0}));
-  gauges.begin_row(1.01 * part, 1);
+  gauges.begin_row(1.01 * part, 1.01 * part, 1);
   CHECK(gauges.is_due({0}));
   // Read from another mark, the first reading counts again.
   gauges.count({0});
@@ -200,10 +203,10 @@ TEST_CASE("readings count once, and then where the jacks have gone a part of the
 
 TEST_CASE("after a saved state all goes on as it would have") {
   Gauges gauges = started({with_noise(1), with_noise(1)});
-  gauges.begin_row(256, 1);
+  gauges.begin_row(256, 256, 1);
   gauges.count({0});
   const auto saved = gauges.save();
-  gauges.begin_row(300, 1);
+  gauges.begin_row(300, 300, 1);
   CHECK(gauges.is_due({0}));
   gauges.restore(saved);
   CHECK_FALSE(gauges.is_due({0}));
@@ -220,7 +223,7 @@ TEST_CASE(
     double load = 0;
     const auto row = [&](double change, bool slides) {
       load += change;
-      gauges.begin_row(load, 1);
+      gauges.begin_row(load, load, 1);
       gauges.follow_sliding(0, slides);
       gauges.follow_sliding(1, false);
     };
@@ -261,7 +264,7 @@ TEST_CASE("every instrument has a noise of its own, of the readings handed in an
   Gauges gauges = started({with_noise(1), with_noise(1), with_noise(1)});
   support::Random random(seed);
   for (int i = 0; i < 2000; ++i) {
-    gauges.begin_row(0, 0.5);
+    gauges.begin_row(0, 0, 0.5);
     gauges.follow_noise({0}, support::gaussian(random));
     // In every other row, and the last one where rows are not even.
     if (i % 2 == 0) gauges.follow_noise({1}, 4 * support::gaussian(random));

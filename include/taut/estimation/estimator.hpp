@@ -153,7 +153,8 @@ class Estimator {
   void take_stroke(int cable, std::size_t end, Scalar reading, Scalar sd);
 
   /// The same of instruments with unknowns of their own: numbers in the list that start() was given. Which
-  /// readings count is told by Gauges, those while cables surely slide; all may be handed in. What
+  /// readings count is told by Gauges, of all but strokes those while cables surely slide; all may be handed
+  /// in. What
   /// contradicts raises Alarm::Kind::strut, `elongation`, or `segment` for the measured force of a segment
   /// [N].
   void take_strut(const typename CondensedType::Struts& rows, int strut, Scalar reading, Gauge gauge);
@@ -317,7 +318,7 @@ void Estimator<CondensedType, Parameters, Further>::take_stroke(int cable, std::
   // A mark is made once slack has been taken out.
   if (parts_.gauges.has(gauge) && parts_.gauges.lacks_mark(gauge) && !parts_.is_bedded(k)) return;
   take_gauge(parts_, foretell_stroke(parts_, k), reading, gauge,
-             Parts::alarm_at(Alarm::Kind::elongation, parts_.jacks.end(k)));
+             Parts::alarm_at(Alarm::Kind::elongation, parts_.jacks.end(k)), false);
 }
 
 template <class CondensedType, int Parameters, int Further>

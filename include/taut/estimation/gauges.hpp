@@ -39,7 +39,9 @@ struct StrokeGauge : LoadCell<Scalar> {
 ///     reading = (1 + gain) y + zero + noise,
 /// with gain and zero unknown constants. A LoadCell says how well they are known, for a stroke in metres; its
 /// hysteresis has no meaning. The errors of a model do not average out from row to row: a reading counts only
-/// if the jacks have moved by `part` of the largest load since the last one that did.
+/// if the best estimate of the jacks' loads is elsewhere, by `part` of the largest, than at the last one that
+/// did. Not if the model has been driven on: that follows the noise of a load cell, and those readings are a
+/// choice of rows that read high on the way up, and low on the way down.
 template <class Scalar, int Capacity, int Cables>
 class Gauges {
  public:
@@ -53,11 +55,12 @@ class Gauges {
       NoiseLevel<Scalar> noise;
       Scalar since = 0;  ///< time since its last reading [s]
       Scalar mark = 0;   ///< what is taken off a reading
-      Scalar taken = 0;  ///< `way` of the last reading that counted
+      Scalar taken = 0;  ///< `best` at the last reading that counted [N]
       bool is_marked = false, is_taken = false;
     };
     Scalar way = 0, largest = 0;  ///< that the sum of all loads has gone, and the largest such sum [N]
     Scalar last = 0;              ///< the present sum [N]
+    Scalar best = 0;              ///< that of the best estimates of the loads [N]
     FixedArray<One, Capacity> one;
     /// `way` where a cable last began and ceased to slide throughout.
     FixedArray<Scalar, Cables> began, ceased;
@@ -106,8 +109,10 @@ class Gauges {
     state_.one[gauge.number].is_marked = true;
   }
 
-  /// A row `dt` [s] after the one before, with this sum of all jacks' loads [N].
-  void begin_row(Scalar load, Scalar dt) {
+  /// A row `dt` [s] after the one before: the sum of the loads that the model was driven to, and that of
+  /// their best estimates [N].
+  void begin_row(Scalar load, Scalar best, Scalar dt) {
+    state_.best = best;
     state_.way += std::fabs(load - state_.last);
     state_.largest = larger(state_.largest, load);
     state_.last = load;
@@ -143,10 +148,10 @@ class Gauges {
   /// Whether the next reading counts.
   bool is_due(Gauge gauge) const {
     const auto& one = state_.one[gauge.number];
-    return !one.is_taken || state_.way - one.taken >= part * state_.largest;
+    return !one.is_taken || std::fabs(state_.best - one.taken) >= part * state_.largest;
   }
   void count(Gauge gauge) {
-    state_.one[gauge.number].taken = state_.way;
+    state_.one[gauge.number].taken = state_.best;
     state_.one[gauge.number].is_taken = true;
   }
   /// Completes what is predicted of y by the unknowns of the instrument.

@@ -52,10 +52,13 @@ void take_measurement(Parts& parts, const Predict& predict, typename Parts::Scal
 /// Gauges learn from a row how far the jacks have gone, and which cables slide. Cost: a pass over the joints.
 template <class Parts>
 void follow_gauges(Parts& parts, const Corners<typename Parts::Scalar>& corners, typename Parts::Scalar dt) {
-  typename Parts::Scalar load = 0;
-  for (int k = 0; k < parts.jacks.size(); ++k) load += parts.jacks[k].driven.force;
+  typename Parts::Scalar load = 0, best = 0;
+  for (int k = 0; k < parts.jacks.size(); ++k) {
+    load += parts.jacks[k].driven.force;
+    best += parts.jacks[k].locked ? parts.jacks[k].driven.force : parts.jacks[k].at.load;
+  }
   if (corners.locks) parts.gauges.forget_marks();
-  parts.gauges.begin_row(load, dt);
+  parts.gauges.begin_row(load, best, dt);
   for (int c = 0; c < parts.model().cables.size(); ++c)
     parts.gauges.follow_sliding(c, parts.filter.slides_throughout(parts.tracker, c));
 }
@@ -71,10 +74,12 @@ bool is_sure(const Parts& parts, int cable, typename Parts::Scalar sd) {
   return true;
 }
 
-/// A reading of an instrument with unknowns of its own. Cost: that of take_measurement().
+/// A reading of an instrument with unknowns of its own. `needs_sliding`: it counts only while cables surely
+/// slide, for what lies behind joints that stick has no derivative to go by. The extension of a jack has one
+/// all the way back from a turn, as joint after joint begins to slide. Cost: that of take_measurement().
 template <class Parts, class Predict>
 void take_gauge(Parts& parts, const Predict& predict, typename Parts::Scalar reading, Gauge gauge,
-                const Alarm& contradiction) {
+                const Alarm& contradiction, bool needs_sliding = true) {
   using Scalar = typename Parts::Scalar;
   auto& gauges = parts.gauges;
   auto& filter = parts.filter;
@@ -88,7 +93,7 @@ void take_gauge(Parts& parts, const Predict& predict, typename Parts::Scalar rea
   const Scalar sd = gauges.sd(gauge);
   wait_for_none(parts);
   predict_reading(filter.prediction());
-  if (!is_sure(parts, contradiction.cable, sd)) return look_ahead(parts);
+  if (needs_sliding && !is_sure(parts, contradiction.cable, sd)) return look_ahead(parts);
   const auto jacks = parts.jacks.readings(filter.prior());
   if (gauges.lacks_mark(gauge)) {
     const Expected<Scalar> expected = filter.belief().expect(filter.prediction(), jacks, sd);
