@@ -174,6 +174,14 @@ void add_scene(Crc32& crc, const taut::SecondOrder<float, Capacity>& model) {
   add_rows(model.lean.aside);
   add(model.lean.by_own_lean);
   add(model.lean.own_aside);
+  if constexpr (Capacity::struts > 0) {
+    add_leaning(model.lean.thrust);
+    add(model.lean.low_thrust);
+    add(model.lean.thrust_rise);
+    add(model.lean.thrust_bow);
+    if constexpr (Capacity::joints > 0) add(model.lean.bends_by_push);
+    add(model.lean.aside_by_push);
+  }
   add(model.target_force);
   add(model.curve);
 }

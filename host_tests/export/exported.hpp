@@ -129,11 +129,18 @@ void check_bits(const std::string& file, const SecondOrder<Scalar, Cap>& found,
   CHECK(same_bits(found.lean.kappa_by_bend, expected.lean.kappa_by_bend));
   CHECK(same_bits(found.lean.by_own_lean, expected.lean.by_own_lean));
   CHECK(same_bits(found.lean.own_aside, expected.lean.own_aside));
+  check_leaning(found.lean.thrust, expected.lean.thrust);
+  CHECK(same_bits(found.lean.low_thrust, expected.lean.low_thrust));
+  CHECK(same_bits(found.lean.thrust_rise, expected.lean.thrust_rise));
+  CHECK(same_bits(found.lean.thrust_bow, expected.lean.thrust_bow));
+  CHECK(same_bits(found.lean.bends_by_push, expected.lean.bends_by_push));
+  CHECK(same_bits(found.lean.aside_by_push, expected.lean.aside_by_push));
   REQUIRE(rows != nullptr);
   check_leaning(rows->low, expected_rows.low);
   check_leaning(rows->rise, expected_rows.rise);
   check_leaning(rows->bow, expected_rows.bow);
   CHECK(same_bits(rows->curve, expected_rows.curve));
+  CHECK(same_bits(rows->by_push, expected_rows.by_push));
   CHECK(rows->count == expected_rows.count);
 }
 

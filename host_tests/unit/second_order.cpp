@@ -14,6 +14,9 @@ struct Cap : taut::Capacity {
   static constexpr int nodes = 4, struts = 2, segments = 3, joints = 2, loads = 1, forces = 1, normals = 1;
   static constexpr int displacements = 2;
 };
+struct TwoStruts : taut::Capacity {
+  static constexpr int nodes = 6, struts = 2, segments = 3, joints = 2, loads = 1, forces = 2, normals = 1;
+};
 using Scene = taut::Scene<double, 2, Cap>;
 using Model = taut::SecondOrder<double, Cap>;
 using Tracker = taut::Tracker<Model>;
@@ -43,6 +46,13 @@ Scene pinned_strut(double mu, bool mirrored = false) {
     scene.add_cable(cable_with(mu, true), {r, p, l});
   else
     scene.add_cable(cable_with(mu), {l, p, r});
+  return scene;
+}
+
+// The same with 100 kN hanging at the foot: it takes thrust out of the strut and leaves tensions alone.
+Scene loaded_pinned_strut(double mu) {
+  Scene scene = pinned_strut(mu);
+  scene.add_force(scene.add_load(), joint_node, {0, -1e5});
   return scene;
 }
 
@@ -137,6 +147,67 @@ TEST_CASE("the foot of a pinned strut goes along its arc, and friction is used b
     CHECK(near(tracker->friction_used(0), std::tan(lambda) / mu, 2e-3));
     CHECK(std::fabs(tracker->bend_change(0) - (std::tan((to_l + to_r) / 2) / 0.05 - 1)) <= 1e-3);
   }
+}
+
+TEST_CASE("a strut whose thrust does not go with the tensions leans as its moment about the head says") {
+  const auto scene = loaded_pinned_strut(0.1);
+  const auto condensed = std::make_unique<Condensed>(scene, pulled(2e6));
+  auto tracker = std::make_unique<Tracker>();
+  REQUIRE(tracker->start(condensed->model).status.ok());
+  const double F = 1.6e6;
+  for (const double part : {0.0, 0.3, 1.0, 0.5}) {
+    REQUIRE(tracker->advance(pulled(F, part)).status.ok());
+    const double load = part * 1e5;
+    // Moment about the head of all forces at the foot, the joint stuck: T1 = EA (l1 - L1) / L1.
+    double T1 = 0, thrust = 0;
+    const auto moment = [&](double lean) {
+      const double x = 2 * std::sin(lean), y = 2 - 2 * std::cos(lean);
+      const double l1 = std::hypot(10 + x, 0.5 - y), l2 = std::hypot(10 - x, 0.5 - y);
+      const double L1 = std::hypot(10, 0.5);
+      T1 = EA * (l1 - L1) / L1;
+      const double across = -T1 * (10 + x) / l1 + F * (10 - x) / l2;
+      const double up = (T1 / l1 + F / l2) * (0.5 - y) - load;
+      thrust = -(up * std::cos(lean) - across * std::sin(lean));
+      return across * std::cos(lean) + up * std::sin(lean);
+    };
+    double least = 0, most = 0.05;
+    for (int halving = 0; halving < 60; ++halving) {
+      const double middle = (least + most) / 2;
+      (moment(middle) > 0 ? least : most) = middle;
+    }
+    const Response response = condensed->at(*tracker);
+    INFO("load ", load);
+    // What differs is what the strut's thrust does.
+    CHECK(near(response.tension[0] - F, T1 - F, 0.01));
+    CHECK(near(response.strut[0], thrust, 0.002));
+    CHECK(near(condensed->displaced(*tracker)[0], 2 * std::sin(least), 0.001));
+  }
+}
+
+TEST_CASE("what pushes of two struts do to each other's lean and thrust is reciprocal") {
+  taut::Scene<double, 2, TwoStruts> roof;
+  const int l = roof.add_node({0, 0}, taut::held_xy), p = roof.add_node({4, -1}),
+            q = roof.add_node({9, -1.5});
+  const int r = roof.add_node({14, 0}, taut::held_xy);
+  const int t = roof.add_node({4, 1}, taut::held_xy), u = roof.add_node({8.5, 1.2}, taut::held_xy);
+  roof.add_strut(p, t, 2.1e11, 1e-3);
+  roof.add_strut(q, u, 2.1e11, 2e-3);
+  roof.add_cable(cable_with(0.1), {l, p, q, r});
+  taut::Sample<double, TwoStruts> target;
+  target.jack[0][1].force = 1e6;
+  using Roof = taut::SecondOrder<double, TwoStruts>;
+  const auto model = std::make_unique<Roof>();
+  const auto struts = std::make_unique<Roof::Struts>();
+  const auto condensation =
+      std::make_unique<taut::SecondOrderCondensation<double, taut::Scene<double, 2, TwoStruts>>>();
+  REQUIRE(condensation->run(roof, target, *model, *struts).ok());
+  const auto& lean = model->lean;
+  const int first = TwoStruts::segments;
+  // Maxwell: a unit push of one leans the other by what a unit push of that leans the one.
+  CHECK(near(lean.aside_by_push[0][first + 1], lean.aside_by_push[1][first], 1e-9));
+  CHECK(std::fabs(lean.aside_by_push[0][first + 1]) > 1e-3 * std::fabs(lean.aside_by_push[0][first]));
+  // Betti: a push changes the thrust of its own strut by what lengthening that takes of its lean.
+  for (int b = 0; b < 2; ++b) CHECK(near(struts->by_push[b][b], lean.own_aside[first + b], 1e-9));
 }
 
 TEST_CASE("displacements of a joint that slides, and how far its cable has straightened") {

@@ -219,6 +219,7 @@ class Constants {
     return "constexpr ::taut::LevelStruts<" + name() + ", Capacity> make_struts(" + name() + ") {\n" +
            "  return {/*low*/ " + leaning({a.struts, a.level->low_strut_by_bar}) + ",\n" +
            field("rise", leaning(a.level->strut_rise)) + field("bow", leaning(a.level->strut_bow)) +
+           field("by_push", rows(by_push(a.level->strut_by_push, *a.level))) +
            field("curve", numbers(a.level->strut_curve, 10)) + "          /*count*/ " +
            std::to_string(a.level->struts) + "};\n}\n";
   }
@@ -265,6 +266,11 @@ class Constants {
            field("kappa_by_bend", numbers(level.kappa_by_bend, 10)) + field("aside", table(asides(level))) +
            field("by_own_lean", numbers(placed(level.by_own_lean, level, 1, 1), 10)) +
            field("own_aside", numbers(placed(level.own_aside, level, level.normals, capacity_.normals), 10)) +
+           field("thrust", leaning(level.thrust)) + field("low_thrust", numbers(level.low_thrust, 10)) +
+           field("thrust_rise", numbers(level.thrust_rise, 10)) +
+           field("thrust_bow", numbers(level.thrust_bow, 10)) +
+           field("bends_by_push", rows(by_push(level.bends_by_push, level))) +
+           field("aside_by_push", rows(by_push(asides(level.aside_by_push, level), level))) +
            "          /*struts*/ " + std::to_string(level.struts) + ", /*beams*/ " +
            std::to_string(level.beams) + "};\n}\n";
   }
@@ -295,11 +301,21 @@ class Constants {
     return all;
   }
   RowsArrays asides(const LevelArrays& level) const {
-    const auto at = [&](const Row& row) { return placed(row, level, level.normals, capacity_.normals); };
-    RowsArrays all;
-    for (const Row& row : level.aside.load) all.load.push_back(at(row));
-    all.prestrain = at(level.aside.prestrain);
-    for (const Row& row : level.aside.elongation) all.elongation.push_back(at(row));
+    return {asides(level.aside.load, level), asides({level.aside.prestrain}, level).front(),
+            asides(level.aside.elongation, level)};
+  }
+  std::vector<Row> asides(const std::vector<Row>& given, const LevelArrays& level) const {
+    std::vector<Row> all;
+    for (const Row& row : given) all.push_back(placed(row, level, level.normals, capacity_.normals));
+    return all;
+  }
+  std::vector<Row> by_push(const std::vector<Row>& of, const LevelArrays& level) const {
+    std::vector<Row> all;
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      const std::size_t normals = static_cast<std::size_t>(level.normals), strut = i / normals;
+      all.resize(strut * static_cast<std::size_t>(capacity_.normals) + i % normals);
+      all.push_back(of[i]);
+    }
     return all;
   }
   std::vector<Row> by_bar(const std::vector<Row>& of) const {

@@ -65,7 +65,10 @@ bool are_possible(const LevelArrays& arrays) {
          are_possible(arrays.low_strut_by_bar) && are_possible(arrays.strut_rise) &&
          are_possible(arrays.strut_bow) && are_possible(arrays.strut_curve) && are_possible(arrays.bends) &&
          are_possible(arrays.aside) && are_possible(arrays.kappa_by_bend) &&
-         are_possible(arrays.by_own_lean) && are_possible(arrays.own_aside) &&
+         are_possible(arrays.by_own_lean) && are_possible(arrays.own_aside) && are_possible(arrays.thrust) &&
+         are_possible(arrays.low_thrust) && are_possible(arrays.thrust_rise) &&
+         are_possible(arrays.thrust_bow) && are_possible(arrays.strut_by_push) &&
+         are_possible(arrays.bends_by_push) && are_possible(arrays.aside_by_push) &&
          is_possible(arrays.target_force) && is_possible(arrays.curve);
 }
 bool are_possible(const CondensedArrays& arrays) {
@@ -118,6 +121,15 @@ std::vector<Row> by_bar(const Table& table, const LevelArrays& level, int length
   return rows;
 }
 
+// Those of the pushes of struts.
+template <class Cap, class Table>
+std::vector<Row> by_push(const Table& table, const LevelArrays& level, int length) {
+  std::vector<Row> rows;
+  for (int i = 0; i < level.struts; ++i)
+    for (int n = 0; n < level.normals; ++n) rows.push_back(row_of(table[i * Cap::normals + n], length));
+  return rows;
+}
+
 template <class Cap, class Rows, class Model>
 LeaningArrays leaning(const Rows& rows, const Model& condensed, const LevelArrays& level, int count) {
   return {copied(rows.rows, condensed, count), by_bar<Cap>(rows.by_bar, level, count)};
@@ -140,6 +152,7 @@ LevelArrays level_arrays(const SecondOrder<Scalar, Cap>& condensed, const LevelS
   arrays.strut_rise = leaning<Cap>(struts.rise, low, arrays, arrays.struts);
   arrays.strut_bow = leaning<Cap>(struts.bow, low, arrays, arrays.struts);
   arrays.strut_curve = row_of(struts.curve, arrays.struts);
+  arrays.strut_by_push = by_push<Cap>(struts.by_push, arrays, arrays.struts);
   arrays.bends = leaning<Cap>(condensed.lean.bends, low, arrays, low.joints);
   arrays.by_own_lean =
       bars_of<Cap>(row_of(condensed.lean.by_own_lean, max_bars<Cap>), low.segments, arrays, 1, 1);
@@ -152,6 +165,13 @@ LevelArrays level_arrays(const SecondOrder<Scalar, Cap>& condensed, const LevelS
   for (const Row& row : aside.load) arrays.aside.load.push_back(kept(row));
   arrays.aside.prestrain = kept(aside.prestrain);
   for (const Row& row : aside.elongation) arrays.aside.elongation.push_back(kept(row));
+  arrays.thrust = leaning<Cap>(condensed.lean.thrust, low, arrays, arrays.struts);
+  arrays.low_thrust = row_of(condensed.lean.low_thrust, arrays.struts);
+  arrays.thrust_rise = row_of(condensed.lean.thrust_rise, arrays.struts);
+  arrays.thrust_bow = row_of(condensed.lean.thrust_bow, arrays.struts);
+  arrays.bends_by_push = by_push<Cap>(condensed.lean.bends_by_push, arrays, low.joints);
+  for (const Row& row : by_push<Cap>(condensed.lean.aside_by_push, arrays, max_bars<Cap> * Cap::normals))
+    arrays.aside_by_push.push_back(kept(row));
   return arrays;
 }
 

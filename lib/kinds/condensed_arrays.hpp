@@ -40,7 +40,8 @@ struct LinearArrays {
 };
 
 /// What SecondOrder and LevelStruts hold beside the low level. Bars are segments, struts and beams of the
-/// scene, one after the other; in `aside` and `own_aside` each has Capacity::normals numbers.
+/// scene, one after the other; in `aside` and `own_aside` each has `normals` numbers. Tables by push have as
+/// many rows for every strut.
 struct LevelArrays {
   using Row = std::vector<double>;
 
@@ -49,9 +50,12 @@ struct LevelArrays {
   std::vector<Row> low_strut_by_bar;
   LeaningArrays strut_rise, strut_bow;
   Row strut_curve;
-  LeaningArrays bends;
+  std::vector<Row> strut_by_push;
+  LeaningArrays bends, thrust;
   RowsArrays aside;
   Row kappa_by_bend, by_own_lean, own_aside;
+  Row low_thrust, thrust_rise, thrust_bow;
+  std::vector<Row> bends_by_push, aside_by_push;
   int struts = 0, beams = 0, normals = 0;
   double target_force = 0, curve = 0;
 };

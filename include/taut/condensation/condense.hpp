@@ -19,12 +19,15 @@ struct CondensationRequest {
   CondensedBeams<Scalar, Cap>* beams = nullptr;
   const FixedList<NodeAxis, Cap::displacements>* displaced = nullptr;  ///< what `displacements` are of
   CondensedRows<Real, max_displacements<Cap>, Cap>* displacements = nullptr;
-  /// What displacements change, Eqs. (44) and (45).
+  /// What displacements change, Eqs. (44) to (46).
   CondensedLean<Scalar, Cap>* lean = nullptr;
   /// What tensions, struts and displacements have of a unit elongation of every strut and beam.
   RowsByBar<Real, Cap::segments, Cap>* tension_by_bar = nullptr;
   RowsByBar<Real, Cap::struts, Cap>* strut_by_bar = nullptr;
   RowsByBar<Real, max_displacements<Cap>, Cap>* displacement_by_bar = nullptr;
+  /// What struts and displacements have of a unit push of every strut; asked for with `lean`.
+  RowsByPush<Real, Cap::struts, Cap>* strut_by_push = nullptr;
+  RowsByPush<Real, max_displacements<Cap>, Cap>* displacement_by_push = nullptr;
 };
 
 /// Condenses scenes of one type; the object holds the structure's factor and can be thrown away afterwards.
@@ -176,13 +179,9 @@ class Condensation {
         for (int i = 0; asked_.beams != nullptr && i < scene_->beams.size(); ++i)
           (*row(*asked_.beams))[i] = structure_.beam_force(i);
       if (asked_.lean == nullptr) return;
-      for (int c = 0; c < scene_->cables.size(); ++c)
-        for (int j = 0; j < scene_->cables[c].joints(); ++j)
-          (*row(asked_.lean->bends.rows))[scene_->cables[c].first_joint + j] = bend_change(c, j);
-      for_each_bar([&](int bar, const auto& nodes, const auto& line) {
-        for (int n = 0; n < Cap::normals; ++n)
-          (*row(asked_.lean->aside))[bar * Cap::normals + n] = aside(nodes, line, n);
-      });
+      for (int i = 0; i < scene_->struts.size(); ++i)
+        (*row(asked_.lean->thrust.rows))[i] = structure_.strut_force(i);
+      store_lean(*row(asked_.lean->bends.rows), *row(asked_.lean->aside));
     };
 
     const auto prestrained = [&](int i) { return elements.segments[i].initial / elements.segments[i].axial; };
@@ -210,8 +209,11 @@ class Condensation {
       for (int i = 0; i < condensed.segments; ++i) condensed.coupling.set(i, k, column[i]);
     }
     if constexpr (!std::is_same<Geometry, NoGeometry>::value)
-      if (asked_.tension_by_bar != nullptr) return lengthen_bars(condensed);
-    return Status::success();
+      if (asked_.tension_by_bar != nullptr) {
+        status = lengthen_bars(condensed);
+        if (status && asked_.lean != nullptr) status = push_struts();
+      }
+    return status;
   }
   /// What a unit elongation of every strut and beam does, and how friction follows the bend of the cable.
   Status lengthen_bars(const Condensed<Scalar, Cap>& condensed) {
@@ -239,6 +241,8 @@ class Condensation {
         (*asked_.tension_by_bar)[to][i] = structure_.tension(i, Real(0));
       for (int i = 0; asked_.strut_by_bar != nullptr && i < struts; ++i)
         (*asked_.strut_by_bar)[to][i] = structure_.strut_force(i, unit(i));
+      for (int i = 0; asked_.lean != nullptr && i < struts; ++i)
+        asked_.lean->thrust.by_bar[to][i] = structure_.strut_force(i, unit(i));
       for (int c = 0; asked_.lean != nullptr && c < scene_->cables.size(); ++c)
         for (int j = 0; j < scene_->cables[c].joints(); ++j)
           asked_.lean->bends.by_bar[to][scene_->cables[c].first_joint + j] = bend_change(c, j);
@@ -251,6 +255,39 @@ class Condensation {
         (*asked_.displacement_by_bar)[to][i] = displacement(i);
     }
     return Status::success();
+  }
+  /// What a unit push of every strut along each of its normals does.
+  Status push_struts() {
+    const auto none = [](int) { return Real(0); };
+    for (int b = 0; b < scene_->struts.size(); ++b)
+      for (int n = 0; n < dimension - 1; ++n) {
+        const auto& strut = structure_.elements().struts[b];
+        const auto across = unit_aside(strut.line, n);
+        // Against the side that it leans to, so that a push is energy by aside.
+        const auto pushed = [&](int node, int axis) {
+          return (node == strut.nodes[0] ? across[axis] : Real(0)) -
+                 (node == strut.nodes[1] ? across[axis] : Real(0));
+        };
+        const Status status = structure_.solve(pushed, none);
+        if (!status) return status;
+        const int to = b * Cap::normals + n;
+        for (int i = 0; asked_.strut_by_push != nullptr && i < scene_->struts.size(); ++i)
+          (*asked_.strut_by_push)[to][i] = structure_.strut_force(i);
+        for (int i = 0; asked_.displacement_by_push != nullptr && i < asked_.displaced->size(); ++i)
+          (*asked_.displacement_by_push)[to][i] = displacement(i);
+        store_lean(asked_.lean->bends_by_push[to], asked_.lean->aside_by_push[to]);
+      }
+    return Status::success();
+  }
+  /// How the cable bends and bars lean in the last solution.
+  void store_lean(FixedArray<Real, Cap::joints>& bends,
+                  FixedArray<Real, max_bars<Cap> * Cap::normals>& asides) const {
+    for (int c = 0; c < scene_->cables.size(); ++c)
+      for (int j = 0; j < scene_->cables[c].joints(); ++j)
+        bends[scene_->cables[c].first_joint + j] = bend_change(c, j);
+    for_each_bar([&](int bar, const auto& nodes, const auto& line) {
+      for (int n = 0; n < Cap::normals; ++n) asides[bar * Cap::normals + n] = aside(nodes, line, n);
+    });
   }
   /// Of a bar that was lengthened in the last solution.
   template <class Element>
@@ -283,6 +320,11 @@ class Condensation {
     for (int axis = 0; axis < dimension; ++axis)
       apart[axis] =
           structure_.node_displacement(nodes[1], axis) - structure_.node_displacement(nodes[0], axis);
+    return unit_aside(line, n).dot(apart);
+  }
+  /// The normal `n` of a bar by the root of twice its length.
+  static Eigen::Matrix<Real, dimension, 1> unit_aside(const Line<Real, dimension>& line,
+                                                      [[maybe_unused]] int n) {
     Eigen::Matrix<Real, dimension, 1> normal;
     if constexpr (dimension == 2) {
       normal << -line.direction[1], line.direction[0];
@@ -292,7 +334,7 @@ class Condensation {
       normal = line.direction.cross(Eigen::Matrix<Real, 3, 1>::Unit(smallest)).normalized();
       if (n == 1) normal = line.direction.cross(normal).eval();
     }
-    return normal.dot(apart) / std::sqrt(2 * line.length);
+    return normal / std::sqrt(2 * line.length);
   }
 
   /// Of the cable at a joint by the displacements of the last solution, to first order.

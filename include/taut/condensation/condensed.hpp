@@ -256,17 +256,28 @@ struct LeaningRows {
   CondensedRows<Real, Count, Cap> rows;
   RowsByBar<Real, Count, Cap> by_bar;
 };
+/// What bars that are lengthened by `q` [m] add to number `i` of them. Costs bars.
+template <class Real, int Count, class Cap, class Lean, class Stretches>
+Real stretched(const LeaningRows<Real, Count, Cap>& of, int i, const Lean& lean, int segments,
+               const Stretches& q) {
+  Real sum = 0;
+  lean.for_each_bar(segments, [&](int b) {
+    sum += q[b] * (b < Cap::segments ? of.rows.elongation[b][i] : of.by_bar[b - Cap::segments][i]);
+  });
+  return sum;
+}
 /// Number `i` of them alone, in a state of the LevelModel whose bars are lengthened by `q` [m]. Costs
 /// segments + bars.
 template <class Model, class Real, int Count, class Cap, class Loads, class Elongations, class Stretches>
 Real number_of(const LeaningRows<Real, Count, Cap>& of, int i, const Model& model, const Loads& drive,
                const Elongations& e, const Stretches& q) {
-  Real number = number_of(of.rows, i, model, drive, e);
-  model.lean().for_each_bar(model.segments, [&](int b) {
-    number += q[b] * (b < Cap::segments ? of.rows.elongation[b][i] : of.by_bar[b - Cap::segments][i]);
-  });
-  return number;
+  return number_of(of.rows, i, model, drive, e) + stretched(of, i, model.lean(), model.segments, q);
 }
+
+/// What `Count` numbers of the state change by with a unit push of every strut along each of its normals, as
+/// leaning does: Eq. (46).
+template <class Real, int Count, class Cap>
+using RowsByPush = FixedArray<FixedArray<Real, Count>, Cap::struts * Cap::normals>;
 
 /// What second-order theory needs to know of displacements.
 template <class Scalar, class Cap>
@@ -284,6 +295,13 @@ struct CondensedLean {
   FixedArray<Real, max_bars<Cap>> by_own_lean;
   /// What a unit elongation of a bar does to its own `aside` [m^-1/2].
   FixedArray<Real, max_bars<Cap> * Cap::normals> own_aside;
+  /// Forces of struts [N], tension positive, and what they are on the straight way to the target: at the
+  /// lowest level, and what Eq. (48) adds with k = 0.
+  LeaningRows<Real, Cap::struts, Cap> thrust;
+  FixedArray<Real, Cap::struts> low_thrust, thrust_rise, thrust_bow;
+  /// What the pushes of struts do to `bends` and `aside`.
+  RowsByPush<Real, Cap::joints, Cap> bends_by_push;
+  RowsByPush<Real, max_bars<Cap> * Cap::normals, Cap> aside_by_push;
   int struts = 0, beams = 0;  ///< that the scene has
 
   /// Calls visit(number) for every segment, strut and beam.
@@ -294,6 +312,13 @@ struct CondensedLean {
       for (int i = 0; i < struts; ++i) visit(Cap::segments + i);
     if constexpr (Cap::beams > 0)
       for (int i = 0; i < beams; ++i) visit(Cap::segments + Cap::struts + i);
+  }
+  /// Calls visit(push, strut, aside) for every normal of every strut, with the numbers of all three.
+  template <class Visit>
+  constexpr void for_each_push(Visit visit) const {
+    if constexpr (Cap::struts > 0)
+      for (int n = 0; n < struts * Cap::normals; ++n)
+        visit(n, n / Cap::normals, Cap::segments * Cap::normals + n);
   }
 };
 

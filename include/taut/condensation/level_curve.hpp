@@ -3,7 +3,7 @@
 
 namespace taut {
 
-/// What the rise and the bow of a number count for at a level: Eq. (47).
+/// What the rise and the bow of a number count for at a level: Eq. (48).
 template <class Real>
 struct LevelWeights {
   Real rise = 0;
@@ -12,7 +12,7 @@ struct LevelWeights {
   constexpr Real of(Real rise_of, Real bow_of) const { return rise * rise_of + bow * bow_of; }
 };
 
-/// The way of a condensed number from the low level to the high one, Eq. (47): low + s rise + s (1 - s) bow,
+/// The way of a condensed number from the low level to the high one, Eq. (48): low + s rise + s (1 - s) bow,
 /// where s goes from 0 to 1. What geometry alone holds goes with 1/tau, what is mostly elastic hardly bends:
 /// k says which, and the bow is what is left over at the middle level.
 template <class Real>

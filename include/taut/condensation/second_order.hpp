@@ -9,18 +9,18 @@
 
 namespace taut {
 
-/// The rows that give `Count` numbers of the state in second-order theory: between the levels as Eq. (47)
+/// The rows that give `Count` numbers of the state in second-order theory: between the levels as Eq. (48)
 /// says, each with a curve of its own, and what bars that lean add by their length, Eq. (45), at the same
-/// level. `OfStruts`: the numbers are strut forces, along the axes that the struts have come to. An
-/// aggregate, too.
+/// level, and struts by their push, Eq. (46). `OfStruts`: the numbers are strut forces, along the axes that
+/// the struts have come to. An aggregate, too.
 template <class Scalar, int Count, class Cap, bool OfStruts = false>
 struct LevelRows {
   using Real = Wide<Scalar>;
-  using Stretches = FixedArray<Real, max_bars<Cap>>;
 
   LeaningRows<Real, Count, Cap> low, rise, bow;
-  FixedArray<Real, Count> curve;  ///< k of every row
-  int count = 0;                  ///< rows in use
+  RowsByPush<Real, Count, Cap> by_push;  ///< at the high level
+  FixedArray<Real, Count> curve;         ///< k of every row
+  int count = 0;                         ///< rows in use
 
   /// All numbers in use at these loads and elongations [m], of which `model` is the LevelModel. Costs 3 (bars
   /// + segments) x count.
@@ -28,25 +28,25 @@ struct LevelRows {
   void evaluate(const Model& model, const Loads& drive, const Elongations& e,
                 FixedArray<Number, Size>& numbers) const {
     static_assert(Count <= Size, "there is room for every number");
-    Stretches q;
-    model.stretches_at(drive, e, q);
     const Real level = model.level_at(drive, e);
-    for (int i = 0; i < count; ++i) numbers[i] = static_cast<Number>(at(i, model, drive, e, level, q));
+    const auto leant = model.leant_at(drive, e, level);
+    for (int i = 0; i < count; ++i) numbers[i] = static_cast<Number>(at(i, model, drive, e, level, leant));
   }
-  /// One of them at a level, where bars are lengthened by `q` [m].
+  /// One of them at a level, where bars lean as they do.
   template <class Model, class Loads, class Elongations>
   Real at(int i, const Model& model, const Loads& drive, const Elongations& e, Real level,
-          const Stretches& q) const {
+          const typename Model::Leant& leant) const {
     const auto in = [&](const LeaningRows<Real, Count, Cap>& rows) {
-      return number_of(rows, i, model, drive, e, q);
+      return number_of(rows, i, model, drive, e, leant.stretch);
     };
-    const Real number = in(low) + curve_of(i).weights(level).of(in(rise), in(bow));
+    const Real number = in(low) + curve_of(i).weights(level).of(in(rise), in(bow)) +
+                        model.pushed(leant.push, [&](int n) { return by_push[n][i]; });
     if constexpr (OfStruts)
-      return number * (1 + model.lean().by_own_lean[Cap::segments + i] * q[Cap::segments + i]);
+      return number * (1 + model.lean().by_own_lean[Cap::segments + i] * leant.stretch[Cap::segments + i]);
     return number;
   }
   LevelCurve<Real> curve_of(int i) const { return {curve[i]}; }
-  /// Makes of the rows at the middle level, in `bow`, and at the high level, in `rise`, what Eq. (47) adds.
+  /// Makes of the rows at the middle level, in `bow`, and at the high level, in `rise`, what Eq. (48) adds.
   /// The scene has so many segments, loads, struts and beams.
   template <class Model>
   void split(const Model& of) {
@@ -78,9 +78,8 @@ using LevelDisplacements =
 template <class Scalar, int Count, class Cap, bool OfStruts, class Model, class Loads, class Elongations>
 Wide<Scalar> number_of(const LevelRows<Scalar, Count, Cap, OfStruts>& rows, int i, const Model& model,
                        const Loads& drive, const Elongations& e) {
-  typename LevelRows<Scalar, Count, Cap, OfStruts>::Stretches q;
-  model.stretches_at(drive, e, q);
-  return rows.at(i, model, drive, e, model.level_at(drive, e), q);
+  const Wide<Scalar> level = model.level_at(drive, e);
+  return rows.at(i, model, drive, e, level, model.leant_at(drive, e, level));
 }
 template <class Scalar, int Count, class Cap, bool OfStruts, class Model, class Elongations>
 Wide<Scalar> change_of(const LevelRows<Scalar, Count, Cap, OfStruts>& rows, int i, const Model& model,
@@ -112,7 +111,7 @@ struct SecondOrder {
 
   Linear low;
   RowsByBar<Real, Cap::segments, Cap> low_by_bar;  ///< tensions there [N/m]
-  Tensions rise, bow;                              ///< of all tensions, Eq. (47)
+  Tensions rise, bow;                              ///< of all tensions, Eq. (48)
   CondensedLean<Scalar, Cap> lean;                 ///< at the high level
   Real target_force = 0;                           ///< T* of all segments together [N]
   Curve curve;
@@ -143,11 +142,11 @@ constexpr const CondensedRows<Wide<Scalar>, Count, Cap>& linear_part(
 ///
 /// With the level tau and the lengths q by which bars lean, Eq. (45),
 ///
-///     T = C(tau) e + D(tau) p + B q(e, p),                                                             (43)
+///     T = C(tau) e + D(tau) p + B q(e, p) + A s(e, p, tau),                                            (43)
 ///
-/// and this is its tangent, Eq. (46), where the step began, at the anchor e_0, p_0, tau_0: G = C' e_0 + D'
-/// p_0 is what the level does, tau follows from T itself, and dq = 2 f a . da. So the next step begins where
-/// this one ends, but for products of changes.
+/// and this is its tangent, Eq. (47), where the step began, at the anchor e_0, p_0, tau_0: G = C' e_0 + D'
+/// p_0 is what the level does, tau follows from T itself, dq = 2 f a . da, and ds = 2 (dN a + dN_apart da).
+/// So the next step begins where this one ends, but for products of changes.
 template <class Scalar_, class Cap>
 struct LevelModel : Condensed<Scalar_, Cap> {
   using Scalar = Scalar_;
@@ -155,7 +154,10 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   using Source = SecondOrder<Scalar, Cap>;
   using Tensions = FixedArray<Real, Cap::segments>;
   using Kappas = FixedArray<Real, Cap::joints>;
+  using Asides = FixedArray<Real, max_bars<Cap> * Cap::normals>;
   using Stretches = FixedArray<Real, max_bars<Cap>>;
+  using Thrusts = FixedArray<Real, Cap::struts>;
+  using Pushes = FixedArray<Real, Cap::struts * Cap::normals>;
   using Curve = LevelCurve<Real>;
   static constexpr bool has_level = true;
   /// A step of the level, at most. It is half of a level that is small.
@@ -169,6 +171,15 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     Real prestrain = 0;  ///< as in Drive
     FixedArray<Real, Cap::loads> factor;
     Tensions e;  ///< [m]
+  };
+
+  /// How bars lean in a state.
+  struct Leant {
+    Asides given;       ///< by loads and elongations alone, as CondensedLean::aside
+    Asides aside;       ///< with what their own lengthening and the pushes of struts do
+    Stretches stretch;  ///< that lengthens them by [m]: Eq. (45)
+    Thrusts apart;      ///< forces of struts beyond those of the level [N]
+    Pushes push;        ///< Eq. (46)
   };
 
   Anchor anchor;
@@ -200,17 +211,13 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   }
   /// Goes on where another one was, with its anchor.
   void make() {
-    Asides given;
-    given.fill(Real(0));
     Tensions G;
     G.fill(Real(0));
     weights_ = source_->curve.weights(anchor.level);
-    if (is_tangent()) {
-      find_asides(anchor, anchor.e, given);
-      find_bend(G);
-    }
-    const Asides a = leant(given);
-    const Stretches grown = growths_of(a), q = stretches_of(a);
+    const Leant leant = leant_at(anchor, anchor.e, anchor.level);
+    const Asides& a = leant.aside;
+    const Stretches grown = growths_of(a), &q = leant.stretch;
+    if (is_tangent()) find_bend(a, G);
     const Real share = along(G);
     const auto follow = [&](Tensions& T) {
       const Real by = share * sum_of(T);
@@ -222,6 +229,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
       Tensions column;
       for (int i = 0; i < this->segments; ++i) column[i] = coupling_at(i, k);
       stretch(a, grown, aside.elongation[k], column);
+      push(leant, lean().thrust.rows.elongation[k], aside.elongation[k], column);
       follow(column);
       for (int i = 0; i < this->segments; ++i) this->coupling.set(i, k, column[i]);
     }
@@ -229,22 +237,28 @@ struct LevelModel : Condensed<Scalar_, Cap> {
       for (int i = 0; i < this->segments; ++i)
         this->load[k][i] = source_->low.load[k][i] + weights_.of(rise.load[k][i], bow.load[k][i]);
       stretch(a, grown, aside.load[k], this->load[k]);
+      push(leant, lean().thrust.rows.load[k], aside.load[k], this->load[k]);
       follow(this->load[k]);
     }
     for (int i = 0; i < this->segments; ++i)
       this->prestrain[i] =
           source_->low.prestrain[i] + weights_.of(rise.prestrain[i], bow.prestrain[i]) - anchor.level * G[i];
     stretch(a, grown, aside.prestrain, this->prestrain);
-    // At the anchor itself q is not what its own derivative gives.
+    push(leant, lean().thrust.rows.prestrain, aside.prestrain, this->prestrain);
+    // At the anchor itself q and s are not what their own derivatives give.
     lean().for_each_bar(this->segments, [&](int b) {
-      lengthen(b, q[b] - 2 * grown[b] * stretch_of(a, given, b), this->prestrain);
+      lengthen(b, q[b] - 2 * grown[b] * stretch_of(a, leant.given, b), this->prestrain);
+    });
+    lean().for_each_push([&](int n, int b, int m) {
+      push(m, leant.push[n] - 2 * (thrust_at(b, anchor, anchor.e) * a[m] + leant.apart[b] * leant.given[m]),
+           this->prestrain);
     });
     follow(this->prestrain);
-    if (is_tangent()) turn(a, given, grown, q);
-    take_friction(q);
+    if (is_tangent()) turn(leant, grown);
+    take_friction(leant);
     const Real by = anchor.level < 2 * step ? anchor.level / 2 : step;
     most_sum = target_force * (anchor.level + by);
-    most_bending = is_tangent() ? bend_step : std::numeric_limits<Real>::max();
+    most_bending = is_tangent() ? bend_step : (std::numeric_limits<Real>::max)();
     least_sum = is_lowest() ? std::numeric_limits<Real>::lowest() : target_force * (anchor.level - by);
   }
   /// By what part of itself the bend of the cable has changed since the step began, in the mean of all
@@ -278,18 +292,48 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   Real level_at(const Loads& drive, const Elongations& e) const {
     return sum_at(drive, e) / target_force;
   }
-  /// By how much all bars are lengthened as they lean at these loads and elongations [m]. Costs bars x
-  /// segments.
+  /// How all bars lean at these loads and elongations [m], of this level. Costs bars x (segments + struts).
   template <class Loads, class Elongations>
-  void stretches_at(const Loads& drive, const Elongations& e, Stretches& q) const {
-    Asides a;
-    a.fill(Real(0));
-    if (is_tangent()) find_asides(drive, e, a);
-    q = stretches_of(leant(a));
+  Leant leant_at(const Loads& drive, const Elongations& e, Real level) const {
+    Leant leant{};
+    if (!is_tangent()) return leant;
+    find_asides(drive, e, leant.given);
+    const auto weights = Curve{}.weights(level);
+    Thrusts given;
+    for (int b = 0; b < lean().struts; ++b)
+      given[b] = thrust_at(b, drive, e) - lean().low_thrust[b] -
+                 weights.of(lean().thrust_rise[b], lean().thrust_bow[b]);
+    leant.aside = leant.given;
+    for (int round = 0; round < rounds; ++round) {
+      leant.apart = given;
+      for (int b = 0; b < lean().struts; ++b)
+        leant.apart[b] += stretched(lean().thrust, b, lean(), this->segments, leant.stretch);
+      lean().for_each_push([&](int n, int b, int m) { leant.push[n] = 2 * leant.apart[b] * leant.aside[m]; });
+      Asides pushed = leant.given;
+      lean().for_each_push([&](int n, int, int) {
+        for_each_aside([&](int, int m) { pushed[m] += leant.push[n] * lean().aside_by_push[n][m]; });
+      });
+      for_each_aside(
+          [&](int b, int m) { leant.aside[m] = pushed[m] + lean().own_aside[m] * leant.stretch[b]; });
+      leant.stretch = stretches_of(leant.aside);
+    }
+    return leant;
+  }
+  /// Forces of all struts there by the rows of the high level [N], tension positive.
+  template <class Loads, class Elongations>
+  Real thrust_at(int strut, const Loads& drive, const Elongations& e) const {
+    return number_of(lean().thrust.rows, strut, *this, drive, e);
+  }
+  /// What pushes of struts do to a number, of which by(n) is what a unit of one does.
+  template <class By>
+  Real pushed(const Pushes& push, By by) const {
+    Real sum = 0;
+    lean().for_each_push([&](int n, int, int) { sum += push[n] * by(n); });
+    return sum;
   }
 
  private:
-  using Asides = FixedArray<Real, max_bars<Cap> * Cap::normals>;
+  static constexpr int rounds = 4;
   static constexpr Real most_kappa = Real(0.999);
 
   /// From no tension on: there must be none then without elongations either.
@@ -320,8 +364,8 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     const Real left = target_force - sum_of(G);
     return left > target_force / 8 ? 1 / left : Real(0);
   }
-  /// What the level changes in all tensions [N].
-  void find_bend(Tensions& G) const {
+  /// What the level changes in all tensions [N], where bars lean by `a`.
+  void find_bend(const Asides& a, Tensions& G) const {
     const auto slopes = source_->curve.slopes(anchor.level);
     const auto &rise = source_->rise.rows, &bow = source_->bow.rows;
     for (int i = 0; i < this->segments; ++i) {
@@ -336,12 +380,20 @@ struct LevelModel : Condensed<Scalar_, Cap> {
       }
       G[i] = slopes.of(along, across);
     }
+    const auto usual = Curve{}.slopes(anchor.level);
+    lean().for_each_push([&](int, int b, int m) {
+      push(m, -2 * a[m] * usual.of(lean().thrust_rise[b], lean().thrust_bow[b]), G);
+    });
   }
   template <class Loads, class Elongations>
   void find_asides(const Loads& drive, const Elongations& e, Asides& a) const {
+    for_each_aside([&](int, int m) { a[m] = number_of(lean().aside, m, *this, drive, e); });
+  }
+  /// Calls visit(bar, aside) for every normal of every bar.
+  template <class Visit>
+  void for_each_aside(Visit visit) const {
     lean().for_each_bar(this->segments, [&](int b) {
-      for (int n = b * Cap::normals; n < (b + 1) * Cap::normals; ++n)
-        a[n] = number_of(lean().aside, n, *this, drive, e);
+      for (int m = b * Cap::normals; m < (b + 1) * Cap::normals; ++m) visit(b, m);
     });
   }
   /// Eq. (45): a . b of a bar [m].
@@ -349,18 +401,6 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     Real sum = 0;
     for (int n = 0; n < Cap::normals; ++n) sum += a[bar * Cap::normals + n] * b[bar * Cap::normals + n];
     return sum;
-  }
-  /// By how much bars lean that their own lengthening takes back a part of, Eq. (45).
-  Asides leant(const Asides& given) const {
-    Asides a = given;
-    for (int round = 0; round < 3; ++round) {
-      const Stretches q = stretches_of(a);
-      lean().for_each_bar(this->segments, [&](int b) {
-        for (int n = b * Cap::normals; n < (b + 1) * Cap::normals; ++n)
-          a[n] = given[n] + lean().own_aside[n] * q[b];
-      });
-    }
-    return a;
   }
   /// Of every bar that leans by `a`: a . a (1 + a . a / 2L).
   Stretches stretches_of(const Asides& a) const {
@@ -372,7 +412,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     });
     return q;
   }
-  /// f of Eq. (46). A lean that grew by itself would be no small one: f is at most twice what it is without
+  /// f of Eq. (47). A lean that grew by itself would be no small one: f is at most twice what it is without
   /// that.
   Stretches growths_of(const Asides& a) const {
     Stretches grown;
@@ -387,6 +427,17 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   void stretch(const Asides& a, const Stretches& grown, const Asides& da, Tensions& T) const {
     lean().for_each_bar(this->segments, [&](int b) { lengthen(b, 2 * grown[b] * stretch_of(a, da, b), T); });
   }
+  /// Adds what struts push more where their forces are more by `dN` and they lean by `da` more.
+  template <class Forces>
+  void push(const Leant& leant, const Forces& dN, const Asides& da, Tensions& T) const {
+    lean().for_each_push(
+        [&](int, int b, int m) { push(m, 2 * (dN[b] * leant.aside[m] + leant.apart[b] * da[m]), T); });
+  }
+  /// Adds what a push does: by reciprocity, what elongations of segments do to that aside.
+  void push(int aside, Real by, Tensions& T) const {
+    if (bits_of(by) == 0) return;
+    for (int i = 0; i < this->segments; ++i) T[i] += by * lean().aside.elongation[i][aside];
+  }
   void lengthen(int bar, Real by, Tensions& T) const {
     if (bits_of(by) == 0) return;
     const int b = bar - Cap::segments;
@@ -396,9 +447,11 @@ struct LevelModel : Condensed<Scalar_, Cap> {
                                 weights_.of(source_->rise.by_bar[b][i], source_->bow.by_bar[b][i]));
   }
   /// Makes of all tensions those along the axes that their segments have come to, Eq. (45).
-  void turn(const Asides& a, const Asides& given, const Stretches& grown, const Stretches& q) {
+  void turn(const Leant& leant, const Stretches& grown) {
     const Tensions T = tensions_at(anchor, anchor.e);
     const auto& aside = lean().aside;
+    const Asides& a = leant.aside;
+    const Stretches& q = leant.stretch;
     for (int i = 0; i < this->segments; ++i) {
       if (bits_of(q[i]) == 0) continue;
       const Real part = lean().by_own_lean[i], by = 1 + part * q[i], more = 2 * part * grown[i] * T[i];
@@ -407,14 +460,15 @@ struct LevelModel : Condensed<Scalar_, Cap> {
       for (int k = 0; k < this->loads; ++k)
         this->load[k][i] = by * this->load[k][i] + more * stretch_of(a, aside.load[k], i);
       // At the anchor itself nothing is more than `by` says.
-      this->prestrain[i] =
-          by * this->prestrain[i] + more * (stretch_of(a, aside.prestrain, i) - stretch_of(a, given, i));
+      this->prestrain[i] = by * this->prestrain[i] +
+                           more * (stretch_of(a, aside.prestrain, i) - stretch_of(a, leant.given, i));
     }
   }
   /// Friction of the displaced geometry, Eq. (44). A joint that locks itself, or has no friction, stays so.
-  void take_friction(const Stretches& q) {
+  void take_friction(const Leant& leant) {
     for (int j = 0; j < this->joints; ++j) {
-      bend[j] = number_of(lean().bends, j, *this, anchor, anchor.e, q);
+      bend[j] = number_of(lean().bends, j, *this, anchor, anchor.e, leant.stretch) +
+                pushed(leant.push, [&](int n) { return lean().bends_by_push[n][j]; });
       const Real flat = source_->low.rho[j];
       kappa_ratio[j] = larger(Real(0), 1 + lean().kappa_by_bend[j] * bend[j]);
       if (!this->is_self_locking(j)) this->rho[j] = scaled(flat, kappa_ratio[j]);

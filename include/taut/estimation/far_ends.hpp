@@ -175,7 +175,7 @@ class FarEnds {
 
  private:
   /// After predict_at(): the variance of what readings of cell `e`, and of the jacks at the same time, have
-  /// in common from row to row, c of Eq. (53).
+  /// in common from row to row, c of Eq. (54).
   Scalar variance_that_lasts(int e, const FilterType& filter, const Jacks& jacks) const {
     const Scalar own = state_.watch[e].lasts;
     Scalar variance = own * own;

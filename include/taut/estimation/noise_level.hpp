@@ -25,9 +25,9 @@ namespace taut {
 ///
 /// Sooner it shows four and eight readings apart that readings hang together, where s'' of the larger one of
 /// these second differences exceeds s by 3 / sqrt(n + 1). If neighbours scatter by less than was said, it is
-/// noise with a memory: then r is what was said by s, Eq. (52). Else the load itself goes up and down, as
+/// noise with a memory: then r is what was said by s, Eq. (53). Else the load itself goes up and down, as
 /// with the strokes of a pump, by sqrt(s''^2 - s^2). That, and the error of a display that hardly changes, do
-/// not average out: Found::lasting, Eq. (53).
+/// not average out: Found::lasting, Eq. (54).
 template <class Scalar>
 class NoiseLevel {
  public:

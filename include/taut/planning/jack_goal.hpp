@@ -24,7 +24,7 @@ template <class Scalar, class Cap>
 struct NextMoves {
   int count = 0;                              ///< 0: it stays where it is
   std::array<Scalar, 2> force{};              ///< of the jack at the end of every move [N]
-  Scalar error = 0;                           ///< largest |T - target| / target then, Eq. (48)
+  Scalar error = 0;                           ///< largest |T - target| / target then, Eq. (49)
   FixedArray<Scalar, Cap::segments> tension;  ///< of every segment then [N]
 };
 

@@ -19,7 +19,7 @@
 
 namespace taut {
 
-/// The moves of one jack that bring the forces nearest to their targets, Eq. (48), from where the cables are:
+/// The moves of one jack that bring the forces nearest to their targets, Eq. (49), from where the cables are:
 /// none, one, or two that turn. All other jacks and loads stay as they are.
 ///
 /// Friction remembers the turning points of the jack alone, and between two events of the tracker all is

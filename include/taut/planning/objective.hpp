@@ -6,7 +6,7 @@
 
 namespace taut {
 
-/// The largest |T_i - target_i| / target_i of Eq. (48) over the n segments that have a target (greater than
+/// The largest |T_i - target_i| / target_i of Eq. (49) over the n segments that have a target (greater than
 /// zero) [-]. Both arrays have n entries [N]. Cost: O(n).
 template <class Scalar>
 Scalar off_target(const Scalar* tension, const Scalar* target, int n) {
@@ -50,7 +50,7 @@ struct TopLine {
 }  // namespace detail
 
 /// Where forces are nearest to their targets between two states of n tensions [N], between `least_part` and
-/// `most_part` of the way, all being linear: the lowest vertex of the largest of the lines, Eq. (49), exact
+/// `most_part` of the way, all being linear: the lowest vertex of the largest of the lines, Eq. (50), exact
 /// but for rounding. Cost: O(n) a vertex that is looked at, at most 2 n + 3 of them; most often three.
 template <class Scalar>
 NearestPart<Scalar> nearest_part(const Scalar* from, const Scalar* to, const Scalar* target, int n,

@@ -11,10 +11,10 @@ namespace taut {
 /// Looks for the least value of a continuous function of one number that changes by at most `steepest` a
 /// unit, from at most N values of it.
 ///
-/// Of the intervals between places that were looked at the one with the lowest bound, Eq. (50), is divided
+/// Of the intervals between places that were looked at the one with the lowest bound, Eq. (51), is divided
 /// where the bounds from both of its ends meet (Piyavskii 1972, Shubert 1972). How steep the function can be
 /// in an interval is told by how steep it is beside it, the less so the wider the interval is (local tuning,
-/// Sergeyev 1995), Eq. (51): much of it is flat, and what a bound for all of it says is wasted there. Every
+/// Sergeyev 1995), Eq. (52): much of it is flat, and what a bound for all of it says is wasted there. Every
 /// other time the best place is refined where the lines through two places on either side meet, which for a
 /// piecewise linear function is the very vertex once they lie on its pieces. Ends where no bound is lower
 /// than the best value by more than the tolerance, or with as many values as are allowed.
@@ -85,7 +85,7 @@ class TurnSearch {
     const Scalar by = places_[i + 1].value - places_[i].value;
     return (by < 0 ? -by : by) / width(i);
   }
-  // How steep the function can be there, Eq. (51).
+  // How steep the function can be there, Eq. (52).
   Scalar steepness(int i) const {
     Scalar widest = 0;
     for (int k = 0; k + 1 < places_.size(); ++k) widest = larger(widest, width(k));
@@ -93,7 +93,7 @@ class TurnSearch {
                  there = larger(near, steepest_ * width(i) / widest);
     return there < steepest_ ? there : steepest_;
   }
-  // Below which the function cannot be there, Eq. (50). Where there is no answer at one end, all that is
+  // Below which the function cannot be there, Eq. (51). Where there is no answer at one end, all that is
   // known is how near the other is.
   Scalar bound(int i) const {
     if (steepest_ * width(i) <= rounding) return unreachable;

@@ -58,13 +58,13 @@ struct CableSystem {
     Real base = 0;  ///< where the map was made
     Inputs by;      ///< of a unit of every input
   };
-  /// Second-order theory: LevelModel::bending() along the map.
-  std::conditional_t<Model::has_level, Bending, Nothing> bending;
   Tensions total;          ///< tensions from all slips, made by the last test of forces [N]
   Tensions force;          ///< where the last event, or the last call with events, ended [N]
   Real push = 0;           ///< largest change of force that the path would make with every joint stuck [N]
   bool is_set_up = false;  ///< the slips of the map are those of the present modes
   bool has_redundant_jack = false;  ///< a cable of one segment has two jacks at work
+  /// Second-order theory: LevelModel::bending() along the map.
+  std::conditional_t<Model::has_level, Bending, Nothing> bending;
 
   /// Begins without loads; the goal is the prestrain.
   void begin(const CondensedType& condensed) {

@@ -36,6 +36,7 @@ class SecondOrderCondensation {
              LevelDisplacements<Scalar, Cap>* displacements = nullptr) {
     geometry_ = {};
     reach_ = 1;
+    way_ = {};
     for (std::size_t l = 0; l < levels.size(); ++l) {
       geometry_[l].level = levels[l];
       geometry_[l].substructure_entries = substructure_geometry;
@@ -92,6 +93,8 @@ class SecondOrderCondensation {
       if (level == 2) {
         request.beams = &beams_;
         request.lean = &condensed.lean;
+        request.strut_by_push = &struts.by_push;
+        if (displacements != nullptr) request.displacement_by_push = &displacements->rows.by_push;
       }
       if (displacements != nullptr) {
         request.displaced = &displacements->of;
@@ -110,11 +113,36 @@ class SecondOrderCondensation {
           2, high_, condensed.rise.by_bar, [](auto& rows) -> auto& { return rows.rise; });
     if (!status) return status;
     split(condensed);
+    take_thrusts(condensed);
     struts.split(condensed);
     if (displacements != nullptr) displacements->rows.split(condensed);
     return status;
   }
-  /// Makes of the tensions at the three levels what Eq. (47) adds to the lowest.
+  /// The forces of struts on the way to the target, by the rows that say how they differ from it: as long as
+  /// it was not gone they differ by nothing.
+  void take_thrusts(Model& condensed) const {
+    auto& lean = condensed.lean;
+    auto &low = lean.low_thrust, &bow = lean.thrust_bow, &rise = lean.thrust_rise;
+    low.fill(Real(0));
+    bow = rise = low;
+    for (int b = 0; b < lean.struts; ++b) {
+      if (!(way_[2].part > 0)) {
+        lean.thrust.rows.prestrain[b] = 0;
+        for (int k = 0; k < condensed.low.loads; ++k) lean.thrust.rows.load[k][b] = 0;
+        for (int k = 0; k < condensed.low.segments; ++k) lean.thrust.rows.elongation[k][b] = 0;
+      }
+      const auto on_way = [&](std::size_t l) {
+        const auto& at = way_[l];
+        return at.part * (number_of(lean.thrust.rows, b, condensed.low, at.loads, at.e) +
+                          stretched(lean.thrust, b, lean, condensed.low.segments, at.stretch));
+      };
+      low[b] = on_way(0);
+      bow[b] = on_way(1);
+      rise[b] = on_way(2);
+      Curve{}.split(low[b], bow[b], rise[b]);
+    }
+  }
+  /// Makes of the tensions at the three levels what Eq. (48) adds to the lowest.
   void split(Model& condensed) const {
     const auto& low = condensed.low;
     auto &bow = condensed.bow, &rise = condensed.rise;
@@ -151,11 +179,16 @@ class SecondOrderCondensation {
     std::array<Real, 3> sums{};
     Real reached = 0;  // a part of the way
     auto found = geometry_;
+    auto way = way_;
     for (std::size_t l = 0; l < levels.size(); ++l) {
       if (l == 0 || !(reached < levels[l - 1])) {
         reached += follow(part_of(scene, target, reach_ * levels[l])) * (levels[l] - reached);
       }
       sums[l] = take_state(scene, struts, found[l]);
+      way[l].loads = tracker_.loads();
+      way[l].e = tracker_.elongations();
+      const auto& model = tracker_.model();
+      way[l].stretch = model.leant_at(way[l].loads, way[l].e, model.level_at(way[l].loads, way[l].e)).stretch;
     }
     if (!(reached * reach_ > least_part && sums[2] > 0)) return false;
     const Real ended = reached > Curve::middle ? reached : Curve::middle;
@@ -163,11 +196,13 @@ class SecondOrderCondensation {
     target_force_ = sums[2] / ended;
     for (std::size_t l = 0; l < levels.size(); ++l) {
       const Real by = target_force_ / sums[l];
+      way[l].part = by * levels[l];
       for (int i = 0; i < Cap::segments; ++i) found[l].segment_force[i] *= by;
       for (int i = 0; i < Cap::struts; ++i) found[l].strut_force[i] *= by;
       for (int i = 0; i < Cap::beams; ++i) found[l].beam_force[i] *= by;
     }
     geometry_ = found;
+    way_ = way;
     return true;
   }
   /// The part of the way to a sample that can be gone.
@@ -211,8 +246,16 @@ class SecondOrderCondensation {
   CondensedBeams<Scalar, Cap> beams_;
   Tracker<Model> tracker_;
   std::array<Geometry, 3> geometry_;  // of every level
-  Real target_force_ = 0;             // of all segments together at the high level [N]
-  Real reach_ = 1;                    // the part of the target that is the high level
+  /// Where the way to the target was at every level, and by what its forces are those of the level.
+  struct Waypoint {
+    Drive<Real, Cap> loads;
+    typename Model::AtLevel::Tensions e;
+    typename Model::AtLevel::Stretches stretch;
+    Real part = 0;
+  };
+  std::array<Waypoint, 3> way_;
+  Real target_force_ = 0;  // of all segments together at the high level [N]
+  Real reach_ = 1;         // the part of the target that is the high level
 };
 
 }  // namespace taut
