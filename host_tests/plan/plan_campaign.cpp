@@ -174,7 +174,7 @@ double error_with_mu(const Site& site, const std::vector<PlanJack>& jacks,
   return off_target(leg.end().tension, site.goal.target);
 }
 
-// As `taut watch` plans anew: mu becomes known when half of the first pull is done.
+// As `taut watch` plans anew: mu becomes known when the first pull is so far done.
 double error_planned_anew(const Site& site, const Plan& plan, double half_way, double factor) {
   std::vector<double> mu, known(site.scene.cables[0].joints(), 0);
   for (const double each : site.scene.cables[0].mu) mu.push_back(factor * each);

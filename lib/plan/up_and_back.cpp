@@ -80,13 +80,12 @@ class Pull {
   // the farthest that has an answer with all of them.
   double farthest_with_loads(const std::string& start, double most) {
     PlanStage stage = jacking_.beginning();
-    double reached = 0, beyond = most;
-    for (int round = 0; round < most_rounds; ++round) {
-      const double force = round == 0 ? most : reached > 0 ? (reached + beyond) / 2 : beyond / 2;
+    double reached = 0, beyond = most, force = most;
+    for (int round = 0; round < most_rounds && reached < most; ++round) {
       jacking_.go_to(start);
       stage.force[jack_] = force;
       (jacking_.jump(stage).whole ? reached : beyond) = force;
-      if (reached >= most) break;
+      force = (reached + beyond) / 2;
     }
     return reached > 0 ? reached : most;
   }
