@@ -90,6 +90,7 @@ class Condensation {
   }
 
  private:
+  static constexpr bool has_geometry = !std::is_same<Geometry, NoGeometry>::value;
   struct Nothing {};
   using Solver =
       std::conditional_t<has_rigid_saddles<Cap>, Nothing, Structure<Wide<Scalar>, SceneType, Geometry>>;
@@ -178,10 +179,13 @@ class Condensation {
       if constexpr (Cap::beams > 0)
         for (int i = 0; asked_.beams != nullptr && i < scene_->beams.size(); ++i)
           (*row(*asked_.beams))[i] = structure_.beam_force(i);
-      if (asked_.lean == nullptr) return;
-      for (int i = 0; i < scene_->struts.size(); ++i)
-        (*row(asked_.lean->thrust.rows))[i] = structure_.strut_force(i);
-      store_lean(*row(asked_.lean->bends.rows), *row(asked_.lean->aside));
+      if constexpr (has_geometry) {
+        if (asked_.lean == nullptr) return;
+        for (int i = 0; i < scene_->struts.size(); ++i)
+          (*row(asked_.lean->thrust.rows))[i] = structure_.strut_force(i);
+        store_bends(*row(asked_.lean->bends.rows));
+        store_asides(*row(asked_.lean->aside));
+      }
     };
 
     const auto prestrained = [&](int i) { return elements.segments[i].initial / elements.segments[i].axial; };
@@ -208,7 +212,7 @@ class Condensation {
       store(unit, column, [k](auto& rows) { return &rows.elongation[k]; });
       for (int i = 0; i < condensed.segments; ++i) condensed.coupling.set(i, k, column[i]);
     }
-    if constexpr (!std::is_same<Geometry, NoGeometry>::value)
+    if constexpr (has_geometry)
       if (asked_.tension_by_bar != nullptr) {
         status = lengthen_bars(condensed);
         if (status && asked_.lean != nullptr) status = push_struts();
@@ -241,12 +245,10 @@ class Condensation {
         (*asked_.tension_by_bar)[to][i] = structure_.tension(i, Real(0));
       for (int i = 0; asked_.strut_by_bar != nullptr && i < struts; ++i)
         (*asked_.strut_by_bar)[to][i] = structure_.strut_force(i, unit(i));
-      for (int i = 0; asked_.lean != nullptr && i < struts; ++i)
-        asked_.lean->thrust.by_bar[to][i] = structure_.strut_force(i, unit(i));
-      for (int c = 0; asked_.lean != nullptr && c < scene_->cables.size(); ++c)
-        for (int j = 0; j < scene_->cables[c].joints(); ++j)
-          asked_.lean->bends.by_bar[to][scene_->cables[c].first_joint + j] = bend_change(c, j);
       if (asked_.lean != nullptr) {
+        for (int i = 0; i < struts; ++i)
+          asked_.lean->thrust.by_bar[to][i] = structure_.strut_force(i, unit(i));
+        store_bends(asked_.lean->bends.by_bar[to]);
         if (b < struts) keep_own_aside(Cap::segments + to, structure_.elements().struts[b]);
         if constexpr (Cap::beams > 0)
           if (b >= struts) keep_own_aside(Cap::segments + to, structure_.elements().beams[b - struts]);
@@ -275,16 +277,19 @@ class Condensation {
           (*asked_.strut_by_push)[to][i] = structure_.strut_force(i);
         for (int i = 0; asked_.displacement_by_push != nullptr && i < asked_.displaced->size(); ++i)
           (*asked_.displacement_by_push)[to][i] = displacement(i);
-        store_lean(asked_.lean->bends_by_push[to], asked_.lean->aside_by_push[to]);
+        store_bends(asked_.lean->bends_by_push[to]);
+        store_asides(asked_.lean->aside_by_push[to]);
       }
     return Status::success();
   }
-  /// How the cable bends and bars lean in the last solution.
-  void store_lean(FixedArray<Real, Cap::joints>& bends,
-                  FixedArray<Real, max_bars<Cap> * Cap::normals>& asides) const {
+  /// By what part of itself the cable bends more at every joint in the last solution.
+  void store_bends(FixedArray<Real, Cap::joints>& bends) const {
     for (int c = 0; c < scene_->cables.size(); ++c)
       for (int j = 0; j < scene_->cables[c].joints(); ++j)
         bends[scene_->cables[c].first_joint + j] = bend_change(c, j);
+  }
+  /// How bars lean in it.
+  void store_asides(FixedArray<Real, max_bars<Cap> * Cap::normals>& asides) const {
     for_each_bar([&](int bar, const auto& nodes, const auto& line) {
       for (int n = 0; n < Cap::normals; ++n) asides[bar * Cap::normals + n] = aside(nodes, line, n);
     });

@@ -73,7 +73,7 @@ class EventSearch {
       if (map_.variable(i).kind == SlipVariable::Kind::slack_length)
         shorten(map_.stiffness(i) * map_.value(i, x), map_.stiffness(i) * map_.value_rate(i, dx), {},
                 map_.variable(i).index, i);
-    if constexpr (Cables::Model::has_level) shorten_to_level(dx, rate, step, ending);
+    if constexpr (Cables::Model::has_level) shorten_to_level(x, dx, rate, step, ending);
     return step;
   }
 
@@ -159,7 +159,8 @@ class EventSearch {
 
  private:
   /// A level holds while the sum of all tensions, and the bend of the cable, are between its limits.
-  void shorten_to_level(const Inputs& dx, const Tensions& rate, Real& step, Ending& ending) const {
+  void shorten_to_level(const Inputs& x, const Inputs& dx, const Tensions& rate, Real& step,
+                        Ending& ending) const {
     Real sum = 0, growth = 0;
     for (int i = 0; i < model_.segments; ++i) {
       sum += cables_.force[i];
@@ -174,8 +175,6 @@ class EventSearch {
     };
     until(model_.most_sum - sum, growth);
     until(sum - model_.least_sum, -growth);
-    Inputs x;
-    cables_.values(state_.now, x);
     const Real bent = cables_.template bending_at<Real>(x, map_.anchor());
     Real bending = 0;
     for (int k = 0; k < map_.inputs(); ++k) bending += dx[k] * cables_.bending.by[k];
