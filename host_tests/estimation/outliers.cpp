@@ -199,7 +199,7 @@ TEST_CASE("a refused reading that the next one does not pass by is an outlier, h
 }
 
 TEST_CASE("a plug that is tight again is believed though the load has gone farther than it ever did") {
-  // Eight rows of 1 kN each; then it shows 200 kN for six rows, while the load goes on by 10 kN a row.
+  // Ten rows of 1 kN each; then it shows 200 kN for six rows, while the load goes on by 10 kN a row.
   taut::JumpGuard<double> guard;
   guard.start(0);
   double load = 0;

@@ -196,7 +196,7 @@ struct JackLoad {
     }
     corners.times_noise = larger(corners.times_noise, follow_noise(given.force, cell));
     at.sd = larger(at.sd, lasts);
-    // Two of them.
+    // Two standard deviations are as far as the load can have gone.
     if (is_held) at.sd = larger(at.sd, guard.reach() / 2);
     // In a row a load stage the jack may well have gone where it was read, or as far again.
     if (at.refused && since > JumpGuard<Scalar>::far_apart && std::isfinite(reading))

@@ -9,9 +9,9 @@ namespace taut {
 /// Tells a jump of the readings from a load that moves: a reading four times as far away as any has gone from
 /// one row to the next is held back, and those after it until they come back to where the load can have gone
 /// meanwhile, or at least jump back towards it from where they had stayed; what lasts for more than
-/// `most_held` readings is believed. Readings more than 5 s apart, a row
-/// a load stage, and those after a pause are not held back: what happened before them is not known. A plain
-/// value. Cost: a few operations a reading.
+/// `most_held` readings is believed. Readings more than 5 s apart, a row a load stage, and those after a
+/// pause are not held back: what happened before them is not known. A plain value. Cost: a few operations a
+/// reading.
 template <class Scalar>
 class JumpGuard {
  public:
@@ -22,7 +22,7 @@ class JumpGuard {
   /// Begins at a load that is known [N].
   void start(Scalar load) {
     last_ = load;
-    held_ = 0;
+    held_ = stayed_ = 0;
   }
   /// Whether this reading [N] of a cell with noise `sd`, `dt` [s] after the one before, is held back.
   [[nodiscard]] bool holds(Scalar reading, Scalar dt, Scalar sd) {
@@ -50,10 +50,7 @@ class JumpGuard {
   /// Whether the readings that were held back had stayed where they were, and this one jumps from there to
   /// the other side: it is right again, though the load has gone farther than any did before.
   bool comes_back(Scalar reading, Scalar scatter) {
-    if (held_ == 0) {
-      stayed_ = 0;
-      return false;
-    }
+    if (held_ == 0) return false;
     const bool jumps = std::fabs(reading - shown_) > far * (farthest_ + scatter);
     const bool is_nearer = std::fabs(reading - last_) < std::fabs(shown_ - last_);
     if (jumps && is_nearer && stayed_ >= steady) return true;
