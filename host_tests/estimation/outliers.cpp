@@ -223,3 +223,55 @@ TEST_CASE("readings that jump in every row are not believed where one is nearer 
   // Where it can be after seven rows.
   CHECK_FALSE(guard.holds(load + 5e3, 1, 100));
 }
+
+TEST_CASE("where a ramp ends and rows come more slowly, what was held back is no more likely to be true") {
+  for (const double wrong : {2e5, 0.0}) {
+    CAPTURE(wrong);
+    taut::JumpGuard<double> guard;
+    guard.start(0);
+    double load = 0;
+    for (int i = 0; i < 100; ++i) CHECK_FALSE(guard.holds(load += 1e3, 0.03, 100));
+    for (int i = 0; i < 5; ++i) CHECK(guard.holds(wrong, 0.03, 100));
+    const double reach = guard.reach();
+    for (int i = 0; i < 3; ++i) {
+      CHECK(guard.holds(wrong, 0.3, 100));
+      // In ten times the time the load can have gone ten times as far.
+      CHECK(guard.reach() == doctest::Approx(reach + (i + 1) * 2 * reach));
+    }
+    CHECK_FALSE(guard.holds(load + 100, 0.3, 100));
+  }
+}
+
+TEST_CASE("what jumped at once is not believed because the load could have come there by now") {
+  // Ten rows of 10 kN each, then a hold; it shows 100 kN more for fourteen rows.
+  taut::JumpGuard<double> guard;
+  guard.start(0);
+  double load = 0;
+  for (int i = 0; i < 10; ++i) CHECK_FALSE(guard.holds(load += 1e4, 1, 100));
+  for (int i = 0; i < 14; ++i) CHECK(guard.holds(load + 1e5, 1, 100));
+  CHECK_FALSE(guard.holds(load, 1, 100));
+}
+
+TEST_CASE("a load that jumps and stays is believed after fifteen readings, or after a long pause") {
+  for (const int held : {15, 3}) {
+    CAPTURE(held);
+    taut::JumpGuard<double> guard;
+    guard.start(0);
+    double load = 0;
+    for (int i = 0; i < 10; ++i) CHECK_FALSE(guard.holds(load += 1e3, 1, 100));
+    load += 1e5;
+    for (int i = 0; i < held; ++i) CHECK(guard.holds(load, 1, 100));
+    CHECK_FALSE(guard.holds(load, held == 15 ? 1 : 60, 100));
+    CHECK_FALSE(guard.holds(load += 1e3, 1, 100));
+  }
+}
+
+TEST_CASE("what comes back a little on the side of an outlier is not held with it") {
+  // Rows of 1 kN each; one is just too far away, the next one a row further on.
+  taut::JumpGuard<double> guard;
+  guard.start(0);
+  double load = 0;
+  for (int i = 0; i < 10; ++i) CHECK_FALSE(guard.holds(load += 1e3, 1, 100));
+  CHECK(guard.holds(load + 4.5e3, 1, 100));
+  CHECK_FALSE(guard.holds(load + 1.4e3, 1, 100));
+}

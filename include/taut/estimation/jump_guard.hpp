@@ -10,8 +10,9 @@ namespace taut {
 /// one row to the next is held back, and those after it until they come back to where the load can have gone
 /// meanwhile, or at least jump back towards it from where they had stayed; what lasts for more than
 /// `most_held` readings is believed. Readings more than 5 s apart, a row a load stage, and those after a
-/// pause are not held back: what happened before them is not known. A plain value. Cost: a few operations a
-/// reading.
+/// pause are not held back: what happened before them is not known. Only where rows merely come more slowly,
+/// as in a hold after a ramp, one that still shows what was held back is. A plain value. Cost: a few
+/// operations a reading.
 template <class Scalar>
 class JumpGuard {
  public:
@@ -23,45 +24,53 @@ class JumpGuard {
   void start(Scalar load) {
     last_ = load;
     held_ = stayed_ = 0;
+    passed_ = 0;
   }
   /// Whether this reading [N] of a cell with noise `sd`, `dt` [s] after the one before, is held back.
   [[nodiscard]] bool holds(Scalar reading, Scalar dt, Scalar sd) {
-    const bool is_pause = dt > far_apart || dt > pause * step_;
-    step_ = dt;
-    const Scalar scatter = at_most * sd, change = std::fabs(reading - last_) - scatter,
-                 possible = held_ == 0 ? far * (farthest_ + scatter)
-                                       : scatter + static_cast<Scalar>(held_ + 1) * farthest_;
-    if (seen_ == enough && !is_pause && held_ < most_held && change > possible &&
-        !comes_back(reading, scatter)) {
+    const Scalar off = std::fabs(reading - last_), from_shown = std::fabs(reading - shown_),
+                 scatter = at_most * sd, change = off - scatter, jump = far * (farthest_ + scatter),
+                 steps = step_ > 0 && dt > step_ ? dt / step_ : Scalar(1),
+                 possible = held_ == 0 ? jump : scatter + (passed_ + steps) * farthest_;
+    const bool stays = held_ > 0 && from_shown < jump && from_shown < off;
+    const bool is_pause = dt > far_apart || (dt > pause * step_ && !stays);
+    if (seen_ == enough && !is_pause && held_ < most_held && (stays || change > possible) &&
+        !comes_back(reading, stays)) {
       ++held_;
+      passed_ += steps;
       shown_ = reading;
       return true;
     }
+    step_ = dt;
     // Only what went on from one row to the next says how far loads go.
     if (held_ == 0 && seen_ > 0 && change > farthest_ && !is_pause) farthest_ = change;
     if (seen_ < enough) ++seen_;
     start(reading);
     return false;
   }
-  /// How far the load can have gone since the last reading that was believed [N].
-  Scalar reach() const { return static_cast<Scalar>(held_) * farthest_; }
+  /// How far the load can have gone since the last reading that was believed, at most twice as far as where
+  /// it was read [N].
+  Scalar reach() const {
+    const Scalar gone = passed_ * farthest_, read = 2 * std::fabs(shown_ - last_);
+    return gone < read ? gone : read;
+  }
 
  private:
   /// Whether the readings that were held back had stayed where they were, and this one jumps from there to
   /// the other side: it is right again, though the load has gone farther than any did before.
-  bool comes_back(Scalar reading, Scalar scatter) {
+  bool comes_back(Scalar reading, bool stays) {
     if (held_ == 0) return false;
-    const bool jumps = std::fabs(reading - shown_) > far * (farthest_ + scatter);
     const bool is_nearer = std::fabs(reading - last_) < std::fabs(shown_ - last_);
-    if (jumps && is_nearer && stayed_ >= steady) return true;
-    stayed_ = jumps ? std::uint8_t(0) : static_cast<std::uint8_t>(stayed_ + 1);
+    if (!stays && is_nearer && stayed_ >= steady) return true;
+    stayed_ = stays ? static_cast<std::uint8_t>(stayed_ + 1) : std::uint8_t(0);
     return false;
   }
 
   static constexpr std::uint8_t enough = 8, steady = 3;
   static constexpr Scalar far = 4, at_most = 3, pause = 4;
 
-  Scalar last_ = 0, step_ = 0;  // the last reading that was believed; time between the last two [s]
+  Scalar last_ = 0, step_ = 0;  // the last reading that was believed; its time after the one before [s]
+  Scalar passed_ = 0;           // since then, in such steps
   Scalar farthest_ = 0;         // that readings have gone in a row [N], less their scatter
   Scalar shown_ = 0;            // the last one that was held back
   std::uint8_t seen_ = 0, held_ = 0;
