@@ -72,6 +72,8 @@ TEST_CASE("a capacity says what a scene has not, and nothing that it has") {
   CHECK_FALSE(saddles::Capacity::hoops);
   CHECK(saddles::Capacity::prestrain);
   CHECK_FALSE(saddles::Capacity::smooth);
+  CHECK_FALSE(saddles::Capacity::strokes);
+  CHECK(arch::Capacity::strokes);
 }
 
 TEST_CASE("a header goes to standard output or, the same, to a file") {

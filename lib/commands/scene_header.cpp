@@ -458,7 +458,7 @@ std::string head(const std::vector<ExportedScene>& scenes, const CondensedCounts
 }
 
 // What none of the scenes has.
-std::string has_not(const CondensedCounts& counts) {
+std::string has_not(const CondensedCounts& counts, bool has_strokes) {
   std::string names;
   const auto add = [&](const char* name, bool has) {
     if (!has) names += (names.empty() ? "" : ", ") + std::string(name) + " = false";
@@ -466,10 +466,11 @@ std::string has_not(const CondensedCounts& counts) {
   add("hoops", counts.hoops);
   add("prestrain", counts.prestrain);
   add("smooth", counts.smooth);
+  add("strokes", has_strokes);
   return names.empty() ? "" : "  static constexpr bool " + names + ";\n";
 }
 
-std::string capacity_of(const CondensedCounts& counts) {
+std::string capacity_of(const CondensedCounts& counts, bool has_strokes) {
   const auto is = [](const char* name, int count) {
     return std::string(name) + " = " + std::to_string(count);
   };
@@ -480,7 +481,7 @@ std::string capacity_of(const CondensedCounts& counts) {
          is("segments", counts.segments) + ", " + is("joints", counts.joints) + ", " +
          is("substructures", counts.substructures) + ", " + is("loads", counts.loads) +
          (counts.leans() ? ", " + is("beams", counts.beams) + ", " + is("normals", counts.normals) : "") +
-         ";\n" + (counts.saddles ? "  static constexpr bool saddles = true;\n" : "") + has_not(counts) +
+         ";\n" + (counts.saddles ? "  static constexpr bool saddles = true;\n" : "") + has_not(counts, has_strokes) +
          "};\n";
 }
 
@@ -536,9 +537,9 @@ struct Shared {
 };
 
 std::string capacity(const ExportedScene& scene, const Shared& shared) {
-  if (shared.is_one) return "/// Fits the condensed scene exactly.\n" + capacity_of(shared.capacity);
+  if (shared.is_one) return "/// Fits the condensed scene exactly.\n" + capacity_of(shared.capacity, shared.has_strokes);
   if (space_of(scene) == shared.space)
-    return "/// Holds every scene of this header.\n" + capacity_of(shared.capacity);
+    return "/// Holds every scene of this header.\n" + capacity_of(shared.capacity, shared.has_strokes);
   return "/// The same for every scene of this header.\nusing Capacity = ::" + shared.space + "::Capacity;\n";
 }
 

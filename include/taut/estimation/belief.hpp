@@ -270,6 +270,17 @@ class Belief {
   }
   /// After innovate(): whether the mean that would follow is too far from where the model is linearized.
   bool is_nonlinear() const { return innovation_.is_nonlinear; }
+  /// After innovate(): whether friction would be found farther from where the model is linearized than
+  /// `nonlinearity` of its standard deviation. Cost: a few operations an unknown of friction.
+  bool moves_friction() const {
+    for (int p = 0; p < friction_; ++p) {
+      const Scalar gain = innovation_.with_unknown[p] * innovation_.precision,
+                   left = state_.covariance[p][p] - gain * innovation_.with_unknown[p],
+                   off = innovation_.updated_mean[p] - state_.linearized_at[p];
+      if (off * off > nonlinearity * nonlinearity * left) return true;
+    }
+    return false;
+  }
   /// After innovate(): the mean that would follow.
   const Values& updated_mean() const { return innovation_.updated_mean; }
   /// After innovate(), or where that found a contradiction: how far the reading was off, and the variance of

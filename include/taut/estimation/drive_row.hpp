@@ -4,6 +4,7 @@
 
 #include "taut/estimation/drive.hpp"
 #include "taut/estimation/learning.hpp"
+#include "taut/estimation/leg.hpp"
 #include "taut/estimation/load_memory.hpp"
 #include "taut/estimation/look_ahead.hpp"
 
@@ -46,7 +47,14 @@ template <class Parts>
   begin_row(parts);
   progress = drive(
       tracker, jacks, corners, jacks.target(sample), event_budget,
-      [&](int k) { remember_reversal(parts, k); }, [&](int k) { remember_load(parts, k, sample); },
+      [&](int k) {
+        remember_reversal(parts, k);
+        begin_leg(parts, k);
+      },
+      [&](int k) {
+        remember_load(parts, k, sample);
+        forget_leg(parts);
+      },
       [&](int c) { return parts.filter.relative_deviation(tracker, c); });
   if (corners.any() || progress.events > 0) parts.far_ends.restart();
   if (!progress.status || progress.fraction < 1) return false;

@@ -72,6 +72,7 @@ class Estimator {
     typename GaugesType::State gauges;
     Confirmed confirmed;
     bool is_ahead = false;  ///< of what is confirmed; else that has no meaning
+    FixedArray<typename Parts::Leg, Parts::legs> leg;
     typename ForceWatchType::State forces;
   };
 
@@ -99,8 +100,9 @@ class Estimator {
   Progress<Scalar> come_down(const ReadingsType& first);
   /// The state between two rows. Cost: a copy of it.
   State save() const {
-    return {parts_.tracker.save(), parts_.jacks.save(), parts_.filter.save(), parts_.far_ends.save(),
-            parts_.gauges.save(),  parts_.confirmed,    parts_.is_ahead,      parts_.forces.save()};
+    return {parts_.tracker.save(),  parts_.jacks.save(),  parts_.filter.save(),
+            parts_.far_ends.save(), parts_.gauges.save(), parts_.confirmed,
+            parts_.is_ahead,        parts_.leg,           parts_.forces.save()};
   }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `capacity_exceeded` if and
   /// only if start() would, and with `bad_sample` if the state is none of this scene or was saved before
@@ -121,6 +123,7 @@ class Estimator {
     parts_.forces.restore(state.forces);
     parts_.confirmed = state.confirmed;
     parts_.is_ahead = state.is_ahead;
+    parts_.leg = state.leg;
     return parts_.tracker.restore(condensed, parts_.filter.friction(linear_part(condensed)), state.tracker,
                                   load_errors(parts_));
   }
@@ -213,6 +216,7 @@ class Estimator {
     parts_.limits = limits;
     parts_.alarms.clear();
     parts_.is_belief_fine = parts_.is_ahead = parts_.misfits = false;
+    forget_leg(parts_);
     parts_.forces.start();
     return number_unknowns(parts_, condensed, prior, gauges);
   }
@@ -306,8 +310,8 @@ void Estimator<CondensedType, Parameters, Further>::take_stroke(int cable, std::
 template <class CondensedType, int Parameters, int Further>
 void Estimator<CondensedType, Parameters, Further>::take_strut(const typename CondensedType::Struts& rows,
                                                                int strut, Scalar reading, Gauge gauge) {
-  take_gauge(parts_, foretell_strut(parts_, rows, strut), reading, gauge,
-             Alarm::of(Alarm::Kind::strut, -1, strut));
+  take_gauge<WhileSliding>(parts_, foretell_strut(parts_, rows, strut), reading, gauge,
+                           Alarm::of(Alarm::Kind::strut, -1, strut));
 }
 
 template <class CondensedType, int Parameters, int Further>
@@ -317,16 +321,17 @@ void Estimator<CondensedType, Parameters, Further>::take_stroke(int cable, std::
   if (k < 0 || parts_.jacks[k].locked) return;
   // A mark is made once slack has been taken out.
   if (parts_.gauges.has(gauge) && parts_.gauges.lacks_mark(gauge) && !parts_.is_bedded(k)) return;
-  take_gauge(parts_, foretell_stroke(parts_, k), reading, gauge,
-             Parts::alarm_at(Alarm::Kind::elongation, parts_.jacks.end(k)), false);
+  take_gauge<AlongLeg>(parts_, foretell_stroke(parts_, k), reading, gauge,
+                       Parts::alarm_at(Alarm::Kind::elongation, parts_.jacks.end(k)));
 }
 
 template <class CondensedType, int Parameters, int Further>
 void Estimator<CondensedType, Parameters, Further>::take_segment(int segment, Scalar reading, Gauge gauge) {
   if (!parts_.gauges.has(gauge)) return;
   const int c = parts_.cable_of(segment);
-  take_gauge(parts_, foretell_segment(parts_, segment), reading, gauge,
-             Alarm::of(Alarm::Kind::segment, c, segment - parts_.model().cables[c].first_segment));
+  take_gauge<WhileSliding>(
+      parts_, foretell_segment(parts_, segment), reading, gauge,
+      Alarm::of(Alarm::Kind::segment, c, segment - parts_.model().cables[c].first_segment));
 }
 
 template <class CondensedType, int Parameters, int Further>

@@ -49,6 +49,17 @@ struct EstimatorParts : CondensedType::Capacity::Account {
     Drives jack;
   };
 
+  using Values = typename FilterType::Values;
+
+  /// Where the way of a jack began that it is on, see begin_leg().
+  struct Leg {
+    typename TrackerType::State from;
+    Values linearized_at;  ///< where the model was linearized there
+    bool is_known = false;
+  };
+  /// Only strokes are compared all along it.
+  static constexpr int legs = Cap::strokes && Further > 0 ? 1 : 0;
+
   // What every row needs comes first: instructions reach it directly.
   AlarmLimits<Scalar> limits = {0, 0, 0, 0, 0, 0, 0};  ///< all zeros until start(): no flash to copy from
   bool is_belief_fine = false;  ///< nothing is odd about what is believed of friction and gains
@@ -61,6 +72,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   ForceWatchType forces;
   Alarms alarms;
   Confirmed confirmed;
+  FixedArray<Leg, legs> leg;
   bool is_ahead = false;  ///< of what is confirmed
   bool misfits = false;   ///< some load cell at an anchored end is off the model
 
@@ -107,7 +119,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   }
   /// What is read of forces cannot be compared with those of loads that may be others.
   bool loads_are_in_doubt() const { return jacks.may_have_reversed() || jacks.has_refused(); }
-  /// Nothing is learned where the tracker is ahead: what is read belongs to no place that is confirmed.
+  /// Forces teach nothing where the tracker is ahead: what is read belongs to no place that is confirmed.
   bool can_learn() const { return filter.belief().has_friction() && !is_ahead && !loads_are_in_doubt(); }
 
   // What is known of a segment.

@@ -40,6 +40,7 @@ class FrictionFilter {
   using TrackerType = Tracker<CondensedType, Parameters>;
   using PriorType = FrictionPrior<Scalar, Cap>;
   using BeliefType = Belief<Scalar, Parameters + Further, max_jacks<Cap>>;
+  using Values = typename BeliefType::Values;
   using PredictionType = typename BeliefType::PredictionType;
   using JackReadings = typename BeliefType::JackReadings;
   using State = typename BeliefType::State;
@@ -191,12 +192,18 @@ class FrictionFilter {
   template <class Predict>
   [[nodiscard]] Update update(TrackerType& tracker, const Predict& predict, const JackReadings& jacks,
                               const Measured<Scalar>& measured) {
+    return update_by([&] { return belief_.is_nonlinear() && relinearize(tracker, belief_.updated_mean()); },
+                     predict, jacks, measured);
+  }
+  /// The same with another rule: comes_closer(), after Belief::innovate(), returns whether it has brought the
+  /// tracker to the mean that would follow.
+  template <class ComesCloser, class Predict>
+  [[nodiscard]] Update update_by(const ComesCloser& comes_closer, const Predict& predict,
+                                 const JackReadings& jacks, const Measured<Scalar>& measured) {
     belief_.update_errors(jacks);
     for (int iteration = 1;; ++iteration) {
       if (!belief_.innovate(prediction_, jacks, measured)) return Update::contradiction;
-      const bool goes_on = belief_.is_nonlinear() && relinearize(tracker, belief_.updated_mean()) &&
-                           iteration < most_iterations;
-      if (!goes_on) {
+      if (!comes_closer() || iteration == most_iterations) {
         belief_.update();
         return Update::updated;
       }
@@ -283,9 +290,19 @@ class FrictionFilter {
     belief_.renew(p, sd);
   }
 
- private:
-  using Values = typename BeliefType::Values;
+  /// Brings the tracker to these values of the unknowns. False if it has no state there: then it stays.
+  bool relinearize(TrackerType& tracker, const Values& values) {
+    const Values before = belief_.save().linearized_at, change = belief_.linearize_at(values);
+    if (tracker.adjust(friction(linear_part(tracker.condensed())), change).ok()) return true;
+    static_cast<void>(belief_.linearize_at(before));
+    static_cast<void>(tracker.stay(friction(linear_part(tracker.condensed()))).ok());
+    return false;
+  }
+  /// For who brings the tracker there in another way: the model is linearized at these values from here on.
+  /// Returns by how much each unknown moves, for Tracker::adjust().
+  Values linearize_at(const Values& values) { return belief_.linearize_at(values); }
 
+ private:
   /// Whether a joint that sticks would with every mu that is likely. Struts that the cable alone holds hardly
   /// ever let it slide: what they leave to friction follows from how they lean.
   bool holds_for_sure(const TrackerType& tracker, int joint) const {
@@ -340,14 +357,6 @@ class FrictionFilter {
   /// Unknown `p` will mean something else: what is known of it goes into the tracker.
   void keep_what_is_known(TrackerType& tracker, int p) {
     if (belief_.mean(p) != belief_.linearized_at(p)) static_cast<void>(relinearize(tracker, belief_.mean()));
-  }
-  /// Brings the tracker to these values of the unknowns. False if it has no state there: then it stays.
-  bool relinearize(TrackerType& tracker, const Values& values) {
-    const Values before = belief_.save().linearized_at, change = belief_.linearize_at(values);
-    if (tracker.adjust(friction(linear_part(tracker.condensed())), change).ok()) return true;
-    static_cast<void>(belief_.linearize_at(before));
-    static_cast<void>(tracker.stay(friction(linear_part(tracker.condensed()))).ok());
-    return false;
   }
   /// Whether friction of cable `c` matters to the predicted number.
   template <class CableLayout>

@@ -27,6 +27,7 @@ class JackLoads {
   static constexpr int capacity = max_jacks<Cap>;
   using Load = JackLoad<Scalar, Reversals>;
   using SampleType = Sample<Scalar, Cap>;
+  using Readings = FixedList<JackReading<Scalar>, capacity>;
   /// All that is known of loads, between two rows.
   struct State {
     FixedArray<Scalar, Cap::loads> factor;  ///< where the tracker was driven to [-]
@@ -68,8 +69,8 @@ class JackLoads {
     return -1;
   }
   /// Every load as the measurements of the row see it.
-  FixedList<JackReading<Scalar>, capacity> readings(const FrictionPrior<Scalar, Cap>& prior) const {
-    FixedList<JackReading<Scalar>, capacity> all;
+  Readings readings(const FrictionPrior<Scalar, Cap>& prior) const {
+    Readings all;
     for (int k = 0; k < size(); ++k) all.add(state_.jack[k].reading(in(prior.cell, k)));
     return all;
   }

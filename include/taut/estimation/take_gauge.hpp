@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "taut/estimation/learning.hpp"
+#include "taut/estimation/leg.hpp"
 #include "taut/estimation/look_ahead.hpp"
 #include "taut/estimation/prediction.hpp"
 
@@ -74,27 +75,55 @@ bool is_sure(const Parts& parts, int cable, typename Parts::Scalar sd) {
   return true;
 }
 
-/// A reading of an instrument with unknowns of its own. `needs_sliding`: it counts only while cables surely
-/// slide, for what lies behind joints that stick has no derivative to go by. The extension of a jack has one
-/// all the way back from a turn, as joint after joint begins to slide. Cost: that of take_measurement().
-template <class Parts, class Predict>
+/// Readings of forces count only while cables surely slide, and where the loads are confirmed to have come:
+/// what lies behind joints that stick has no derivative to go by.
+template <class Parts>
+struct WhileSliding {
+  Parts& parts;
+  bool can_learn() const { return parts.can_learn(); }
+  bool is_sure(int cable, typename Parts::Scalar sd) const { return taut::is_sure(parts, cable, sd); }
+  bool comes_closer() const {
+    const auto& belief = parts.filter.belief();
+    return belief.is_nonlinear() && parts.filter.relinearize(parts.tracker, belief.updated_mean());
+  }
+};
+
+/// Strokes count all the way back from a turn, as joint after joint begins to slide: there the extension has
+/// a derivative, which each of them changes.
+template <class Parts>
+struct AlongLeg {
+  Parts& parts;
+  bool can_learn() const { return parts.filter.belief().has_friction() && !parts.loads_are_in_doubt(); }
+  bool is_sure(int, typename Parts::Scalar) const { return true; }
+  bool comes_closer() const {
+    const auto& belief = parts.filter.belief();
+    return (belief.is_nonlinear() || belief.moves_friction()) && relinearize(parts, belief.updated_mean());
+  }
+};
+
+/// A reading of an instrument with unknowns of its own, which counts by `Rule`. Cost: that of
+/// take_measurement(), or AlongLeg, four times that of relinearize().
+template <template <class> class Rule, class Parts, class Predict>
 void take_gauge(Parts& parts, const Predict& predict, typename Parts::Scalar reading, Gauge gauge,
-                const Alarm& contradiction, bool needs_sliding = true) {
+                const Alarm& contradiction) {
   using Scalar = typename Parts::Scalar;
   auto& gauges = parts.gauges;
   auto& filter = parts.filter;
+  const Rule<Parts> rule{parts};
   if (!gauges.has(gauge) || !std::isfinite(reading)) return;
   gauges.follow_noise(gauge, reading);
-  if (!parts.can_learn() || !gauges.is_due(gauge)) return;
+  if (!rule.can_learn() || !gauges.is_due(gauge)) return;
+  typename Parts::JacksType::Readings jacks;
   const auto predict_reading = [&](auto& prediction) {
     predict(prediction);
     gauges.depend(gauge, prediction);
+    // Where the tracker was driven to may have changed.
+    jacks = parts.jacks.readings(filter.prior());
   };
   const Scalar sd = gauges.sd(gauge);
   wait_for_none(parts);
   predict_reading(filter.prediction());
-  if (needs_sliding && !is_sure(parts, contradiction.cable, sd)) return look_ahead(parts);
-  const auto jacks = parts.jacks.readings(filter.prior());
+  if (!rule.is_sure(contradiction.cable, sd)) return look_ahead(parts);
   if (gauges.lacks_mark(gauge)) {
     const Expected<Scalar> expected = filter.belief().expect(filter.prediction(), jacks, sd);
     gauges.set_mark(gauge, reading - expected.value);
@@ -102,7 +131,8 @@ void take_gauge(Parts& parts, const Predict& predict, typename Parts::Scalar rea
   }
   gauges.count(gauge);
   note(parts,
-       filter.update(parts.tracker, predict_reading, jacks, {reading - gauges.mark(gauge), sd, Scalar(0)}),
+       filter.update_by([&rule] { return rule.comes_closer(); }, predict_reading, jacks,
+                        {reading - gauges.mark(gauge), sd, Scalar(0)}),
        contradiction);
   look_ahead(parts);
 }

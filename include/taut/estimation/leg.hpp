@@ -1,0 +1,90 @@
+// The way of a jack since it turned last, which is gone anew where friction turns out to be another one.
+#pragma once
+
+#include "taut/estimation/estimator_unknowns.hpp"
+#include "taut/estimation/look_ahead.hpp"
+
+namespace taut {
+
+/// No jack is on a way that could be gone anew.
+template <class Parts>
+void forget_leg(Parts& parts) {
+  if constexpr (Parts::legs > 0) parts.leg[0].is_known = false;
+}
+
+/// Jack `k` has turned here, or was locked, and what friction remembers of that is known. Cost: that of
+/// Tracker::save().
+template <class Parts>
+void begin_leg(Parts& parts, int k) {
+  if constexpr (Parts::legs > 0) {
+    if (parts.gauges.size() == 0) return;
+    auto& leg = parts.leg[0];
+    leg.is_known = !parts.jacks[k].locked;
+    if (!leg.is_known) return;
+    leg.from = parts.tracker.save();
+    leg.linearized_at = parts.filter.belief().save().linearized_at;
+  }
+}
+
+/// Whether the load of one jack alone has changed since it began: the way was straight.
+template <class Parts>
+bool is_on_leg(const Parts& parts) {
+  if (!parts.leg[0].is_known) return false;
+  const auto& from = parts.leg[0].from.now;
+  const auto& to = parts.tracker.loads();
+  for (int i = 0; i < parts.patterns(); ++i)
+    if (from.factor[i] != to.factor[i]) return false;
+  int moved = 0;
+  for (int k = 0; k < parts.jacks.size(); ++k) {
+    const auto& before = parts.jacks.in(from.jack, k);
+    const auto& now = parts.jacks.in(to.jack, k);
+    if (before.locked != now.locked) return false;
+    if (!now.locked && before.force != now.force) ++moved;
+  }
+  return moved < 2;
+}
+
+/// Goes the leg anew with friction at these values of the unknowns; the tracker is not ahead. False if that
+/// cannot be: then all is as it was. Cost: those of Tracker::restore(), adjust() and a path.
+template <class Parts>
+bool go_leg_anew(Parts& parts, const typename Parts::Values& values) {
+  auto& tracker = parts.tracker;
+  auto& filter = parts.filter;
+  const auto& condensed = tracker.condensed();
+  const auto to = parts.jacks.driven(parts.patterns());
+  const auto before = filter.belief().save().linearized_at;
+  // Not in use while the tracker is not ahead.
+  auto& here = parts.confirmed.tracker = tracker.save();
+  const auto restore = [&](const auto& state) {
+    return tracker.restore(condensed, filter.friction(parts.linear()), state, load_errors(parts)).ok();
+  };
+  static_cast<void>(filter.linearize_at(parts.leg[0].linearized_at));
+  bool is_there = restore(parts.leg[0].from);
+  const auto change = filter.linearize_at(values);
+  is_there = is_there && tracker.adjust(filter.friction(parts.linear()), change).ok();
+  if (is_there) {
+    const auto progress = tracker.advance(to);
+    is_there = progress.status.ok() && !(progress.fraction < 1);
+  }
+  if (is_there) return true;
+  static_cast<void>(filter.linearize_at(before));
+  static_cast<void>(restore(here));
+  return false;
+}
+
+/// Brings the tracker to these values of the unknowns, and ahead again if it was. Where a jack comes back,
+/// how far each joint has slid depends on friction, and not in proportion: the leg is gone anew. What came
+/// before is moved by its derivatives, which is exact where all joints slid. False if there is no state
+/// there: then the tracker stays. Cost: that of go_leg_anew(), and of look_ahead().
+template <class Parts>
+bool relinearize(Parts& parts, const typename Parts::Values& values) {
+  const bool was_ahead = parts.is_ahead;
+  go_back(parts);
+  bool is_there = false;
+  if constexpr (Parts::legs > 0) is_there = is_on_leg(parts) && go_leg_anew(parts, values);
+  if (!is_there) is_there = parts.filter.relinearize(parts.tracker, values);
+  if (was_ahead) look_ahead(parts);
+  return is_there;
+}
+
+}  // namespace taut
