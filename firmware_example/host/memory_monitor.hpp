@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/memory_board.hpp"
+#include "host/shared_estimators.hpp"
 #include "monitor/modbus_slave.hpp"
 #include "monitor/scenes.hpp"
 

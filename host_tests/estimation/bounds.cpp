@@ -27,8 +27,7 @@ struct Bounded {
       support::truss_string(scene, cable, 6);
     else
       support::rigid_saddles(scene, cable, support::chain_points(7));
-    static taut::Condensation<double, Plane> condensation;
-    REQUIRE(condensation.run(scene, model).ok());
+    REQUIRE(support::condense(scene, model).ok());
     taut::find_friction_prior(scene, known);
   }
 };
@@ -41,9 +40,8 @@ TEST_CASE("no history leads outside of the bounds that its last readings give") 
     given.make(random.coin(), 0.2, 0.04);
     Plane actual = given.scene;
     for (int j = 0; j < actual.mu.size(); ++j) actual.mu[j] = random.between(0.12, 0.28);
-    static taut::Condensation<double, Plane> condensation;
     Model truth;
-    REQUIRE(condensation.run(actual, truth).ok());
+    REQUIRE(support::condense(actual, truth).ok());
     const auto tracker = std::make_unique<taut::Tracker<Model>>();
     REQUIRE(tracker->start(truth).status.ok());
     for (int turn = 0; turn < 6; ++turn) {
@@ -113,8 +111,7 @@ TEST_CASE("without a reading there are no bounds, and nothing is carried over a 
   Ranges ranges;
   CHECK(!taut::find_bounds(given.model, given.known, {}, 0, ranges));
   given.scene.mu[2] = 50;
-  static taut::Condensation<double, Plane> condensation;
-  REQUIRE(condensation.run(given.scene, given.model).ok());
+  REQUIRE(support::condense(given.scene, given.model).ok());
   taut::find_friction_prior(given.scene, given.known);
   const std::array<taut::EndReading<double>, 2> ends{{{}, {true, false, full, 0}}};
   REQUIRE(taut::find_bounds(given.model, given.known, ends, 0, ranges));

@@ -77,7 +77,6 @@ TEST_CASE("derivatives by the strain of a locked cable are those of trackers wit
   static Plane scene;
   static Model model;
   static Known known;
-  static taut::Condensation<double, Plane> condensation;
   int held = 0, free = 0;
   for (const bool elastic : {false, true})
     for (const std::size_t end : {0U, 1U}) {
@@ -88,7 +87,7 @@ TEST_CASE("derivatives by the strain of a locked cable are those of trackers wit
       cable.alpha = alpha;
       cable.temperature_sd = 10;
       make_scene(scene, cable, elastic, true);
-      REQUIRE(condensation.run(scene, model).ok());
+      REQUIRE(support::condense(scene, model).ok());
       taut::find_friction_prior(scene, known);
       CHECK(known.drift_sd[0] == alpha * 10);
       const auto trackers = three_followers(model, known);
@@ -125,12 +124,11 @@ TEST_CASE("between rigid saddles a strain takes E A times as much of every force
   static Plane scene;
   static Model model;
   static Known known;
-  static taut::Condensation<double, Plane> condensation;
   taut::Cable<double> cable = support::steel_cable(0.2);
   cable.alpha = alpha;
   cable.temperature_sd = 10;
   make_scene(scene, cable, false, true);
-  REQUIRE(condensation.run(scene, model).ok());
+  REQUIRE(support::condense(scene, model).ok());
   taut::find_friction_prior(scene, known);
   static Follower tracker;
   REQUIRE(tracker.start(model).status.ok());

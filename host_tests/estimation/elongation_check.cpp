@@ -73,8 +73,7 @@ class Site {
     if (jacking.force_noise == 0) cable.cell[0].sd = 1e-4 * highest;
     Plane scene;
     support::rigid_saddles(scene, cable, points);
-    const auto condensation = std::make_unique<taut::Condensation<Scalar, Plane>>();
-    REQUIRE(condensation->run(scene, model_).ok());
+    REQUIRE(support::condense(scene, model_).ok());
     taut::find_friction_prior(scene, prior_);
     REQUIRE(estimator_.start(model_, prior_).status.ok());
   }
@@ -112,7 +111,7 @@ class Site {
   Random random_;
   taut::Condensed<Scalar, PlaneCapacity> model_;
   taut::FrictionPrior<Scalar, PlaneCapacity> prior_;
-  taut::Estimator<taut::Condensed<Scalar, PlaneCapacity>, 8> estimator_;
+  taut::Estimator<taut::Condensed<Scalar, PlaneCapacity>, most_unknowns> estimator_;
 };
 
 template <class Scalar = double>

@@ -10,7 +10,7 @@
 
 namespace estimation {
 
-using Follower = taut::Tracker<taut::Condensed<double, PlaneCapacity>, 3>;
+using Follower = taut::Tracker<taut::Condensed<double, PlaneCapacity>, most_unknowns>;
 
 /// Three of them, begun with what is known of a scene of one cable: one mu, unknown 0.
 inline std::unique_ptr<std::array<Follower, 3>> three_followers(

@@ -83,11 +83,10 @@ TEST_CASE("a restored estimator keeps the episode and its peak") {
   static Ground ground;
   support::rigid_saddles(ground.known, support::steel_cable(0.2), support::chain_points(7));
   static taut::Condensed<double, PlaneCapacity> model;
-  static taut::Condensation<double, Plane> condensation;
-  REQUIRE(condensation.run(ground.known, model).ok());
+  REQUIRE(support::condense(ground.known, model).ok());
   taut::FrictionPrior<double, PlaneCapacity> prior;
   taut::find_friction_prior(ground.known, prior);
-  using Estimator = taut::Estimator<taut::Condensed<double, PlaneCapacity>, 4>;
+  using Estimator = taut::Estimator<taut::Condensed<double, PlaneCapacity>, most_unknowns>;
   const auto estimator = std::make_unique<Estimator>(), restored = std::make_unique<Estimator>();
   const auto limits = between(-1, full);
   REQUIRE(estimator->start(model, prior, limits).status.ok());

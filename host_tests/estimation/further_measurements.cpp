@@ -205,7 +205,6 @@ TEST_CASE("the stroke of a locked end tells nothing") {
 
 using Model = taut::Condensed<double, PlaneCapacity>;
 using Row = taut::Sample<double, PlaneCapacity>;
-constexpr int most_unknowns = PlaneCapacity::joints + 4;
 using Estimator = taut::Estimator<Model, most_unknowns>;
 
 /// A truss string with any dimensions and an exact jack, followed along a log.
@@ -220,8 +219,7 @@ struct Followed {
     scene = original;
     for (int j = 0; j < scene.mu.size(); ++j)
       if (joint < 0 || j == joint) scene.mu[j] += by;
-    static taut::Condensation<double, Plane> condensation;
-    REQUIRE(condensation.run(scene, model, &rows).ok());
+    REQUIRE(support::condense(scene, model, &rows).ok());
     taut::find_friction_prior(scene, known);
     REQUIRE(estimator.start(model, known).status.ok());
     for (const double force : log) advance(force);
@@ -338,11 +336,10 @@ TEST_CASE("a gauge between two cables tells something only while both slide or o
   // Beside the first one, over the same nodes.
   const int path[] = {0, 14, 15, 16, 17, 18, 12};
   REQUIRE(scene.add_cable(cable, path, 7) == 1);
-  static taut::Condensation<double, Plane> condensation;
   static Model model;
   static taut::CondensedStruts<double, PlaneCapacity> rows;
   static taut::FrictionPrior<double, PlaneCapacity> known;
-  REQUIRE(condensation.run(scene, model, &rows).ok());
+  REQUIRE(support::condense(scene, model, &rows).ok());
   taut::find_friction_prior(scene, known);
   const auto estimator = std::make_unique<Estimator>();
   REQUIRE(estimator->start(model, known).status.ok());

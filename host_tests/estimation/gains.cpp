@@ -27,7 +27,6 @@ struct Truth {
 /// In how many rows of a ramp and a release the alarm is raised; `gain_sd` is what is said of both cells.
 int rows_with_alarm(const Truth& truth, double gain_sd, double tolerance, std::uint64_t seed) {
   static Plane scene;
-  static taut::Condensation<double, Plane> condensation;
   static Model model;
   static taut::FrictionPrior<double, PlaneCapacity> known;
   taut::Cable<double> cable = support::steel_cable(0.2);
@@ -38,7 +37,7 @@ int rows_with_alarm(const Truth& truth, double gain_sd, double tolerance, std::u
     cell.gain_sd = gain_sd;
   }
   support::rigid_saddles(scene, cable, support::chain_points(6));
-  REQUIRE(condensation.run(scene, model).ok());
+  REQUIRE(support::condense(scene, model).ok());
   taut::find_friction_prior(scene, known);
   // All of friction from end to end; in truth there is a tenth more of it in the exponent.
   double held = 1;

@@ -20,7 +20,6 @@ TEST_CASE("a jack reverses with the friction that a gauge has taught, not with t
   cable.cell[1].sd = 2e-3 * full;
   support::rigid_saddles(ground.known, cable, support::chain_points(8));
   ground.set_true_mu(std::vector<double>(16, 0.21));
-  const auto condensation = std::make_unique<taut::Condensation<double, Plane>>();
   const auto known = std::make_unique<Model>(), actual = std::make_unique<Model>();
   const auto truth = std::make_unique<taut::Tracker<Model>>();
   const auto estimator = std::make_unique<Estimator>();
@@ -29,8 +28,8 @@ TEST_CASE("a jack reverses with the friction that a gauge has taught, not with t
   taut::LoadCell<double> gauge;
   gauge.sd = 0.2 * full;
   const std::vector<taut::LoadCell<double>> gauges = {gauge};
-  REQUIRE(condensation->run(ground.known, *known).ok());
-  REQUIRE(condensation->run(ground.actual, *actual).ok());
+  REQUIRE(support::condense(ground.known, *known).ok());
+  REQUIRE(support::condense(ground.actual, *actual).ok());
   REQUIRE(truth->start(*actual).status.ok());
   REQUIRE(estimator->start(*known, prior, {}, gauges).status.ok());
   support::Random random(1);

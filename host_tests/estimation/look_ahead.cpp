@@ -210,7 +210,6 @@ TEST_CASE("beside a cable that nobody has pulled yet it learns as beside none") 
   cable.cell[0].sd = cable.cell[1].sd = 0.002 * full;
   const auto learned = [&](bool elastic, bool has_second) {
     static Plane scene;
-    static taut::Condensation<double, Plane> condensation;
     static Model model;
     static taut::FrictionPrior<double, PlaneCapacity> known;
     if (elastic)
@@ -219,11 +218,11 @@ TEST_CASE("beside a cable that nobody has pulled yet it learns as beside none") 
       support::rigid_saddles(scene, cable, support::chain_points(6));
     const int below[] = {0, 14, 15, 16, 17, 18, 12}, over[] = {0, 1, 2, 3, 4, 5, 6};
     if (has_second) REQUIRE(scene.add_cable(cable, elastic ? below : over, 7) == 1);
-    REQUIRE(condensation.run(scene, model).ok());
+    REQUIRE(support::condense(scene, model).ok());
     taut::find_friction_prior(scene, known);
     taut::Tracker<Model> truth;
     REQUIRE(truth.start(model).status.ok());
-    const auto estimator = std::make_unique<taut::Estimator<Model, PlaneCapacity::joints + 8>>();
+    const auto estimator = std::make_unique<taut::Estimator<Model, most_unknowns>>();
     REQUIRE(estimator->start(model, known).status.ok());
     Random random(1);
     for (int i = 1; i <= 100; ++i) {
@@ -287,11 +286,10 @@ TEST_CASE("where a load lags its best estimate by many events, none is decided a
   taut::Cable<double> cable = support::steel_cable(0.2);
   cable.cell[1].sd = 0.005 * full;
   static Plane scene;
-  static taut::Condensation<double, Plane> condensation;
   static Model model;
   static taut::FrictionPrior<double, PlaneCapacity> known;
   support::rigid_saddles(scene, cable, support::chain_points(10));
-  REQUIRE(condensation.run(scene, model).ok());
+  REQUIRE(support::condense(scene, model).ok());
   taut::find_friction_prior(scene, known);
   const auto decisions = [](const auto& follow) {
     support::RoutesTaken::counts() = {};
@@ -315,7 +313,7 @@ TEST_CASE("where a load lags its best estimate by many events, none is decided a
   int ahead = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
-    const auto estimator = std::make_unique<taut::Estimator<Model, PlaneCapacity::joints + 8>>();
+    const auto estimator = std::make_unique<taut::Estimator<Model, most_unknowns>>();
     REQUIRE(estimator->start(model, known).status.ok());
     Random random(seed);
     const long taken = decisions([&] {

@@ -50,9 +50,8 @@ TEST_CASE("derivatives by the load that friction came to rest at are those of tr
   static Plane scene;
   static Model model;
   static Known known;
-  static taut::Condensation<double, Plane> condensation;
   support::truss_string(scene, support::steel_cable(0.2), 6);
-  REQUIRE(condensation.run(scene, model).ok());
+  REQUIRE(support::condense(scene, model).ok());
   taut::find_friction_prior(scene, known);
   int remembered = 0, compared = 0;
   for (const double during : {0.52, 0.6})

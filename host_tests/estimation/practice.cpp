@@ -81,7 +81,6 @@ bool compare(std::uint64_t seed, Errors& errors) {
   const auto site = std::make_unique<Site<double>>(ground, with_cell, full, seed),
              alone = std::make_unique<Site<double>>(ground, without, full, seed);
 
-  static taut::Condensation<double, Plane> condensation;
   const auto locked_model = std::make_unique<Model>(), nominal_model = std::make_unique<Model>();
   const auto locked = std::make_unique<taut::Tracker<Model>>(),
              nominal = std::make_unique<taut::Tracker<Model>>();
@@ -89,8 +88,8 @@ bool compare(std::uint64_t seed, Errors& errors) {
   glued = ground.known;
   for (int j = 0; j < glued.mu.size(); ++j) glued.mu[j] = 50;
   glued.cables[0].law = taut::FrictionLaw::point;
-  bool good = condensation.run(ground.known, *nominal_model).ok() &&
-              nominal->start(*nominal_model).status.ok() && condensation.run(glued, *locked_model).ok() &&
+  bool good = support::condense(ground.known, *nominal_model).ok() &&
+              nominal->start(*nominal_model).status.ok() && support::condense(glued, *locked_model).ok() &&
               locked->start(*locked_model).status.ok();
   taut::FrictionPrior<double, PlaneCapacity> prior;
   taut::find_friction_prior(ground.known, prior);

@@ -19,7 +19,7 @@ constexpr double up = 1.04, down = 0.95;
 class Pressed {
  public:
   using Model = taut::Condensed<double, PlaneCapacity>;
-  using Estimator = taut::Estimator<Model, PlaneCapacity::joints + 4>;
+  using Estimator = taut::Estimator<Model, most_unknowns>;
 
   Pressed(bool elastic, double sd, std::uint64_t seed) : sd_(sd), random_(seed) {
     taut::Cable<double> cable = support::steel_cable(0.2);
@@ -34,9 +34,8 @@ class Pressed {
       support::rigid_saddles(ground_.known, cable, support::chain_points(7));
     ground_.set_true_mu(std::vector<double>(16, 0.22));
     taut::find_friction_prior(ground_.known, prior_);
-    const auto condensation = std::make_unique<taut::Condensation<double, Plane>>();
-    REQUIRE(condensation->run(ground_.known, model_).ok());
-    REQUIRE(condensation->run(ground_.actual, truth_model_).ok());
+    REQUIRE(support::condense(ground_.known, model_).ok());
+    REQUIRE(support::condense(ground_.actual, truth_model_).ok());
     REQUIRE(truth_.start(truth_model_).status.ok());
     REQUIRE(estimator.start(model_, prior_).status.ok());
   }

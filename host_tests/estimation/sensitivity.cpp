@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "support/run.hpp"
 #include "support/scenes.hpp"
 #include "taut/taut.hpp"
 
@@ -28,8 +29,7 @@ struct Varied {
   Varied(const Plane& original, bool shared, int parameter, double by) : scene(original) {
     for (int j = 0; j < scene.mu.size(); ++j)
       if (shared || j == parameter) scene.mu[j] += by;
-    taut::Condensation<double, Plane> condensation;
-    REQUIRE(condensation.run(scene, model).ok());
+    REQUIRE(support::condense(scene, model).ok());
     taut::find_friction_prior(scene, known);
   }
   auto friction(bool shared) const {

@@ -248,8 +248,7 @@ TEST_CASE("more unknowns than there is room for are refused with how many are mi
   make_ground(ground, false, 0.2, 0.02, 0.2, false);
   ground.known.cables[0].cell = {};
   taut::Condensed<double, PlaneCapacity> model;
-  static taut::Condensation<double, Plane> condensation;
-  REQUIRE(condensation.run(ground.known, model).ok());
+  REQUIRE(support::condense(ground.known, model).ok());
   taut::FrictionPrior<double, PlaneCapacity> prior;
   taut::find_friction_prior(ground.known, prior);
   taut::Estimator<taut::Condensed<double, PlaneCapacity>, 4> estimator;
@@ -263,14 +262,13 @@ struct Pulled {
   Plane scene;
   taut::Condensed<double, PlaneCapacity> model;
   taut::FrictionPrior<double, PlaneCapacity> prior;
-  taut::Estimator<taut::Condensed<double, PlaneCapacity>, 8> estimator;
+  taut::Estimator<taut::Condensed<double, PlaneCapacity>, most_unknowns> estimator;
 
   void make(const std::array<taut::End, 2>& ends, const std::array<double, 2>& sensor_sd) {
     taut::Cable<double> cable = support::steel_cable(0.2, ends);
     for (std::size_t end = 0; end < 2; ++end) cable.cell[end].sd = sensor_sd[end];
     support::rigid_saddles(scene, cable, support::chain_points(7));
-    static taut::Condensation<double, Plane> condensation;
-    REQUIRE(condensation.run(scene, model).ok());
+    REQUIRE(support::condense(scene, model).ok());
     taut::find_friction_prior(scene, prior);
     REQUIRE(estimator.start(model, prior).status.ok());
   }

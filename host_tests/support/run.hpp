@@ -23,6 +23,13 @@ taut::Sample<Scalar, Cap> rounded(const taut::Sample<Given, Cap>& sample) {
   return copy;
 }
 
+/// What is given is filled: the forces of struts, and displacements.
+template <class Scalar, class SceneType>
+taut::Status condense(
+    const SceneType& scene, taut::Condensed<Scalar, typename SceneType::Capacity>& model,
+    taut::CondensedStruts<Scalar, typename SceneType::Capacity>* struts = nullptr,
+    taut::CondensedDisplacements<Scalar, typename SceneType::Capacity>* displacements = nullptr);
+
 /// A tracker with the condensed scene that it follows, somewhere on the heap.
 template <class Scalar, class SceneType>
 class Run {
@@ -77,14 +84,21 @@ class Run {
 // Outside the class, and so not inline: an instance that is declared extern is not compiled again.
 
 template <class Scalar, class SceneType>
+taut::Status condense(const SceneType& scene, taut::Condensed<Scalar, typename SceneType::Capacity>& model,
+                      taut::CondensedStruts<Scalar, typename SceneType::Capacity>* struts,
+                      taut::CondensedDisplacements<Scalar, typename SceneType::Capacity>* displacements) {
+  const auto condensation = std::make_unique<taut::Condensation<Scalar, SceneType>>();
+  return condensation->run(scene, model, struts, displacements);
+}
+
+template <class Scalar, class SceneType>
 Run<Scalar, SceneType>::Run(const SceneType& scene)
     : model_(new Model),
       struts_(new taut::CondensedStruts<Scalar, Cap>),
       displacements_(new taut::CondensedDisplacements<Scalar, Cap>),
       tracker_(new Tracker) {
-  const auto condensation = std::make_unique<taut::Condensation<Scalar, SceneType>>();
   if constexpr (Cap::displacements > 0) displacements_->add_all(scene);
-  condensed_ = condensation->run(scene, *model_, struts_.get(), displacements_.get());
+  condensed_ = condense(scene, *model_, struts_.get(), displacements_.get());
   if (condensed_) started_ = tracker_->start(*model_);
 }
 
@@ -147,6 +161,17 @@ double Run<Scalar, SceneType>::displacement(int node, int axis) const {
   return static_cast<double>(all[node * SceneType::dimension + axis]);
 }
 
+template <class Scalar, class SceneType>
+using Condense = taut::Status(const SceneType&, taut::Condensed<Scalar, typename SceneType::Capacity>&,
+                              taut::CondensedStruts<Scalar, typename SceneType::Capacity>*,
+                              taut::CondensedDisplacements<Scalar, typename SceneType::Capacity>*);
+extern template Condense<double, Plane> condense<double, Plane>;
+extern template Condense<float, Plane> condense<float, Plane>;
+extern template Condense<double, Space> condense<double, Space>;
+extern template Condense<float, Space> condense<float, Space>;
+extern template Condense<double, Saddles> condense<double, Saddles>;
+extern template Condense<float, Saddles> condense<float, Saddles>;
+
 extern template class Run<double, Plane>;
 extern template class Run<float, Plane>;
 extern template class Run<double, Space>;
@@ -155,3 +180,6 @@ extern template class Run<double, Saddles>;
 extern template class Run<float, Saddles>;
 
 }  // namespace support
+
+// Tests follow scenes by it without a Run, too.
+extern template class taut::Tracker<taut::Condensed<double, support::PlaneCapacity>>;
