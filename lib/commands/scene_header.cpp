@@ -481,8 +481,8 @@ std::string capacity_of(const CondensedCounts& counts, bool has_strokes) {
          is("segments", counts.segments) + ", " + is("joints", counts.joints) + ", " +
          is("substructures", counts.substructures) + ", " + is("loads", counts.loads) +
          (counts.leans() ? ", " + is("beams", counts.beams) + ", " + is("normals", counts.normals) : "") +
-         ";\n" + (counts.saddles ? "  static constexpr bool saddles = true;\n" : "") + has_not(counts, has_strokes) +
-         "};\n";
+         ";\n" + (counts.saddles ? "  static constexpr bool saddles = true;\n" : "") +
+         has_not(counts, has_strokes) + "};\n";
 }
 
 // A list of names that costs nothing unless it is used.
@@ -537,7 +537,8 @@ struct Shared {
 };
 
 std::string capacity(const ExportedScene& scene, const Shared& shared) {
-  if (shared.is_one) return "/// Fits the condensed scene exactly.\n" + capacity_of(shared.capacity, shared.has_strokes);
+  if (shared.is_one)
+    return "/// Fits the condensed scene exactly.\n" + capacity_of(shared.capacity, shared.has_strokes);
   if (space_of(scene) == shared.space)
     return "/// Holds every scene of this header.\n" + capacity_of(shared.capacity, shared.has_strokes);
   return "/// The same for every scene of this header.\nusing Capacity = ::" + shared.space + "::Capacity;\n";

@@ -157,9 +157,10 @@ class Estimator {
 
   /// The same of instruments with unknowns of their own: numbers in the list that start() was given. Which
   /// readings count is told by Gauges, of all but strokes those while cables surely slide; all may be handed
-  /// in. What
-  /// contradicts raises Alarm::Kind::strut, `elongation`, or `segment` for the measured force of a segment
-  /// [N].
+  /// in. What contradicts raises Alarm::Kind::strut, `elongation`, or `segment` for the measured force of a
+  /// segment [N]. Cost: an update, with at most four calls of Tracker::adjust(); of a stroke, where
+  /// Capacity::strokes has it, with at most four ways anew from where the jack turned last, each of
+  /// Tracker::restore(), adjust() and two paths.
   void take_strut(const typename CondensedType::Struts& rows, int strut, Scalar reading, Gauge gauge);
   void take_stroke(int cable, std::size_t end, Scalar reading, Gauge gauge);
   void take_segment(int segment, Scalar reading, Gauge gauge);
