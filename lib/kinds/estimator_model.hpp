@@ -71,11 +71,10 @@ class EstimatorModel : public Model {
     return below;
   }
   void forget_past() override {
-    doubt_past();
+    past_ = std::make_unique<PastType>();
     past_->forget();
   }
-  // As with the estimator, what it has no use for takes no memory: make_unique() would clear it.
-  void doubt_past() override { past_.reset(new PastType); }
+  void doubt_past() override { past_ = std::make_unique<PastType>(); }
   void deny_past() override { past_.reset(); }
   bool has_unknown_past() const override { return past_ != nullptr; }
   std::vector<LearnedFriction> learned() const override {

@@ -1,9 +1,7 @@
 // How tensions and slips change with friction that is not known, carried through stick and slip.
 #pragma once
 
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 
 #include "taut/tracking/affine_map.hpp"
@@ -85,12 +83,12 @@ class Sensitivity {
       Values values;
       for (int i = 0; i < map.active(); ++i) values[i] = static_cast<Real>(of_variable(map.variable(i), p));
       settle(due(map, p, map.base(), error_at_anchor(map, p)), T, values);
-      store(map, T, values, at(base_, p), at(base_values_, p));
+      store(map, T, values, base_[p], base_values_[p]);
       for (int k = 0; k < map.inputs(); ++k) {
         T.fill(Real(0));
         values.fill(Real(0));
         settle(due(map, p, map.column(k), error_by_input(map, p, k)), T, values);
-        store(map, T, values, at(at(column_, p), k), at(at(column_values_, p), k));
+        store(map, T, values, column_[p][k], column_values_[p][k]);
       }
     }
   }
@@ -99,14 +97,14 @@ class Sensitivity {
   template <class Values>
   Scalar tension(const Map& map, int p, int segment, const Values& x, const Values& anchor) const {
     if (p >= frozen_.used) return 0;
-    Scalar found = at(at(base_, p), segment);
+    Scalar at = base_[p][segment];
     for (int k = 0; k < map.inputs(); ++k)
-      found += static_cast<Scalar>(x[k] - anchor[k]) * at(at(at(column_, p), k), segment);
-    return found;
+      at += static_cast<Scalar>(x[k] - anchor[k]) * column_[p][k][segment];
+    return at;
   }
   /// How that changes with input `k`.
   Scalar tension_slope(int p, int k, int segment) const {
-    return p >= frozen_.used ? Scalar(0) : at(at(at(column_, p), k), segment);
+    return p >= frozen_.used ? Scalar(0) : column_[p][k][segment];
   }
 
   /// Derivatives of everything that has moved, at inputs `x`.
@@ -190,10 +188,10 @@ class Sensitivity {
 
   /// dm/dp of an active variable.
   Real derivative(const Map& map, int p, int i, const Inputs& x) const {
-    Real found = static_cast<Real>(at(at(base_values_, p), i));
+    Real at = static_cast<Real>(base_values_[p][i]);
     for (int k = 0; k < map.inputs(); ++k)
-      found += (x[k] - map.anchor()[k]) * static_cast<Real>(at(at(at(column_values_, p), k), i));
-    return found;
+      at += (x[k] - map.anchor()[k]) * static_cast<Real>(column_values_[p][k][i]);
+    return at;
   }
   bool is_force_of(const Input& input, int p) const {
     return input.kind == Input::Kind::jack_force && input.index == error_[p].jack;
@@ -229,11 +227,10 @@ class Sensitivity {
     }
     return values;
   }
-  template <class Into, class ValuesInto>
-  void store(const Map& map, const Tensions& T, const Values& values, Into& into,
-             ValuesInto& values_into) const {
-    for (int i = 0; i < Cap::segments; ++i) at(into, i) = static_cast<Scalar>(T[i]);
-    for (int i = 0; i < map.active(); ++i) at(values_into, i) = static_cast<Scalar>(values[i]);
+  void store(const Map& map, const Tensions& T, const Values& values, FixedArray<Scalar, Cap::segments>& into,
+             FixedArray<Scalar, Map::max_active>& values_into) const {
+    for (int i = 0; i < Cap::segments; ++i) into[i] = static_cast<Scalar>(T[i]);
+    for (int i = 0; i < map.active(); ++i) values_into[i] = static_cast<Scalar>(values[i]);
   }
 
   Frozen frozen_;
@@ -242,17 +239,10 @@ class Sensitivity {
   FixedArray<JackError<Scalar>, Parameters> error_;  // jack -1: none
   FixedArray<Real, Parameters>
       event_shift_;  // by how much of what was left of the path the event comes later
-  // Made with every map, for what is in use of them: not cleared before. They are most of a large tracker.
-  template <class T, int N>
-  using Uncleared = std::array<T, static_cast<std::size_t>(N)>;
-  template <class Of>
-  static auto& at(Of& of, int i) {
-    return of[static_cast<std::size_t>(i)];
-  }
-  Uncleared<Uncleared<Scalar, Cap::segments>, Parameters> base_;
-  Uncleared<Uncleared<Scalar, Map::max_active>, Parameters> base_values_;
-  Uncleared<Uncleared<Uncleared<Scalar, Cap::segments>, Map::max_inputs>, Parameters> column_;
-  Uncleared<Uncleared<Uncleared<Scalar, Map::max_active>, Map::max_inputs>, Parameters> column_values_;
+  FixedArray<FixedArray<Scalar, Cap::segments>, Parameters> base_;
+  FixedArray<FixedArray<Scalar, Map::max_active>, Parameters> base_values_;
+  FixedArray<FixedArray<FixedArray<Scalar, Cap::segments>, Map::max_inputs>, Parameters> column_;
+  FixedArray<FixedArray<FixedArray<Scalar, Map::max_active>, Map::max_inputs>, Parameters> column_values_;
 };
 
 /// Of a tracker whose friction is known: nothing is carried, and nothing done for it.
