@@ -60,7 +60,7 @@ class Stm32f405 {
   [[noreturn]] void hang();
 
   // RAM that a reset leaves alone, and flash.
-  static constexpr int memory_size = 51 * 1024;
+  static constexpr int memory_size = 48 * 1024;
   void read(int at, void* to, std::size_t count);
   void write(int at, const void* from, std::size_t count);
   using Flash = FlashController<MemoryBus>;
