@@ -63,6 +63,14 @@ class Jacking {
   int row_ = 0;
 };
 
+/// Rows that go on by `step`, `dt` apart, up from zero. Returns where that is.
+double pull(taut::JumpGuard<double>& guard, int rows, double step, double dt) {
+  double load = 0;
+  guard.start(load);
+  for (int i = 0; i < rows; ++i) CHECK_FALSE(guard.holds(load += step, dt, 100));
+  return load;
+}
+
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN(),
                  infinity = std::numeric_limits<double>::infinity();
 
@@ -201,9 +209,7 @@ TEST_CASE("a refused reading that the next one does not pass by is an outlier, h
 TEST_CASE("a plug that is tight again is believed though the load has gone farther than it ever did") {
   // Ten rows of 1 kN each; then it shows 200 kN for six rows, while the load goes on by 10 kN a row.
   taut::JumpGuard<double> guard;
-  guard.start(0);
-  double load = 0;
-  for (int i = 0; i < 10; ++i) CHECK_FALSE(guard.holds(load += 1e3, 1, 100));
+  double load = pull(guard, 10, 1e3, 1);
   for (int i = 0; i < 6; ++i) {
     load += 1e4;
     CHECK(guard.holds(2e5, 1, 100));
@@ -216,9 +222,7 @@ TEST_CASE("a plug that is tight again is believed though the load has gone farth
 
 TEST_CASE("readings that jump in every row are not believed where one is nearer than the one before") {
   taut::JumpGuard<double> guard;
-  guard.start(0);
-  double load = 0;
-  for (int i = 0; i < 10; ++i) CHECK_FALSE(guard.holds(load += 1e3, 1, 100));
+  double load = pull(guard, 10, 1e3, 1);
   for (const double wrong : {2e5, 1e5, 3e5, 6e4, 2e5, 1e5}) CHECK(guard.holds(wrong, 1, 100));
   // Where it can be after seven rows.
   CHECK_FALSE(guard.holds(load + 5e3, 1, 100));
@@ -228,9 +232,7 @@ TEST_CASE("where a ramp ends and rows come more slowly, what was held back is no
   for (const double wrong : {2e5, 0.0}) {
     CAPTURE(wrong);
     taut::JumpGuard<double> guard;
-    guard.start(0);
-    double load = 0;
-    for (int i = 0; i < 100; ++i) CHECK_FALSE(guard.holds(load += 1e3, 0.03, 100));
+    double load = pull(guard, 100, 1e3, 0.03);
     for (int i = 0; i < 5; ++i) CHECK(guard.holds(wrong, 0.03, 100));
     const double reach = guard.reach();
     for (int i = 0; i < 3; ++i) {
@@ -245,9 +247,7 @@ TEST_CASE("where a ramp ends and rows come more slowly, what was held back is no
 TEST_CASE("what jumped at once is not believed because the load could have come there by now") {
   // Ten rows of 10 kN each, then a hold; it shows 100 kN more for fourteen rows.
   taut::JumpGuard<double> guard;
-  guard.start(0);
-  double load = 0;
-  for (int i = 0; i < 10; ++i) CHECK_FALSE(guard.holds(load += 1e4, 1, 100));
+  double load = pull(guard, 10, 1e4, 1);
   for (int i = 0; i < 14; ++i) CHECK(guard.holds(load + 1e5, 1, 100));
   CHECK_FALSE(guard.holds(load, 1, 100));
 }
@@ -256,9 +256,7 @@ TEST_CASE("a load that jumps and stays is believed after fifteen readings, or af
   for (const int held : {15, 3}) {
     CAPTURE(held);
     taut::JumpGuard<double> guard;
-    guard.start(0);
-    double load = 0;
-    for (int i = 0; i < 10; ++i) CHECK_FALSE(guard.holds(load += 1e3, 1, 100));
+    double load = pull(guard, 10, 1e3, 1);
     load += 1e5;
     for (int i = 0; i < held; ++i) CHECK(guard.holds(load, 1, 100));
     CHECK_FALSE(guard.holds(load, held == 15 ? 1 : 60, 100));
@@ -269,9 +267,7 @@ TEST_CASE("a load that jumps and stays is believed after fifteen readings, or af
 TEST_CASE("what comes back a little on the side of an outlier is not held with it") {
   // Rows of 1 kN each; one is just too far away, the next one a row further on.
   taut::JumpGuard<double> guard;
-  guard.start(0);
-  double load = 0;
-  for (int i = 0; i < 10; ++i) CHECK_FALSE(guard.holds(load += 1e3, 1, 100));
+  double load = pull(guard, 10, 1e3, 1);
   CHECK(guard.holds(load + 4.5e3, 1, 100));
   CHECK_FALSE(guard.holds(load + 1.4e3, 1, 100));
 }

@@ -39,9 +39,8 @@ class Jacked {
     gauge.sd = stroke_sd;
     gauge.zero_sd = taut::free_zero<double>;
     gauges_ = {gauge};
-    const auto condensation = std::make_unique<taut::Condensation<double, Plane>>();
-    REQUIRE(condensation->run(ground.known, known_).ok());
-    REQUIRE(condensation->run(ground.actual, actual_).ok());
+    REQUIRE(support::condense(ground.known, known_).ok());
+    REQUIRE(support::condense(ground.actual, actual_).ok());
     REQUIRE(truth_.start(actual_).status.ok());
     REQUIRE(estimator_.start(known_, prior_, {}, gauges_).status.ok());
   }
@@ -96,10 +95,9 @@ double off_driven(const Jacked& jacked, const Ground& ground, const std::vector<
   const auto saved = jacked.estimator().save();
   const auto scene = std::make_unique<Plane>(ground.known);
   for (double& mu : scene->mu) mu += saved.friction.linearized_at[0];
-  const auto condensation = std::make_unique<taut::Condensation<double, Plane>>();
   const auto model = std::make_unique<Model>();
   const auto tracker = std::make_unique<taut::Tracker<Model>>();
-  REQUIRE(condensation->run(*scene, *model).ok());
+  REQUIRE(support::condense(*scene, *model).ok());
   REQUIRE(tracker->start(*model).status.ok());
   for (const double force : way) {
     taut::Sample<double, PlaneCapacity> sample;
@@ -189,10 +187,8 @@ TEST_CASE("a lock-off ends the way: strokes after it are compared with what the 
   jacked->go(0, 1, 60);
   jacked->go(1, 0.6, 12);
   CHECK(jacked->estimator().save().leg[0].is_known);
-
   jacked->go(0.6, 0.6, 3, true);
   CHECK_FALSE(jacked->estimator().save().leg[0].is_known);
-
   jacked->go(0.6, 0.9, 12);
   CHECK(std::fabs(jacked->estimator().mu(0) - 0.33) < 4 * jacked->estimator().mu_deviation(0));
 }

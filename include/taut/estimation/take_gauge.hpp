@@ -82,9 +82,10 @@ struct WhileSliding {
   Parts& parts;
   bool can_learn() const { return parts.can_learn(); }
   bool is_sure(int cable, typename Parts::Scalar sd) const { return taut::is_sure(parts, cable, sd); }
-  bool comes_closer() const {
-    const auto& belief = parts.filter.belief();
-    return belief.is_nonlinear() && parts.filter.relinearize(parts.tracker, belief.updated_mean());
+  template <class Predict>
+  Update update(const Predict& predict, const typename Parts::JacksType::Readings& jacks,
+                const Measured<typename Parts::Scalar>& measured) const {
+    return parts.filter.update(parts.tracker, predict, jacks, measured);
   }
 };
 
@@ -95,9 +96,14 @@ struct AlongLeg {
   Parts& parts;
   bool can_learn() const { return parts.filter.belief().has_friction() && !parts.loads_are_in_doubt(); }
   bool is_sure(int, typename Parts::Scalar) const { return true; }
-  bool comes_closer() const {
+  template <class Predict>
+  Update update(const Predict& predict, const typename Parts::JacksType::Readings& jacks,
+                const Measured<typename Parts::Scalar>& measured) const {
     const auto& belief = parts.filter.belief();
-    return (belief.is_nonlinear() || belief.moves_friction()) && relinearize(parts, belief.updated_mean());
+    const auto comes_closer = [&] {
+      return (belief.is_nonlinear() || belief.moves_friction()) && relinearize(parts, belief.updated_mean());
+    };
+    return parts.filter.update_by(comes_closer, predict, jacks, measured);
   }
 };
 
@@ -130,9 +136,7 @@ void take_gauge(Parts& parts, const Predict& predict, typename Parts::Scalar rea
     filter.renew(gauges.unknowns(gauge).zero, Parts::GaugesType::very_unknown * std::sqrt(expected.variance));
   }
   gauges.count(gauge);
-  note(parts,
-       filter.update_by([&rule] { return rule.comes_closer(); }, predict_reading, jacks,
-                        {reading - gauges.mark(gauge), sd, Scalar(0)}),
+  note(parts, rule.update(predict_reading, jacks, {reading - gauges.mark(gauge), sd, Scalar(0)}),
        contradiction);
   look_ahead(parts);
 }
