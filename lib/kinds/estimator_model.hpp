@@ -71,10 +71,11 @@ class EstimatorModel : public Model {
     return below;
   }
   void forget_past() override {
-    past_ = std::make_unique<PastType>();
+    doubt_past();
     past_->forget();
   }
-  void doubt_past() override { past_ = std::make_unique<PastType>(); }
+  // make_unique() would clear all of it, and what is not written takes no memory.
+  void doubt_past() override { past_.reset(new PastType); }
   void deny_past() override { past_.reset(); }
   bool has_unknown_past() const override { return past_ != nullptr; }
   std::vector<LearnedFriction> learned() const override {

@@ -1,9 +1,12 @@
 // How tensions and slips change with friction that is not known, carried through stick and slip.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
+#include "taut/numerics/uncleared.hpp"
 #include "taut/tracking/affine_map.hpp"
 
 namespace taut {
@@ -83,12 +86,12 @@ class Sensitivity {
       Values values;
       for (int i = 0; i < map.active(); ++i) values[i] = static_cast<Real>(of_variable(map.variable(i), p));
       settle(due(map, p, map.base(), error_at_anchor(map, p)), T, values);
-      store(map, T, values, base_[p], base_values_[p]);
+      store(map, T, values, piece_[p].base);
       for (int k = 0; k < map.inputs(); ++k) {
         T.fill(Real(0));
         values.fill(Real(0));
         settle(due(map, p, map.column(k), error_by_input(map, p, k)), T, values);
-        store(map, T, values, column_[p][k], column_values_[p][k]);
+        store(map, T, values, at(piece_[p].column, k));
       }
     }
   }
@@ -97,14 +100,15 @@ class Sensitivity {
   template <class Values>
   Scalar tension(const Map& map, int p, int segment, const Values& x, const Values& anchor) const {
     if (p >= frozen_.used) return 0;
-    Scalar at = base_[p][segment];
+    const Piece& piece = piece_[p];
+    Scalar found = at(piece.base.tension, segment);
     for (int k = 0; k < map.inputs(); ++k)
-      at += static_cast<Scalar>(x[k] - anchor[k]) * column_[p][k][segment];
-    return at;
+      found += static_cast<Scalar>(x[k] - anchor[k]) * at(at(piece.column, k).tension, segment);
+    return found;
   }
   /// How that changes with input `k`.
   Scalar tension_slope(int p, int k, int segment) const {
-    return p >= frozen_.used ? Scalar(0) : column_[p][k][segment];
+    return p >= frozen_.used ? Scalar(0) : at(at(piece_[p].column, k).tension, segment);
   }
 
   /// Derivatives of everything that has moved, at inputs `x`.
@@ -181,6 +185,23 @@ class Sensitivity {
   }
 
  private:
+  template <class T, int N>
+  using Plain = std::array<T, static_cast<std::size_t>(N)>;  // not cleared
+  template <class Of>
+  static auto& at(Of& of, int i) {
+    return of[static_cast<std::size_t>(i)];
+  }
+  /// Derivatives of the tensions, and of the values of the active variables.
+  struct Column {
+    Plain<Scalar, Cap::segments> tension;
+    Plain<Scalar, Map::max_active> value;
+  };
+  /// Of the map, with respect to one parameter: where it was made, and how that changes with the inputs.
+  struct Piece {
+    Column base;
+    Plain<Column, Map::max_inputs> column;
+  };
+
   void use(int parameter) {
     if (parameter >= frozen_.used) frozen_.used = parameter + 1;
   }
@@ -188,10 +209,11 @@ class Sensitivity {
 
   /// dm/dp of an active variable.
   Real derivative(const Map& map, int p, int i, const Inputs& x) const {
-    Real at = static_cast<Real>(base_values_[p][i]);
+    const Piece& piece = piece_[p];
+    Real found = static_cast<Real>(at(piece.base.value, i));
     for (int k = 0; k < map.inputs(); ++k)
-      at += (x[k] - map.anchor()[k]) * static_cast<Real>(column_values_[p][k][i]);
-    return at;
+      found += (x[k] - map.anchor()[k]) * static_cast<Real>(at(at(piece.column, k).value, i));
+    return found;
   }
   bool is_force_of(const Input& input, int p) const {
     return input.kind == Input::Kind::jack_force && input.index == error_[p].jack;
@@ -227,10 +249,9 @@ class Sensitivity {
     }
     return values;
   }
-  void store(const Map& map, const Tensions& T, const Values& values, FixedArray<Scalar, Cap::segments>& into,
-             FixedArray<Scalar, Map::max_active>& values_into) const {
-    for (int i = 0; i < Cap::segments; ++i) into[i] = static_cast<Scalar>(T[i]);
-    for (int i = 0; i < map.active(); ++i) values_into[i] = static_cast<Scalar>(values[i]);
+  static void store(const Map& map, const Tensions& T, const Values& values, Column& into) {
+    for (int i = 0; i < Cap::segments; ++i) at(into.tension, i) = static_cast<Scalar>(T[i]);
+    for (int i = 0; i < map.active(); ++i) at(into.value, i) = static_cast<Scalar>(values[i]);
   }
 
   Frozen frozen_;
@@ -238,11 +259,8 @@ class Sensitivity {
   FixedArray<Real, Cap::joints> slope_;
   FixedArray<JackError<Scalar>, Parameters> error_;  // jack -1: none
   FixedArray<Real, Parameters>
-      event_shift_;  // by how much of what was left of the path the event comes later
-  FixedArray<FixedArray<Scalar, Cap::segments>, Parameters> base_;
-  FixedArray<FixedArray<Scalar, Map::max_active>, Parameters> base_values_;
-  FixedArray<FixedArray<FixedArray<Scalar, Cap::segments>, Map::max_inputs>, Parameters> column_;
-  FixedArray<FixedArray<FixedArray<Scalar, Map::max_active>, Map::max_inputs>, Parameters> column_values_;
+      event_shift_;                     // by how much of what was left of the path the event comes later
+  Uncleared<Piece, Parameters> piece_;  // made with every map, for what is in use: most of a large tracker
 };
 
 /// Of a tracker whose friction is known: nothing is carried, and nothing done for it.
