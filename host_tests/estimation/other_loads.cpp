@@ -166,3 +166,42 @@ TEST_CASE_TEMPLATE("the error bars hold while other loads change in holds and ra
     }
   }
 }
+
+TEST_CASE_TEMPLATE("loads that begin to change with the jack on its way do so from where it was a row ago",
+                   Scalar, double, float) {
+  static Ground ground;
+  taut::Cable<double> cable = support::steel_cable(0.2);
+  cable.mu_sd = 1e-3;
+  cable.shared_mu = true;
+  support::truss_string(ground.known, cable, 6);
+  ground.set_true_mu(std::vector<double>(16, 0.2));
+  Instruments instruments;
+  instruments.jack = 5e-4;
+  instruments.has_cell = false;
+  for (const double way : {1.0, -1.0})
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      CAPTURE(way);
+      CAPTURE(seed);
+      const auto site = std::make_unique<Site<Scalar>>(ground, instruments, full, seed);
+      Deed at;
+      const auto go = [&](double force, double factor, int count) {
+        const Deed from = at;
+        for (int i = 1; i <= count; ++i) {
+          at.force[1] = from.force[1] + (force * full - from.force[1]) * i / count;
+          at.factor = from.factor + (factor - from.factor) * i / count;
+          site->advance(at);
+        }
+      };
+      go(0.6, 0, 60);
+      if (way < 0) go(0.4, 0, 20);
+      for (int row = 1; row <= 3; ++row) {
+        CAPTURE(row);
+        go(at.force[1] / full + 0.01 * way, 0.1 * row, 1);
+        for (int i = 0; i < site->segments(); ++i) {
+          CAPTURE(i);
+          CHECK(std::fabs(site->error(i)) < 6 * instruments.jack * full);
+        }
+      }
+      REQUIRE(site->good());
+    }
+}

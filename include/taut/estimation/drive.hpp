@@ -95,8 +95,8 @@ Progress<typename TrackerType::Scalar> drive_straight(TrackerType& tracker, cons
 }
 
 /// Drives the tracker to the loads that ends had when they were locked, then to where loads have reversed,
-/// then to the jacks' loads without the other loads of the row. remember(k) is called where jack `k` was
-/// locked or reversed, remember_load(k) at last. Fails as Tracker::advance() does. Cost: that of
+/// then to where jacks were a row ago, before the other loads began to change. remember(k) is called where
+/// jack `k` was locked or reversed, remember_load(k) at last. Fails as Tracker::advance() does. Cost: that of
 /// drive_straight() three times.
 template <class TrackerType, class Jacks, class Remember, class RememberLoad, class Uncertainty>
 Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks& jacks,
@@ -121,7 +121,7 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
       if (progress.status && jacks[k].has_reversed()) remember(k);
   }
   if (corners.loads && progress.status) {
-    corner = jacks.target(corner);
+    corner = jacks.corner(corner);
     progress = join(progress, drive_straight(tracker, jacks, corner, event_budget, mu_sd));
     for (int k = 0; k < jacks.size(); ++k)
       if (progress.status) remember_load(k);

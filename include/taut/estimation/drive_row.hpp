@@ -7,6 +7,7 @@
 #include "taut/estimation/leg.hpp"
 #include "taut/estimation/load_memory.hpp"
 #include "taut/estimation/look_ahead.hpp"
+#include "taut/estimation/witness.hpp"
 
 namespace taut {
 
@@ -23,8 +24,11 @@ template <class Parts>
     const bool locked = jacks.in(readings.sample.jack, k).locked;
     ForceEstimate<Scalar> held;
     if (jacks[k].locked && !locked) held = parts.estimate(parts.end_segment(k));
-    if (jacks[k].take(locked, given, readings.dt, parts.cell(k), parts.most_force(k), held, corners))
+    const auto beside = read_beside(parts, readings, jacks.end(k).cable());
+    if (jacks[k].take(locked, given, readings.dt, parts.cell(k), parts.most_force(k), held, corners,
+                      [&] { return sees_rise(parts, k, given.force, beside); }))
       parts.alarms.add(Parts::alarm_at(Alarm::Kind::outlier, jacks.end(k)));
+    if (jacks[k].is_new) jacks[k].beside = beside.force;
     has_more |= given.has_stroke | (jacks[k].locked & given.has_force);
   }
   return has_more;

@@ -232,7 +232,7 @@ class Estimator {
     look_ahead(parts_);
     for (int c = 0; c < parts_.model().cables.size(); ++c)
       if (parts_.drifts(c)) parts_.filter.diffuse(parts_.drift[c], c, readings.dt);
-    if (!parts_.loads_are_in_doubt() && measure_far_ends(parts_, readings)) look_ahead(parts_);
+    if (measure_far_ends(parts_, readings)) look_ahead(parts_);
   }
   /// What is odd about what is known now: friction and gains if they have changed, forces beyond limits.
   [[gnu::always_inline]] void check_answers() {

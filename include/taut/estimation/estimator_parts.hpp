@@ -117,10 +117,13 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   bool can_be(const EndReading<Scalar>& given, int cable) const {
     return given.has_force && std::fabs(given.force) <= model().most_force[cable];
   }
-  /// What is read of forces cannot be compared with those of loads that may be others.
-  bool loads_are_in_doubt() const { return jacks.may_have_reversed() || jacks.has_refused(); }
+  /// Whether what is read of a cable cannot be compared with what its own jacks would make of it, for their
+  /// loads may be others; any jack counts if `cable` is negative.
+  bool loads_are_in_doubt(int cable = -1) const { return jacks.are_in_doubt(cable); }
   /// Forces teach nothing where the tracker is ahead: what is read belongs to no place that is confirmed.
-  bool can_learn() const { return filter.belief().has_friction() && !is_ahead && !loads_are_in_doubt(); }
+  bool can_learn(int cable) const {
+    return filter.belief().has_friction() && !is_ahead && !loads_are_in_doubt(cable);
+  }
 
   // What is known of a segment.
 

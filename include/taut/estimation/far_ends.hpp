@@ -69,6 +69,7 @@ class FarEnds {
     for (int e = 0; e < ends_.size(); ++e) state_.watch[e].noise.bend();
   }
   CellWatch<Scalar>& watch(int e) { return state_.watch[e]; }
+  const CellWatch<Scalar>& watch(int e) const { return state_.watch[e]; }
   /// Whether some cell is off the model by more than chance allows.
   bool misfits() const {
     for (int e = 0; e < ends_.size(); ++e)
@@ -180,8 +181,9 @@ class FarEnds {
     const Scalar own = state_.watch[e].lasts;
     Scalar variance = own * own;
     for (int k = 0; k < jacks.size(); ++k) {
-      const Scalar part = filter.prediction().by_jack[k] * jacks[k].lasting(jacks.in(filter.prior().cell, k));
-      variance += part * part;
+      const Scalar lasting = jacks[k].lasting(jacks.in(filter.prior().cell, k)), doubt = jacks[k].doubt(),
+                   by = filter.prediction().by_jack[k];
+      variance += by * by * (lasting * lasting + doubt * doubt);
     }
     return variance;
   }

@@ -14,26 +14,56 @@ struct ForceEstimate {
   Scalar force = 0, deviation = 0;
 };
 
+/// The segment at the end `at` of a cable.
+template <class TrackerType, class EndType>
+int end_segment(const TrackerType& tracker, const EndType& at) {
+  return tracker.model().cables[at.cable()].end_segment(at.end);
+}
+
+/// By how much of a change of the jack's force at `at` a segment of the same cable changes, at most: where
+/// all joints between slide; zero in other cables. Cost: one product a joint between.
+template <class TrackerType, class EndType>
+typename TrackerType::Scalar carried_over(const TrackerType& tracker, const EndType& at, int segment) {
+  using Scalar = typename TrackerType::Scalar;
+  const auto& cable = tracker.model().cables[at.cable()];
+  const int i = segment - cable.first_segment;
+  if (i < 0 || i >= cable.segments()) return 0;
+  const int first = at.end == 0 ? 0 : i, end = at.end == 0 ? i : cable.joints();
+  Scalar carried = 1;
+  for (int j = first; j < end; ++j) carried *= static_cast<Scalar>(tracker.rho(cable.first_joint + j));
+  return carried;
+}
+
 /// The tension of a segment where the tracker is, carried on along its present piece to the best estimate of
 /// the loads and of friction: T + dT/dF (F - driven) + dT/dmu (mu - mu_0), not below zero. The standard
-/// deviation has that of the loads, of friction and its scatter, and of what friction remembers; zero if not
-/// `HasDeviation`. Cost: one product a jack and unknown in use, and with a deviation half the square of the
-/// unknowns.
+/// deviation has that of the loads, of friction and its scatter, and of what friction remembers, Eq. (20);
+/// zero if not `HasDeviation`. A load that may be elsewhere may have let joints slide that stick here; of one
+/// that may have turned friction may hold more than it is confirmed to have done. Cost: one product a jack
+/// and unknown in use, and with a deviation half the square of the unknowns.
 template <bool HasDeviation, class TrackerType, class Jacks, class FilterType>
 ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tracker, const Jacks& jacks,
                                                            const FilterType& filter, int segment) {
   const auto& belief = filter.belief();
   using Scalar = typename TrackerType::Scalar;
+  using EndType = CableEnd<typename TrackerType::Cap>;
   Scalar T = tracker.tension(segment), variance = 0;
   for (int k = 0; k < jacks.size(); ++k) {
     const auto& load = jacks[k];
     const Scalar slope = tracker.slope(k, segment), further = slope * load.beyond();
     T += further;
     if (!HasDeviation || load.locked) continue;
-    const Scalar part = slope * load.at.sd;
+    const EndType& at = jacks.end(k);
+    const bool may_be_back = load.may_be_back() && segment != end_segment(tracker, at);
+    // Where nothing is confirmed to pull yet, too.
+    const bool is_elsewhere = load.at.refused || !(load.driven.force > 0);
+    const Scalar most = is_elsewhere || may_be_back ? carried_over(tracker, at, segment) : Scalar(0);
+    // Where the load may be elsewhere, joints that stick may slide.
+    const Scalar part = larger(std::fabs(slope), is_elsewhere ? most : Scalar(0)) * load.at.sd;
     variance += part * part;
-    // If it has reversed, the force did not follow.
-    if (load.at.behind) variance += further * further;
+    if (!may_be_back) continue;
+    // If it has reversed, the force did not follow from where it was farthest.
+    const Scalar held = most * load.back(load.driven.force), off = (load.rises ? held : -held) - further;
+    variance += off * off;
   }
   if (HasDeviation) {
     const Scalar of_scatter =

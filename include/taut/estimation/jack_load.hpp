@@ -35,6 +35,9 @@ struct Corners {
 /// byte by byte. `Reversals` is how many of its reversals are unknowns of a FrictionFilter.
 template <class Scalar, int Reversals>
 struct JackLoad {
+  /// The part of what a cable can carry that a jack adds in a second, at most: a fifth of what it is used
+  /// for.
+  static constexpr Scalar fastest = Scalar(0.014);
   /// Readings in a row that show that the jack of a locked end pulls less than its wedge holds.
   static constexpr std::uint8_t confirmed_below = 3;
 
@@ -52,9 +55,14 @@ struct JackLoad {
   Scalar raw = 0;        ///< the last reading [N]
   Scalar first = 0;      ///< the least load once there is one [N]: which way things slide shows from then on
   Scalar sd_before = 0;  ///< standard deviation of the load a sample ago [N]
-  bool is_new = false;   ///< `raw` is of this row, and was believed
-  Scalar believed = 0, refused = 0;  ///< the last reading that was believed, and that was not [N]
-  std::uint8_t refusals = 0;         ///< in a row
+  Scalar load_before = 0;                ///< best estimate of the load a row ago [N]
+  Scalar farthest = 0, farthest_sd = 0;  ///< the one that went farthest since the load turned [N]
+  Scalar turn_sd = 0;                    ///< standard deviation of the load where it turned or was locked [N]
+  bool rises = true;                     ///< since it turned
+  bool is_new = false;                   ///< `raw` is of this row, and was believed
+  Scalar believed = 0, refused = 0;      ///< the last reading that was believed, and that was not [N]
+  Scalar beside = 0;  ///< what the cell at the other end of the cable read with the one that was believed [N]
+  std::uint8_t refusals = 0;  ///< in a row
   bool locks_now = false, locked = false;
   ElongationCheck<Scalar> elongation;  ///< of the leg that it is on
   std::uint8_t below = 0;  ///< locked: readings in a row that were confirmed to be below what the wedge holds
@@ -102,7 +110,7 @@ struct JackLoad {
 
   void start(const LoadCell<Scalar>& cell) {
     *this = JackLoad();
-    pulls = erred_up = true;
+    pulls = erred_up = rises = true;
     seating = frozen = -1;
     filter.start(cell.sd);
     noise.start(cell.sd);
@@ -114,7 +122,9 @@ struct JackLoad {
     at = {};
     at.load = at.confirmed = turned = reading / cell.down;
     at.sd = cell.sd / cell.down;
-    pulls = erred_up = false;
+    pulls = erred_up = rises = false;
+    farthest = at.load;
+    farthest_sd = at.sd;
     first = Scalar(1e-3) * cell.sd;
   }
   /// The filter goes by the scatter that there is, not only by what was said. Returns by how many times the
@@ -127,6 +137,33 @@ struct JackLoad {
     if (!NoiseLevel<Scalar>::is_worth_it(times) || filter.has_waiting()) return 1;
     filter.change_sd(found.sd);
     return larger(times * times, Scalar(1));
+  }
+
+  /// Once the load of a row is known.
+  void note_farthest() {
+    if (at.reversed) {
+      turn_sd = larger(sd_before, back(at.reversal));
+      rises = !rises;
+    } else if (!(rises ? at.load > farthest : at.load < farthest)) {
+      return;
+    }
+    farthest = at.load;
+    farthest_sd = at.sd;
+  }
+  /// Whether the one reading that was refused before this one was a peak of the load: the load has come at
+  /// least half-way there.
+  bool was_peak(Scalar reading) const {
+    if (!(at.refused && refusals == 1)) return false;
+    const Scalar far = std::fabs(refused - believed), left = std::fabs(refused - reading),
+                 come = std::fabs(reading - believed);
+    return left > 5 * filter.sd() && left < come && come < far;
+  }
+
+  /// That reading is believed after all.
+  void come_to_refused() {
+    filter.start_at(filter.sd(), refused, filter.sd(), refused > believed);
+    believed = refused;
+    refusals = 0;
   }
 
   /// A reading was refused, or not. Returns whether one was surely wrong: it cannot be a force at all, it is
@@ -148,18 +185,27 @@ struct JackLoad {
     return was_wrong;
   }
 
+  /// Nobody else sees the load.
+  struct Unseen {
+    constexpr bool operator()() const { return false; }
+  };
   /// Takes what a row says of the jack: whether it is locked, a reading of its load cell, and the time since
-  /// the row before. `held` is the force of a locked end. Returns true if and only if a reading is now known
-  /// to have been an outlier: this one or the one before. Cost: that of LoadFilter::take().
+  /// the row before. `held` is the force of a locked end; is_seen() says whether another cell has seen the
+  /// load go where it is read, so that it is not held back. Returns true if and only if a reading is now
+  /// known to have been an outlier: this one or the one before. Cost: that of LoadFilter::take(), and at most
+  /// one call of is_seen().
+  template <class Seen = Unseen>
   [[nodiscard]] bool take(bool locks, const EndReading<Scalar>& given, Scalar dt,
                           const LoadCell<Scalar>& cell, Scalar most, const ForceEstimate<Scalar>& held,
-                          Corners<Scalar>& corners) {
+                          Corners<Scalar>& corners, const Seen& is_seen = Seen()) {
     is_new = locks_now = false;
+    load_before = at.load;
     at.reversed = false;
     since += dt;
     if (locks) {
       sd_before = at.sd;
       if (locked) return false;
+      turn_sd = larger(at.sd, back(at.load));
       corners.locks = locks_now = locked = true;
       at.behind = false;
       filter.start(filter.sd());
@@ -175,19 +221,29 @@ struct JackLoad {
       // Its readings are those of the upper branch.
       const Scalar taken = held.force + Scalar(1e-3) * cell.sd;
       filter.start_at(filter.sd(), cell.up * taken, cell.up * held.deviation);
+      load_before = farthest = taken;
+      farthest_sd = held.deviation;
+      rises = true;
       at = {};
       turned = 0;
       pulls = true;
       locked = false;
       since = dt;
     }
-    sd_before = at.sd;
+    if (!at.refused) sd_before = at.sd;
     // Placed there, not on the heap: a copy would read back at once what was just written in parts, and wait.
     Scalar reading = possible(given.force, most);
     // How far the jack pulled while the wedge held is not known.
     if (is_released) guard.start(reading);
-    const bool is_held = cell.sd > 0 && std::isfinite(reading) && guard.holds(reading, since, filter.sd());
+    bool is_held =
+        cell.sd > 0 && std::isfinite(reading) && guard.holds(reading, since, filter.sd(), fastest * most);
+    if (is_held && is_seen()) {
+      guard.believe(reading);
+      is_held = false;
+    }
     if (is_held) reading = std::numeric_limits<Scalar>::quiet_NaN();
+    if (guard.has_moved()) filter.lose();
+    if (was_peak(reading)) come_to_refused();
     const int run_length = filter.run_length();
     new (&at) ConditionedLoad<Scalar>(filter.take(reading, since));
     if (filter.run_length() < run_length) {
@@ -198,14 +254,16 @@ struct JackLoad {
     at.sd = larger(at.sd, lasts);
     // Two standard deviations are as far as the load can have gone.
     if (is_held) at.sd = larger(at.sd, guard.reach() / 2);
-    // In a row a load stage the jack may well have gone where it was read, or as far again.
-    if (at.refused && since > JumpGuard<Scalar>::far_apart && std::isfinite(reading))
-      at.sd = larger(at.sd, std::fabs(reading - at.load));
+    // A single reading far off may well be a load that begins to move; in a row a load stage the jack may
+    // have gone as far again.
+    if (at.refused && std::isfinite(reading))
+      at.sd = larger(at.sd, std::fabs(reading - at.load) / (since > JumpGuard<Scalar>::far_apart ? 1 : 2));
     raw = given.force;
     if (cell.has_branches()) {
       at = behind_branches(at, cell);
       raw /= branch(cell);
     }
+    note_farthest();
     if (first == 0 && at.load > 0) first = Scalar(1e-3) * cell.sd;
     since = 0;
     is_new = !at.refused;
@@ -219,18 +277,35 @@ struct JackLoad {
     come_sd = at.behind ? larger(at.sd, std::fabs(at.load - at.confirmed)) : at.sd;
     if (!is_new || at.behind) return;
     // Where a ramp ends, the estimate overshoots at first.
-    const bool rises = at.load > at.confirmed;
-    const Scalar noise_sd = filter.sd() / branch(cell), most = rises ? raw + noise_sd : raw - noise_sd;
-    const bool overshoots = rises ? at.load > most : at.load < most;
-    const Scalar to = overshoots ? most : at.load, further = rises ? to - at.confirmed : at.confirmed - to;
+    const bool goes_up = at.load > at.confirmed;
+    const Scalar noise_sd = filter.sd() / branch(cell), most = goes_up ? raw + noise_sd : raw - noise_sd;
+    const bool overshoots = goes_up ? at.load > most : at.load < most;
+    const Scalar to = overshoots ? most : at.load, further = goes_up ? to - at.confirmed : at.confirmed - to;
     if (overshoots) come_sd = larger(at.sd, noise_sd);
     if (!(further > (frozen < 0 ? Scalar(0) : at.sd))) return;
     filter.come_to(to * branch(cell));
     at.confirmed = to;
   }
   bool has_reversed() const { return !locked && at.reversed; }
+  /// What slides and what sticks in its cable is in doubt: the load may have reversed, or the reading of this
+  /// row was none, and the load is where it was last read, or elsewhere.
+  bool is_in_doubt() const { return at.behind || (!locked && at.refused); }
+  /// How far a load may have come back from where it probably was without being confirmed to have turned:
+  /// the forces that friction holds did not follow. Beyond what is by chance, two standard deviations [N].
+  Scalar back(Scalar from) const {
+    return larger((rises ? farthest - from : from - farthest) - 2 * farthest_sd, Scalar(0));
+  }
+  bool may_be_back() const { return at.behind || back(at.load) > 0; }
+  /// By how much the load may be off, if it is in doubt [N].
+  Scalar doubt() const { return is_in_doubt() ? larger(at.sd, back(at.load)) : Scalar(0); }
   /// Where the tracker is driven to for a row [N].
   Scalar target() const { return larger(at.confirmed, first); }
+  /// Where it was a row ago, between where the tracker is by then and where it is driven to: other loads
+  /// change from there on.
+  Scalar corner() const {
+    const Scalar from = at.reversed ? at.reversal : driven.locked ? load_before : driven.force, to = target();
+    return to > from ? -larger(-to, -larger(from, load_before)) : larger(to, -larger(-from, -load_before));
+  }
   /// Whether the error of a cell with two branches is another one from here on: the load leaves the place of
   /// its last turn.
   bool changes_branch() const { return erred_up != pulls && !locked && target() != turned; }

@@ -74,22 +74,23 @@ class JackLoads {
     for (int k = 0; k < size(); ++k) all.add(state_.jack[k].reading(in(prior.cell, k)));
     return all;
   }
-  /// What slides and what sticks is in doubt while a load may have reversed.
-  bool may_have_reversed() const {
+  /// Whether the load of a jack is in doubt, of `cable` or, if that is negative, of any. See
+  /// JackLoad::is_in_doubt().
+  bool are_in_doubt(int cable = -1) const {
     for (int k = 0; k < size(); ++k)
-      if (state_.jack[k].at.behind) return true;
-    return false;
-  }
-  /// Whether a reading of this row was none: the load is where it was last read, or elsewhere.
-  bool has_refused() const {
-    for (int k = 0; k < size(); ++k)
-      if (!state_.jack[k].locked && state_.jack[k].at.refused) return true;
+      if (state_.jack[k].is_in_doubt() && (cable < 0 || ends_[k].cable() == cable)) return true;
     return false;
   }
   /// Where the tracker is driven to for a row.
   SampleType target(const SampleType& given) const {
     SampleType to = given;
     for (int k = 0; k < size(); ++k) in(to.jack, k) = {state_.jack[k].target(), state_.jack[k].locked};
+    return to;
+  }
+  /// Where jacks are when other loads begin to change, or cease to.
+  SampleType corner(const SampleType& given) const {
+    SampleType to = given;
+    for (int k = 0; k < size(); ++k) in(to.jack, k) = {state_.jack[k].corner(), state_.jack[k].locked};
     return to;
   }
   /// The best estimates of the loads, where none has perhaps reversed.

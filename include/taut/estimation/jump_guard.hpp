@@ -8,7 +8,8 @@ namespace taut {
 
 /// Tells a jump of the readings from a load that moves: a reading four times as far away as any has gone from
 /// one row to the next is held back, and those after it until they come back to where the load can have gone
-/// meanwhile, or at least jump back towards it from where they had stayed; what lasts for more than
+/// meanwhile, or at least jump back towards it from where they had stayed. Where they go on as they jumped
+/// for two rows more, the load does: it has begun to move, or moves faster. What lasts for more than
 /// `most_held` readings is believed. Readings more than 5 s apart, a row a load stage, and those after a
 /// pause are not held back: what happened before them is not known. Only where rows merely come more slowly,
 /// as in a hold after a ramp, one that still shows what was held back is. A plain value. Cost: a few
@@ -26,36 +27,62 @@ class JumpGuard {
     held_ = stayed_ = 0;
     passed_ = 0;
   }
-  /// Whether this reading [N] of a cell with noise `sd`, `dt` [s] after the one before, is held back.
-  [[nodiscard]] bool holds(Scalar reading, Scalar dt, Scalar sd) {
+  /// Whether this reading [N] of a cell with noise `sd`, `dt` [s] after the one before, is held back; no load
+  /// goes faster than `fastest` [N/s].
+  [[nodiscard]] bool holds(Scalar reading, Scalar dt, Scalar sd, Scalar fastest) {
     const Scalar off = std::fabs(reading - last_), from_shown = std::fabs(reading - shown_),
                  scatter = at_most * sd, change = off - scatter, jump = far * (farthest_ + scatter),
                  steps = step_ > 0 && dt > step_ ? dt / step_ : Scalar(1),
                  possible = held_ == 0 ? jump : scatter + (passed_ + steps) * farthest_;
     const bool stays = held_ > 0 && from_shown < jump && from_shown < off;
     const bool is_pause = dt > far_apart || (dt > pause * step_ && !stays);
-    if (seen_ == enough && !is_pause && held_ < most_held && (stays || change > possible) &&
+    const Scalar jumped = held_ == 0 ? off / steps : jumped_,
+                 pace = held_ == 0 ? Scalar(0) : least_pace(reading, steps);
+    const bool goes_on = held_ >= line && jumped <= pace + 2 * scatter;
+    const bool lasts = held_ == most_held;
+    if (seen_ == enough && !is_pause && !lasts && !goes_on && (stays || change > possible) &&
         !comes_back(reading, stays)) {
+      jumped_ = jumped;
+      pace_ = pace;
+      has_moved_ = false;
+      may_move_ = (held_ == 0 || may_move_) && (held_ == 0 ? off : from_shown) <= fastest * dt + scatter;
       ++held_;
       passed_ += steps;
       shown_ = reading;
       return true;
     }
+    has_moved_ = held_ > 0 && (goes_on || lasts);
     step_ = dt;
     // Only what went on from one row to the next says how far loads go.
+    if (goes_on && pace > farthest_) farthest_ = pace;
     if (held_ == 0 && seen_ > 0 && change > farthest_ && !is_pause) farthest_ = change;
     if (seen_ < enough) ++seen_;
     start(reading);
     return false;
   }
-  /// How far the load can have gone since the last reading that was believed, at most twice as far as where
-  /// it was read [N].
+  /// A reading that was held back is believed after all: the load has gone there [N].
+  void believe(Scalar reading) {
+    const Scalar pace = std::fabs(reading - last_) / passed_;
+    if (pace > farthest_) farthest_ = pace;
+    has_moved_ = true;
+    start(reading);
+  }
+  /// Whether the last reading is believed because the load has gone where others were held back.
+  bool has_moved() const { return has_moved_; }
+  /// How far the load can have gone since the last reading that was believed: as far as ever, at most twice
+  /// as far as where it was read; at least as far where it can have gone as fast [N].
   Scalar reach() const {
-    const Scalar gone = passed_ * farthest_, read = 2 * std::fabs(shown_ - last_);
-    return gone < read ? gone : read;
+    const Scalar gone = passed_ * farthest_, read = std::fabs(shown_ - last_), least = Scalar(1.1) * read;
+    if (may_move_ && gone < least) return least;
+    return gone < 2 * read ? gone : 2 * read;
   }
 
  private:
+  /// How far readings have gone on a step since they jumped, away from where the load was: the least [N].
+  Scalar least_pace(Scalar reading, Scalar steps) const {
+    const Scalar on = (shown_ > last_ ? reading - shown_ : shown_ - reading) / steps;
+    return held_ > 1 && pace_ < on ? pace_ : on;
+  }
   /// Whether the readings that were held back had stayed where they were, and this one jumps from there to
   /// the other side: it is right again, though the load has gone farther than any did before.
   bool comes_back(Scalar reading, bool stays) {
@@ -66,14 +93,17 @@ class JumpGuard {
     return false;
   }
 
-  static constexpr std::uint8_t enough = 8, steady = 3;
+  static constexpr std::uint8_t enough = 8, steady = 3, line = 2;
   static constexpr Scalar far = 4, at_most = 3, pause = 4;
 
   Scalar last_ = 0, step_ = 0;  // the last reading that was believed; its time after the one before [s]
   Scalar passed_ = 0;           // since then, in such steps
   Scalar farthest_ = 0;         // that readings have gone in a row [N], less their scatter
   Scalar shown_ = 0;            // the last one that was held back
+  Scalar jumped_ = 0,
+         pace_ = 0;  // a step: how far they jumped, and the least that they have gone on since [N]
   std::uint8_t seen_ = 0, held_ = 0;
+  bool may_move_ = false, has_moved_ = false;
   std::uint8_t stayed_ = 0;  // of those held back, so many in a row were where the one before was
 };
 

@@ -109,6 +109,9 @@ class LoadFilter : LoadFilterTuning {
     if (ahead(confirmed_, load) > 0) set_confirmed(load);
   }
 
+  /// The load is known to have left its line: where it is now, the next reading alone tells.
+  void lose() { lost_ = true; }
+
   /// Takes the next reading [N], `dt` > 0 after the one before, in any unit of time; for the first it does
   /// not matter. What is not finite is refused, and may be anything else. Cost: while readings wait a few
   /// operations; else those of four hypotheses; at worst, when sixteen that wait are taken apart, six times
@@ -130,7 +133,7 @@ class LoadFilter : LoadFilterTuning {
     if (!usable) return miss(step);
     missed_ = 0;
     const Told told = last_told();
-    if (step > gap * step_ && step_ > 0) return take_after_gap(step, y, told);
+    if ((lost_ || step > gap * step_) && step_ > 0) return take_after_gap(step, y, told);
     note_step(step);
     const int newest = hypotheses_.place(hypotheses_.size - 1);
     const bool has_no_slope = !(step > 0) || (best_ == newest && is_new(newest));
@@ -212,13 +215,15 @@ class LoadFilter : LoadFilterTuning {
     for (int k = hypotheses_.size - 1; k >= 0; --k) {
       const int i = hypotheses_.place(k);
       // Of a line that says so little no digits would be left.
-      if (!(at(hypotheses_.level_variance, i) < vague && std::fabs(at(hypotheses_.level, i)) < farthest)) {
+      if (lost_ ||
+          !(at(hypotheses_.level_variance, i) < vague && std::fabs(at(hypotheses_.level, i)) < farthest)) {
         hypotheses_.drop(k);
         continue;
       }
       // What has lasted long is to be left as easily as any other now.
       if (at(hypotheses_.run_length, i) >= long_run) at(hypotheses_.run_length, i) = long_run - 1;
     }
+    lost_ = false;
     make_room(hypotheses_, true, y);
     const int born = hypotheses_.add();
     at(hypotheses_.level, born) = told.level;
@@ -272,6 +277,13 @@ class LoadFilter : LoadFilterTuning {
     ConditionedLoad<Scalar> now;
     say(now, widened(estimate), further);
     return now;
+  }
+  /// What comes next is none of those that wait.
+  void take_waiting() {
+    if (!block_.has_room()) return;
+    if (block_.size > 0) take_together(level_of(at(block_.reading, block_.size - 1)), true);
+    block_.close();
+    calm_ = 0;
   }
   /// The readings that wait, and their mean as one; the last of them is `y`.
   [[gnu::noinline]] ConditionedLoad<Scalar> take_together(Level y, bool is_suspicious) {
@@ -579,6 +591,7 @@ class LoadFilter : LoadFilterTuning {
   std::int8_t best_ = 0;         // the most likely hypothesis
   std::int8_t since_birth_ = 0;  // samples since a line began
   std::int8_t calm_ = 0;         // samples without surprise
+  bool lost_ = false;            // it has left its line
 };
 
 // Outside of the class, so that a source with an `extern template` of it compiles none of it.
@@ -586,6 +599,7 @@ class LoadFilter : LoadFilterTuning {
 template <class Scalar>
 ConditionedLoad<Scalar> LoadFilter<Scalar>::take(Scalar reading, Scalar dt) {
   const auto step = static_cast<Level>(dt);
+  if (lost_) take_waiting();
   if (block_.has_room() || begins_to_wait()) return wait(reading, step);
   return sd_ == 0 ? take_exact(reading) : take_one(reading, step);
 }

@@ -56,7 +56,7 @@ void remember_reversal(Parts& parts, int k) {
   const int p = next_memory(parts, k);
   if (p < 0) return;
   const auto& at = parts.jacks.end(k);
-  parts.filter.remember_reversal(parts.tracker, p, at.cable(), at.end, jack.sd_before);
+  parts.filter.remember_reversal(parts.tracker, p, at.cable(), at.end, jack.turn_sd);
   parts.is_belief_fine = false;
   if (!loads_change || jack.locked) return;
   jack.frozen = static_cast<std::int16_t>(p);

@@ -71,10 +71,12 @@ bool measure_far_ends(Parts& parts, const typename Parts::ReadingsType& readings
   auto& far_ends = parts.far_ends;
   const bool gathers = !parts.is_ahead && far_ends.gathers(parts.jacks);
   bool learns = false;
-  parts.misfits = false;
+  if (!parts.loads_are_in_doubt()) parts.misfits = false;
   for (int e = 0; e < far_ends.ends().size(); ++e) {
     const auto& end = far_ends.ends()[e];
     const auto& given = end.in(readings.ends);
+    // Another cable's load that is in doubt makes the reading less certain; its own, what slides.
+    if (parts.loads_are_in_doubt(end.cable())) continue;
     if (parts.can_be(given, end.cable()))
       learns |= measure_far_end(parts, e, given.force, gathers);
     else if (given.has_force)

@@ -38,7 +38,7 @@ template <class Parts, class Predict>
 void take_measurement(Parts& parts, const Predict& predict, typename Parts::Scalar reading,
                       typename Parts::Scalar sd, const Alarm& contradiction) {
   using Scalar = typename Parts::Scalar;
-  if (!(sd > 0) || !parts.can_learn()) return;
+  if (!(sd > 0) || !parts.can_learn(contradiction.cable)) return;
   auto& filter = parts.filter;
   wait_for_none(parts);
   predict(filter.prediction());
@@ -80,7 +80,7 @@ bool is_sure(const Parts& parts, int cable, typename Parts::Scalar sd) {
 template <class Parts>
 struct WhileSliding {
   Parts& parts;
-  bool can_learn() const { return parts.can_learn(); }
+  bool can_learn(int cable) const { return parts.can_learn(cable); }
   bool is_sure(int cable, typename Parts::Scalar sd) const { return taut::is_sure(parts, cable, sd); }
   template <class Predict>
   Update update(const Predict& predict, const typename Parts::JacksType::Readings& jacks,
@@ -94,7 +94,9 @@ struct WhileSliding {
 template <class Parts>
 struct AlongLeg {
   Parts& parts;
-  bool can_learn() const { return parts.filter.belief().has_friction() && !parts.loads_are_in_doubt(); }
+  bool can_learn(int cable) const {
+    return parts.filter.belief().has_friction() && !parts.loads_are_in_doubt(cable);
+  }
   bool is_sure(int, typename Parts::Scalar) const { return true; }
   template <class Predict>
   Update update(const Predict& predict, const typename Parts::JacksType::Readings& jacks,
@@ -118,7 +120,7 @@ void take_gauge(Parts& parts, const Predict& predict, typename Parts::Scalar rea
   const Rule<Parts> rule{parts};
   if (!gauges.has(gauge) || !std::isfinite(reading)) return;
   gauges.follow_noise(gauge, reading);
-  if (!rule.can_learn() || !gauges.is_due(gauge)) return;
+  if (!rule.can_learn(contradiction.cable) || !gauges.is_due(gauge)) return;
   typename Parts::JacksType::Readings jacks;
   const auto predict_reading = [&](auto& prediction) {
     predict(prediction);

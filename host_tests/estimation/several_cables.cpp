@@ -1,0 +1,150 @@
+// Two cables that are jacked in turns: what is in doubt of one says nothing against what is read of the
+// other.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "estimation/site.hpp"
+
+using namespace estimation;
+
+namespace {
+
+constexpr double noise = 500, nominal_mu = 0.2, mu_sd = 0.05;
+
+taut::Cable<double> a_cable(double mu) {
+  taut::Cable<double> cable = support::steel_cable(mu);
+  cable.mu_sd = mu_sd;
+  cable.shared_mu = true;
+  for (auto& cell : cable.cell) cell.sd = noise;
+  return cable;
+}
+/// Each with a jack at its end and a cell at its start: over saddles of their own, or both below one truss.
+void make_pair(Plane& scene, double mu, bool elastic) {
+  const taut::Cable<double> cable = a_cable(mu);
+  std::vector<int> path;
+  if (elastic) {
+    support::truss_string(scene, cable, 4);
+    for (int i = 0; i < scene.cables[0].nodes; ++i)
+      path.push_back(scene.path[scene.cables[0].first_path + i]);
+  } else {
+    const auto points = support::chain_points(5);
+    support::rigid_saddles(scene, cable, points);
+    for (const auto& point : points) path.push_back(scene.add_node({point[0], point[1] + 20}, taut::held_xy));
+  }
+  scene.add_cable(cable, path.data(), static_cast<int>(path.size()));
+}
+
+/// The truth in double, the estimate in Scalar.
+template <class Scalar>
+class Pair {
+ public:
+  using Model = taut::Condensed<Scalar, PlaneCapacity>;
+  using Truth = taut::Condensed<double, PlaneCapacity>;
+
+  Pair(bool elastic, double mu, std::uint64_t seed) : random_(seed) {
+    make_pair(known_, nominal_mu, elastic);
+    make_pair(actual_, mu, elastic);
+    REQUIRE(support::condense(known_, model_).ok());
+    REQUIRE(support::condense(actual_, true_model_).ok());
+    taut::find_friction_prior(known_, prior_);
+    REQUIRE(truth_.start(true_model_).status.ok());
+    REQUIRE(estimator_.start(model_, prior_).status.ok());
+  }
+  /// A row with these forces of the jacks [N]; a dead cell shows what a meter says that is not connected.
+  void advance(const std::array<double, 2>& force, int dead = -1) {
+    taut::Sample<double, PlaneCapacity> sample;
+    taut::Readings<Scalar, PlaneCapacity> readings;
+    for (int c = 0; c < 2; ++c) sample.jack[c][1].force = force[static_cast<std::size_t>(c)];
+    REQUIRE(truth_.advance(sample).status.ok());
+    for (int c = 0; c < 2; ++c)
+      for (std::size_t end = 0; end < 2; ++end) {
+        const double at_far = truth_.tension(true_model_.cables[c].first_segment),
+                     read = (end == 1 ? sample.jack[c][1].force : at_far) + noise * gaussian(random_);
+        readings.ends[c][end].has_force = true;
+        readings.ends[c][end].force = static_cast<Scalar>(c == dead && end == 1 ? 9.9e37 : read);
+      }
+    REQUIRE(estimator_.advance(readings).status.ok());
+  }
+  bool holds_truth(int segment) const {
+    const auto found = estimator_.estimate(segment);
+    return std::fabs(static_cast<double>(found.force) - truth_.tension(segment)) <=
+           1.96 * static_cast<double>(found.deviation);
+  }
+  const Truth& model() const { return true_model_; }
+  double tension(int segment) const { return truth_.tension(segment); }
+  const auto& estimator() const { return estimator_; }
+
+ private:
+  Random random_;
+  Plane known_, actual_;
+  Model model_;
+  Truth true_model_;
+  taut::FrictionPrior<Scalar, PlaneCapacity> prior_;
+  taut::Tracker<Truth> truth_;
+  taut::Estimator<Model, most_unknowns> estimator_;
+};
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("a far end teaches its cable's mu while the cell of another cable's idle jack is dead",
+                   Scalar, double, float) {
+  int doubtful = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    CAPTURE(seed);
+    Random random(1000 + seed);
+    const double mu = nominal_mu + mu_sd * gaussian(random);
+    const auto pair = std::make_unique<Pair<Scalar>>(false, mu, seed);
+    for (int row = 1; row <= 100; ++row) {
+      pair->advance({0, 2000.0 * row}, 0);
+      doubtful += pair->estimator().load(0, 1).refused ? 1 : 0;
+    }
+    const int joint = pair->model().cables[1].first_joint;
+    const double found = static_cast<double>(pair->estimator().mu(joint)),
+                 sd = static_cast<double>(pair->estimator().mu_deviation(joint));
+    CHECK(sd < 0.3 * mu_sd);
+    CHECK(std::fabs(found - mu) < 4 * sd);
+  }
+  // Else nothing was tested.
+  CHECK(doubtful == 2000);
+}
+
+TEST_CASE_TEMPLATE(
+    "of two cables below one truss that are jacked in turns 93 % of the intervals hold the truth", Scalar,
+    double, float) {
+  long held = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    CAPTURE(seed);
+    Random random(2000 + seed);
+    const auto pair = std::make_unique<Pair<Scalar>>(true, nominal_mu + mu_sd * gaussian(random), seed);
+    std::array<double, 2> at{};
+    // Up by a half each, one after the other, with waits between; then the first one is let out.
+    const auto go = [&](std::size_t jack, double to, int rows) {
+      const double from = at[jack];
+      for (int i = 1; i <= rows; ++i) {
+        at[jack] = from + (to - from) * i / rows;
+        pair->advance(at);
+        for (int k = 0; k < pair->model().segments; ++k) {
+          if (pair->tension(k) < 2000) continue;
+          held += pair->holds_truth(k) ? 1 : 0;
+          ++all;
+        }
+      }
+    };
+    for (const double part : {0.5, 1.0})
+      for (const std::size_t jack : {std::size_t{0}, std::size_t{1}}) {
+        go(jack, 2e5 * part, 5 + random.below(60));
+        go(jack, 2e5 * part, 10);
+      }
+    go(0, 1.2e5, 30);
+  }
+  const double share = static_cast<double>(held) / static_cast<double>(all);
+  CAPTURE(share);
+  CHECK(share > 0.93);
+  CHECK(share < 0.985);
+}
