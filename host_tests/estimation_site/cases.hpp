@@ -81,6 +81,7 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.jacking.warming = 8;
     c.jacking.lock = c.logs_sun = true;
   }
+  add("any-pace", Demand::model).jacking.any_pace = true;
   add("second-visit", Demand::model).jacking.visit = true;
   {
     Case& c = add("two-jacks", Demand::model);

@@ -21,6 +21,7 @@ struct JackingRules {
   bool lock = false;       ///< always, not now and then
   bool visit = false;      ///< a second one, always
   bool loop = false;       ///< a ramp and a release, and no more
+  bool any_pace = false;   ///< the log begins before the pump runs; it is fast or slow, and so are rows
   bool dead_load = false;  ///< comes on while jacking, and changes in holds
   double warming = 0;      ///< sd of the temperature's way in the last hold, and of that after lock-off [K]
   double warming_locked = 0;   ///< sd of the temperature's way after lock-off [K]
@@ -32,8 +33,8 @@ struct JackingRules {
   double ripple = 0;           ///< of the pump, part of the force
 
   auto all() const {
-    return std::tie(stages, least_rate, every_row, lock, visit, loop, dead_load, warming, warming_locked,
-                    sized, year_rows, year_sd, relaxation, ram, ram_sd, ripple);
+    return std::tie(stages, least_rate, every_row, lock, visit, loop, any_pace, dead_load, warming,
+                    warming_locked, sized, year_rows, year_sd, relaxation, ram, ram_sd, ripple);
   }
 };
 
@@ -70,6 +71,7 @@ class Jacking {
 
   void run() {
     const int increments = rules_.loop || rules_.stages || rules_.year_rows > 0 ? 1 : 1 + random_.below(3);
+    if (rules_.any_pace) rest();
     for (int i = 1; i <= increments; ++i) {
       move(Phase::ramp, double(i) / increments);
       wait(Phase::hold, i == increments ? warming(rules_.warming) : 0);
@@ -130,12 +132,22 @@ class Jacking {
   /// Of a move by a part of the full force, or of a wait that is as long.
   Pace pace(double part) {
     if (rules_.stages) return {std::max(1, static_cast<int>(std::lround(part * stages_))), 0};
+    if (rules_.any_pace) {
+      const double length = std::fmax(log_between(random_, 5, 300) * part, 0.1),
+                   step = 1 / log_between(random_, 0.25, 20), rows = std::ceil(length / step);
+      return {static_cast<int>(std::fmin(rows, 110)), std::fmax(length / 110, step)};
+    }
     const double length = log_between(random_, 10, 300) * std::fmax(part, 0.2);
     const double rows = std::fmin(std::fmax(length * rate_, 20), 110);
     const bool thinned = !rules_.every_row && length * rate_ > rows;
     return {static_cast<int>(rows), thinned ? length / rows : 1 / rate_};
   }
 
+  /// Before anything pulls.
+  void rest() {
+    const Pace pace{8 + random_.below(40), 1 / log_between(random_, 0.25, 20)};
+    for (int i = 1; i <= pace.rows; ++i) add(next(Phase::ramp, i, pace), false);
+  }
   void move(Phase phase, double to) {
     const Deed from = rows_.empty() ? Deed() : last();
     const double start = from.level / ground_.full;

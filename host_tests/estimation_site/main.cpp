@@ -18,6 +18,12 @@
 namespace estimation_site {
 namespace {
 
+constexpr char usage[] =
+    "usage: estimation_site [--count N] [--seed S] [--first I] [--case NAME,..] [--far yes|no|both]\n"
+    "                       [--plain] [--declared] [--phase] [--alarms] [--check] [--verify]\n"
+    "                       [--keep DIR] [--keep-all DIR] [--program PATH] [--year-rows N] [--fineness N]\n"
+    "host_tests/estimation_site/README.md says what each is.\n";
+
 struct Options {
   long count = 300, first = 0;
   std::uint64_t seed = 1;
@@ -357,8 +363,11 @@ bool read_options(int count, char** words, Options& options) {
       options.check = true;
     } else if (word == "--verify") {
       options.verify = true;
+    } else if (word == "-h" || word == "--help") {
+      std::fputs(usage, stdout);
+      std::exit(0);
     } else {
-      std::fprintf(stderr, "unknown option %s\n", word.c_str());
+      std::fprintf(stderr, "unknown option %s; --help has them all\n", word.c_str());
       return false;
     }
   }
