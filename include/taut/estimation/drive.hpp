@@ -94,6 +94,32 @@ Progress<typename TrackerType::Scalar> drive_straight(TrackerType& tracker, cons
   return progress;
 }
 
+/// Where the path to `to` has ended without an answer: a jack may pull more than it is taken to, and a
+/// structure that leans on its cable may have an answer then. Drives the tracker on from there with every
+/// unlocked jack one, two and three standard deviations above its best estimate, until there is one; `to` is
+/// then where that is. Otherwise fails as before. Cost: that of drive_straight() three times.
+template <class TrackerType, class Jacks, class SampleType, class Uncertainty>
+Progress<typename TrackerType::Scalar> pull_more(TrackerType& tracker, const Jacks& jacks, SampleType& to,
+                                                 int event_budget, const Uncertainty& mu_sd,
+                                                 Progress<typename TrackerType::Scalar> progress) {
+  using Scalar = typename TrackerType::Scalar;
+  constexpr int most = 3;
+  const auto lacks_pull = [](Code code) { return code == Code::mechanism || code == Code::gives_way; };
+  for (int deviations = 1; deviations <= most && lacks_pull(progress.status.code); ++deviations) {
+    bool pulls = false;
+    for (int k = 0; k < jacks.size(); ++k) {
+      const Scalar sd = larger(jacks[k].at.sd, jacks[k].filter.sd());
+      if (jacks[k].locked || !(jacks[k].filter.sd() > 0)) continue;
+      jacks.in(to.jack, k).force =
+          larger(jacks[k].target(), jacks[k].at.load) + static_cast<Scalar>(deviations) * sd;
+      pulls = true;
+    }
+    if (!pulls) break;
+    progress = join(progress, drive_straight(tracker, jacks, to, event_budget, mu_sd));
+  }
+  return progress;
+}
+
 /// Drives the tracker to the loads that ends had when they were locked, then to where loads have reversed,
 /// then to where jacks were a row ago, before the other loads began to change. remember(k) is called where
 /// jack `k` was locked or reversed, remember_load(k) at last. Fails as Tracker::advance() does. Cost: that of
@@ -131,7 +157,7 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
 
 /// Drives the tracker through the corners to `target`, where more happens than that a load changes. Fails as
 /// Tracker::advance() does; the jacks are then where the path ended. Cost: that of drive_straight() four
-/// times.
+/// times, and of pull_more().
 template <class TrackerType, class Jacks, class SampleType, class Remember, class RememberLoad,
           class Uncertainty>
 [[gnu::noinline]] Progress<typename TrackerType::Scalar> drive(
@@ -143,6 +169,7 @@ template <class TrackerType, class Jacks, class SampleType, class Remember, clas
     progress = drive_through(tracker, jacks, corners, event_budget, remember, remember_load, mu_sd);
   SampleType to = target;
   if (progress.status) progress = join(progress, drive_straight(tracker, jacks, to, event_budget, mu_sd));
+  if (!progress.status) progress = pull_more(tracker, jacks, to, event_budget, mu_sd, progress);
   if (progress.status.code == Code::not_started) return progress;
   const int patterns = load_patterns(tracker.model());
   if (!progress.status || progress.fraction < 1)
