@@ -355,6 +355,17 @@ TEST_CASE("a peak in one row of load stages is not lost, though its reading was 
   }
 }
 
+TEST_CASE("readings far below zero, one after the other, are no load that was there") {
+  Read read(100);
+  for (int i = 0; i < 20; ++i) CHECK_FALSE(read.tells(500, 20));
+  for (const double reading : {-7000.0, -3700.0, -4600.0, 500.0}) {
+    CAPTURE(reading);
+    static_cast<void>(read.tells(reading, 20));
+    CHECK(read.load() >= 0);
+    CHECK(read.reversal() >= 0);
+  }
+}
+
 TEST_CASE("a turn that noise hides leaves the error bar of what friction holds as wide as it may be") {
   // Up by 15.6 kN a row to 124.8, and 0.6 kN a row back to 120, with noise of 1.1 kN.
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {

@@ -159,9 +159,9 @@ struct JackLoad {
     return left > 5 * filter.sd() && left < come && come < far;
   }
 
-  /// That reading is believed after all.
+  /// That reading is believed after all; no force is below zero.
   void come_to_refused() {
-    filter.start_at(filter.sd(), refused, filter.sd(), refused > believed);
+    filter.start_at(filter.sd(), larger(refused, Scalar(0)), filter.sd(), refused > believed);
     believed = refused;
     refusals = 0;
   }
