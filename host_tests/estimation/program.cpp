@@ -817,6 +817,37 @@ TEST_CASE("the noise that nobody said is found in a log that begins at zero") {
   CHECK(std::strtod(outcome.err.c_str() + at + 5, nullptr) == doctest::Approx(300).epsilon(0.36));
 }
 
+TEST_CASE(
+    "the noise that nobody said is found in a log of thirty rows, too, and in load stages is not made of "
+    "steps") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0.1, "shared": true)", ""));
+  const auto found = [&](double noise, double step, std::uint64_t seed) {
+    support::Random random(seed);
+    std::string log = "time,C.end\n";
+    for (int i = 0; i < 30; ++i) {
+      const double force = i < 5 ? 0 : i < 25 ? 5000.0 * (i - 5) : 1e5;
+      log +=
+          std::to_string(step * i) + ',' + std::to_string(force + noise * support::gaussian(random)) + '\n';
+    }
+    write(scratch, "log.csv", log);
+    const Outcome outcome = estimate(scratch);
+    REQUIRE(outcome.status == 0);
+    const auto at = outcome.err.find(": sd ");
+    REQUIRE(at != std::string::npos);
+    return std::strtod(outcome.err.c_str() + at + 5, nullptr);
+  };
+  for (std::uint64_t seed = 1; seed <= 10; ++seed)
+    for (const double noise : {50.0, 500.0, 2000.0}) {
+      CAPTURE(seed);
+      CAPTURE(noise);
+      const double sd = found(noise, 1, seed);
+      CHECK(sd > 0.5 * noise);
+      CHECK(sd < 2 * noise);
+    }
+  CHECK(found(100, 60, 1) < 1000);
+}
+
 // The readings are those of the large-displacement reference with mu 0.06, a gain of 1.004, a zero of 150 N
 // and noise.
 TEST_CASE("joints over pinned struts stick, and the cell at the far end still teaches mu and the forces") {

@@ -13,11 +13,14 @@ class ReadingScatter {
  public:
   void add(double reading) {
     largest_ = std::max(largest_, std::fabs(reading));
-    if (readings_ >= 2) keep(std::fabs(reading - 2 * last_ + before_));
+    if (in_a_row_ >= 2) keep(std::fabs(reading - 2 * last_ + before_));
     before_ = last_;
     last_ = reading;
     ++readings_;
+    ++in_a_row_;
   }
+  /// What comes next is on no line with what came before.
+  void interrupt() { in_a_row_ = 0; }
   /// In place of readings: how large they may be, and how much they may scatter.
   void expect(double largest, double scatter) {
     largest_ = largest;
@@ -43,7 +46,7 @@ class ReadingScatter {
 
   // Every so many of a long log have the same median.
   void keep(double bend) {
-    if ((readings_ - 2) % every_ != 0) return;
+    if (readings_ % every_ != 0) return;
     if (bends_.size() == most_bends) {
       for (std::size_t i = 0; 2 * i < most_bends; ++i) bends_[i] = bends_[2 * i];
       bends_.resize(most_bends / 2);
@@ -54,7 +57,7 @@ class ReadingScatter {
 
   std::vector<double> bends_;
   double largest_ = 0, expected_ = 0, last_ = 0, before_ = 0;
-  std::size_t readings_ = 0, every_ = 1;
+  std::size_t readings_ = 0, in_a_row_ = 0, every_ = 1;
 };
 
 }  // namespace taut::host

@@ -9,6 +9,7 @@
 #include "lib/files/text.hpp"
 #include "lib/kinds/capacities.hpp"
 #include "lib/report/number_text.hpp"
+#include "taut/estimation/jump_guard.hpp"
 #include "taut/estimation/noise_level.hpp"
 
 namespace taut::host {
@@ -105,10 +106,15 @@ void fill_in_strokes(const LogReader& log, SceneDescription& scene, std::vector<
     }
 }
 
-// What the readings of a load cell say of it.
+// What the readings of a load cell say of it. The noise level begins low and needs some hundred rows to come
+// up; the scatter needs few, but takes noise with a memory for less than it is. It says nothing of load
+// stages.
 struct CellReadings {
+  static constexpr std::size_t enough = 16;  // for a median
+
   double largest = 0;
   NoiseLevel<double> noise;
+  ReadingScatter scatter;
   double time = 0;
   long count = 0;
 
@@ -117,8 +123,11 @@ struct CellReadings {
     largest = expected;
     noise.start(expected_noise * expected);
   }
+  double sd() const { return std::max(noise.sd(), scatter.readings() < enough ? 0 : scatter.scatter()); }
   void take(double reading, double at) {
     noise.take(reading, at - time);
+    if (count > 0 && at - time > JumpGuard<double>::far_apart) scatter.interrupt();
+    scatter.add(reading);
     time = at;
     ++count;
   }
@@ -181,7 +190,7 @@ Sentence fill_in(const CellReadings& readings, bool has_constants, InstrumentDes
     value = usual;
     taken = listed(taken, what);
   };
-  const double noise = std::max(readings.noise.sd(), least_noise * readings.largest),
+  const double noise = std::max(readings.sd(), least_noise * readings.largest),
                zero = usual_zero_sd * readings.largest;
   take(instrument.sd, noise,
        Sentence(readings.count > 0 ? "sd {1} N as its readings scatter" : "sd {1} N", {digits(noise)}));
