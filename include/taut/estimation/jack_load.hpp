@@ -58,7 +58,7 @@ struct JackLoad {
   Scalar load_before = 0;                ///< best estimate of the load a row ago [N]
   Scalar farthest = 0, farthest_sd = 0;  ///< the one that went farthest since the load turned [N]
   Scalar turn_sd = 0;                    ///< standard deviation of the load where it turned or was locked [N]
-  bool rises = true;                     ///< since it turned
+  bool rises = false;                    ///< since it turned
   bool is_new = false;                   ///< `raw` is of this row, and was believed
   Scalar believed = 0, refused = 0;      ///< the last reading that was believed, and that was not [N]
   Scalar beside = 0;  ///< what the cell at the other end of the cable read with the one that was believed [N]
