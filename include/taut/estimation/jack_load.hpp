@@ -139,15 +139,17 @@ struct JackLoad {
     return larger(times * times, Scalar(1));
   }
 
-  /// Once the load of a row is known.
-  void note_farthest() {
+  /// Once the load of a row is known: it is hardly farther than it was read, `noise_sd`, for where a ramp
+  /// ends the estimate overshoots.
+  void note_farthest(Scalar noise_sd) {
+    const Scalar come = rises ? -larger(-at.load, -raw - noise_sd) : larger(at.load, raw - noise_sd);
     if (at.reversed) {
       turn_sd = larger(sd_before, back(at.reversal));
       rises = !rises;
-    } else if (!(rises ? at.load > farthest : at.load < farthest)) {
+    } else if (at.refused || !(rises ? come > farthest : come < farthest)) {
       return;
     }
-    farthest = at.load;
+    farthest = at.reversed ? at.load : come;
     farthest_sd = at.sd;
   }
   /// Whether the one reading that was refused before this one was a peak of the load: the load has come at
@@ -263,7 +265,7 @@ struct JackLoad {
       at = behind_branches(at, cell);
       raw /= branch(cell);
     }
-    note_farthest();
+    note_farthest(filter.sd() / branch(cell) / 2);
     if (first == 0 && at.load > 0) first = Scalar(1e-3) * cell.sd;
     since = 0;
     is_new = !at.refused;
