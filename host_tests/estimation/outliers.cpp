@@ -366,10 +366,10 @@ TEST_CASE("readings far below zero, one after the other, are no load that was th
   }
 }
 
-TEST_CASE("a turn that noise hides leaves the error bar of what friction holds as wide as it may be") {
+TEST_CASE("of turns that noise hides the error bar of what friction holds reaches four in five") {
   // Up by 15.6 kN a row to 124.8, and 0.6 kN a row back to 120, with noise of 1.1 kN.
-  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    CAPTURE(seed);
+  int hidden = 0, held = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     support::Random random(seed);
     Read read(1100);
     double load = 0;
@@ -378,6 +378,11 @@ TEST_CASE("a turn that noise hides leaves the error bar of what friction holds a
       static_cast<void>(read.tells(load + 1100 * support::gaussian(random), i < 8 ? 7.5 : 1.25));
     }
     if (read.has_turned()) continue;
-    CHECK(read.back() > 300);
+    ++hidden;
+    held += 124800 - read.load() < 1.96 * std::hypot(read.back(), read.sd()) ? 1 : 0;
   }
+  CAPTURE(held);
+  CAPTURE(hidden);
+  CHECK(hidden > 300);
+  CHECK(held > 0.8 * hidden);
 }
