@@ -139,18 +139,19 @@ struct JackLoad {
     return larger(times * times, Scalar(1));
   }
 
-  /// Once the load of a row is known: it is hardly farther than it was read, `noise_sd`, for where a ramp
-  /// ends the estimate overshoots.
-  void note_farthest(Scalar noise_sd) {
-    const Scalar come = rises ? -larger(-at.load, -raw - noise_sd) : larger(at.load, raw - noise_sd);
+  /// Once the load of a row is known. Where a ramp ends the estimate overshoots: it is farther than it was
+  /// read by `beyond` at most [N], and known no better than that.
+  void note_farthest(Scalar beyond) {
+    Scalar come = at.load;
     if (at.reversed) {
       turn_sd = larger(sd_before, back(at.reversal));
       rises = !rises;
-    } else if (at.refused || !(rises ? come > farthest : come < farthest)) {
-      return;
+    } else {
+      come = rises ? -larger(-at.load, -raw - beyond) : larger(at.load, raw - beyond);
+      if (at.refused || !(rises ? come > farthest : come < farthest)) return;
     }
-    farthest = at.reversed ? at.load : come;
-    farthest_sd = at.sd;
+    farthest = come;
+    farthest_sd = larger(at.sd, beyond);
   }
   /// Whether the one reading that was refused before this one was a peak of the load: the load has come at
   /// least half-way there.
@@ -292,10 +293,11 @@ struct JackLoad {
   /// What slides and what sticks in its cable is in doubt: the load may have reversed, or the reading of this
   /// row was none, and the load is where it was last read, or elsewhere.
   bool is_in_doubt() const { return at.behind || (!locked && at.refused); }
-  /// How far a load may have come back from where it probably was without being confirmed to have turned:
-  /// the forces that friction holds did not follow. Beyond what is by chance, two standard deviations [N].
+  /// How far a load may have come back to `from` without being confirmed to have turned: the forces that
+  /// friction holds did not follow. Zero within three standard deviations, as it is by chance [N].
   Scalar back(Scalar from) const {
-    return larger((rises ? farthest - from : from - farthest) - 2 * farthest_sd, Scalar(0));
+    const Scalar off = rises ? farthest - from : from - farthest;
+    return off > 3 * farthest_sd ? off - farthest_sd : Scalar(0);
   }
   bool may_be_back() const { return at.behind || back(at.load) > 0; }
   /// By how much the load may be off, if it is in doubt [N].
