@@ -366,7 +366,7 @@ TEST_CASE("readings far below zero, one after the other, are no load that was th
   }
 }
 
-TEST_CASE("of turns that noise hides the error bar of what friction holds reaches four in five") {
+TEST_CASE("of turns that noise hides the error bar of what friction holds reaches 95 %") {
   // Up by 15.6 kN a row to 124.8, and 0.6 kN a row back to 120, with noise of 1.1 kN.
   int hidden = 0, held = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
@@ -384,5 +384,5 @@ TEST_CASE("of turns that noise hides the error bar of what friction holds reache
   CAPTURE(held);
   CAPTURE(hidden);
   CHECK(hidden > 300);
-  CHECK(held > 0.8 * hidden);
+  CHECK(held > 0.95 * hidden);
 }
