@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "taut/estimation/held_over.hpp"
 #include "taut/estimation/jack_loads.hpp"
 #include "taut/numerics/larger.hpp"
 #include "taut/status.hpp"
@@ -28,18 +29,6 @@ template <class TrackerType, class Jacks, class SampleType>
     jacks.arrive(to, load_patterns(tracker.model()));
   }
   return true;
-}
-
-/// The least part of its force that a cable has at one end where it is pulled at the other and slides over
-/// all joints: the product of rho. Cost: one product a joint.
-template <class TrackerType>
-typename TrackerType::Scalar held_over(const TrackerType& tracker, int c) {
-  using Scalar = typename TrackerType::Scalar;
-  const auto& cable = tracker.model().cables[c];
-  Scalar held = 1;
-  for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
-    held *= static_cast<Scalar>(tracker.rho(j));
-  return held;
 }
 
 /// What two jacks were confirmed to pull may differ by more than friction holds in the model, although it

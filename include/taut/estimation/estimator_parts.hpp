@@ -91,10 +91,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
 
   // Of jack `k`.
 
-  int end_segment(int k) const {
-    const EndType& at = jacks.end(k);
-    return model().cables[at.cable()].end_segment(at.end);
-  }
+  int end_segment(int k) const { return jacks.end(k).segment(model()); }
   Scalar most_force(int k) const { return model().most_force[jacks.end(k).cable()]; }
   const LoadCell<Scalar>& cell(int k) const { return jacks.in(filter.prior().cell, k); }
   /// Whether it strains its cable by AlarmLimits::initial_strain. It carries at most a tenth of E A.
@@ -120,10 +117,10 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   /// Whether what is read of a cable cannot be compared with what its own jacks would make of it, for their
   /// loads may be others; any jack counts if `cable` is negative.
   bool loads_are_in_doubt(int cable = -1) const { return jacks.are_in_doubt(cable); }
+  /// Whether what is read of a cable can teach anything.
+  bool can_teach(int cable) const { return filter.belief().has_friction() && !loads_are_in_doubt(cable); }
   /// Forces teach nothing where the tracker is ahead: what is read belongs to no place that is confirmed.
-  bool can_learn(int cable) const {
-    return filter.belief().has_friction() && !is_ahead && !loads_are_in_doubt(cable);
-  }
+  bool can_learn(int cable) const { return !is_ahead && can_teach(cable); }
 
   // What is known of a segment.
 

@@ -203,19 +203,16 @@ class FarEnds {
     state_.watch[e].take(reading, reading - belief.innovation(), belief.innovation_variance() + lasting,
                          sd * sd);
   }
-  static int segment_at(const EndType& end, const TrackerType& tracker) {
-    return tracker.model().cables[end.cable()].end_segment(end.end);
-  }
   template <class PredictionType>
   static void predict_at(const EndType& end, const TrackerType& tracker, const FilterType& filter,
                          const Jacks& jacks, PredictionType& prediction) {
-    predict_tension(tracker, segment_at(end, tracker), filter.belief(), jacks.ends(), prediction);
+    predict_tension(tracker, end.segment(tracker.model()), filter.belief(), jacks.ends(), prediction);
     const InstrumentUnknowns& own = filter.instruments().at(end.cable(), end.end);
     if (own.gain >= 0) prediction.H[own.gain] = prediction.value;
     if (own.zero >= 0) prediction.H[own.zero] = 1;
   }
   Scalar sensitivity_slope(int p, const TrackerType& tracker) const {
-    return tracker.sensitivity_slope(p, 0, segment_at(ends_[0], tracker));
+    return tracker.sensitivity_slope(p, 0, ends_[0].segment(tracker.model()));
   }
   /// For readings that are gathered. Soon after something has happened little is known.
   int room() const { return state_.learned / 4; }

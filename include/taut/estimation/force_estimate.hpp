@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "taut/estimation/held_over.hpp"
 #include "taut/estimation/prediction.hpp"
 #include "taut/numerics/larger.hpp"
 
@@ -14,24 +15,15 @@ struct ForceEstimate {
   Scalar force = 0, deviation = 0;
 };
 
-/// The segment at the end `at` of a cable.
-template <class TrackerType, class EndType>
-int end_segment(const TrackerType& tracker, const EndType& at) {
-  return tracker.model().cables[at.cable()].end_segment(at.end);
-}
-
 /// By how much of a change of the jack's force at `at` a segment of the same cable changes, at most: where
 /// all joints between slide; zero in other cables. Cost: one product a joint between.
 template <class TrackerType, class EndType>
 typename TrackerType::Scalar carried_over(const TrackerType& tracker, const EndType& at, int segment) {
-  using Scalar = typename TrackerType::Scalar;
   const auto& cable = tracker.model().cables[at.cable()];
   const int i = segment - cable.first_segment;
   if (i < 0 || i >= cable.segments()) return 0;
-  const int first = at.end == 0 ? 0 : i, end = at.end == 0 ? i : cable.joints();
-  Scalar carried = 1;
-  for (int j = first; j < end; ++j) carried *= static_cast<Scalar>(tracker.rho(cable.first_joint + j));
-  return carried;
+  return at.end == 0 ? held_between(tracker, cable.first_joint, i)
+                     : held_between(tracker, cable.first_joint + i, cable.joints() - i);
 }
 
 /// The tension of a segment where the tracker is, carried on along its present piece to the best estimate of
@@ -53,7 +45,7 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
     T += further;
     if (!HasDeviation || load.locked) continue;
     const EndType& at = jacks.end(k);
-    const bool may_be_back = load.may_be_back() && segment != end_segment(tracker, at);
+    const bool may_be_back = load.may_be_back() && segment != at.segment(tracker.model());
     // Where nothing is confirmed to pull yet, too.
     const bool is_elsewhere = load.at.refused || !(load.driven.force > 0);
     const Scalar most = is_elsewhere || may_be_back ? carried_over(tracker, at, segment) : Scalar(0);

@@ -94,9 +94,7 @@ struct WhileSliding {
 template <class Parts>
 struct AlongLeg {
   Parts& parts;
-  bool can_learn(int cable) const {
-    return parts.filter.belief().has_friction() && !parts.loads_are_in_doubt(cable);
-  }
+  bool can_learn(int cable) const { return parts.can_teach(cable); }
   bool is_sure(int, typename Parts::Scalar) const { return true; }
   template <class Predict>
   Update update(const Predict& predict, const typename Parts::JacksType::Readings& jacks,
