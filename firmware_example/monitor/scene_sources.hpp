@@ -91,8 +91,7 @@ constexpr taut::UnknownCounts most_unknowns(const SceneType& scene) {
       known.cell[c][end] = taut::LoadCell<float>::of(scene.cables[c].cell[end]);
   }
   taut::UnknownCounts count = taut::count_unknowns(
-      scene.cables, [](int) { return false; }, known,
-      taut::Estimator<Model, 1>::remembered_corners(scene.loads));
+      scene.cables, [](int) { return false; }, known, scene.loads);
   if (count.carried == 0) count.carried = 1;
   return count;
 }

@@ -82,6 +82,11 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.jacking.lock = c.logs_sun = true;
   }
   add("any-pace", Demand::model).jacking.any_pace = true;
+  {
+    Case& c = add("cables-in-turns", Demand::model);
+    c.ground.truss_only = c.jacking.in_turns = true;
+    c.ground.most_cables = 3;
+  }
   add("second-visit", Demand::model).jacking.visit = true;
   {
     Case& c = add("two-jacks", Demand::model);
@@ -137,6 +142,12 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.without_far = false;
   }
   make_typical_mix(add("typical-mix"));
+  {
+    Case& c = add("cables-in-turns-mix");
+    make_typical_mix(c);
+    c.ground.truss_only = c.jacking.in_turns = true;
+    c.ground.most_cables = 3;
+  }
   make_typical_mix(add("typical-mix-silent"));
   cases.back().silent = true;
   return cases;

@@ -16,20 +16,23 @@ inline const char* name_of(Phase phase) {
 /// Load patterns of the true structure; the log need not have them all.
 enum Pattern : int { dead, sun, patterns };
 
-struct Deed {
-  double time = 0;
+/// What is done to one cable.
+struct Pull {
   double level = 0;               ///< force that the pump aims at [N]
   std::array<double, 2> gauge{};  ///< what a perfect pressure gauge would show as force [N]
   std::array<double, 2> force{};  ///< of the jacks [N]: the gauge less the friction of the ram
   std::array<bool, 2> locked{};
-  std::array<double, patterns> factor{};
-  double logged_sun = 0;  ///< what the log says of the factor of `sun`
   Phase phase = Phase::ramp;
-  bool fresh = false;  ///< of the first 12 rows of a ramp or a hold
+  bool fresh = false;                 ///< of the first 12 rows of a ramp or a hold
+  std::array<double, 2> extension{};  ///< of the jacks [m]: what comes of it
+};
 
-  // What comes of it.
-  std::vector<double> tension;        ///< of every segment [N]
-  std::array<double, 2> extension{};  ///< of the jacks [m]
+struct Deed {
+  double time = 0;
+  std::vector<Pull> pulls;  ///< by cable
+  std::array<double, patterns> factor{};
+  double logged_sun = 0;        ///< what the log says of the factor of `sun`
+  std::vector<double> tension;  ///< of every segment, cable after cable [N]: what comes of it
 };
 
 }  // namespace estimation_site

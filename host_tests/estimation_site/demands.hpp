@@ -57,7 +57,8 @@ class Demands {
       if (far || tried.logs_stroke) between("error at end", tally.end.error(), 0, 2);
     }
     // With the jack alone mu is not known, plug or no plug.
-    if (name == "loose-plug" && far) between("error at end", tally.end.error(), 0, 1);
+    const bool needs_far = name == "loose-plug" || name == "cables-in-turns";
+    if (needs_far && far) between("error at end", tally.end.error(), 0, 1);
     if (name == "elongation-loop" && way == "declared") {
       between("sd of mu", tally.mu_sd(), 0, 6);
       // Where the loop is closed: before, nothing has told how much friction there is.

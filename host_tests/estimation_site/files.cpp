@@ -29,13 +29,26 @@ std::string joined(const Items& items, const Write& write) {
 }
 
 /// What differs between the scene of the drawings and the true one.
-struct Particulars {
-  std::string cable, friction, loads, sensors;
+struct CableParticulars {
   double E = 0;
+  std::string cable, friction;
+};
+struct Particulars {
+  std::vector<CableParticulars> cables;
+  std::string loads, sensors;
 };
 
+std::string cable_text(const Cable& cable, const std::string& name, const CableParticulars& particulars) {
+  return "{ \"name\": \"" + name + "\", \"path\": [" + joined(cable.path, node_name) +
+         "], \"E\": " + number(particulars.E) + ", \"A\": " + number(cable.A) +
+         ", \"alpha\": " + number(cable.alpha) +
+         ", \"start\": " + (cable.two_jacks ? "\"jacked\"" : "\"anchored\"") + ", \"end\": \"jacked\"" +
+         particulars.cable + ",\n\"friction\": { \"law\": " + (cable.capstan ? "\"capstan\"" : "\"point\"") +
+         particulars.friction + " } }";
+}
+
 std::string scene_with(const Ground& ground, const Particulars& particulars) {
-  std::string nodes, supports;
+  std::string nodes, supports, cables;
   for (std::size_t i = 0; i < ground.nodes.size(); ++i) {
     nodes += (i > 0 ? ", " : "") + node_name(static_cast<int>(i)) + ": [" + number(ground.nodes[i][0]) +
              ", " + number(ground.nodes[i][1]) + "]";
@@ -50,13 +63,9 @@ std::string scene_with(const Ground& ground, const Particulars& particulars) {
   std::string text = "{ \"taut\": 1, \"name\": \"site\", \"dimension\": 2,\n\"nodes\": { " + nodes +
                      " },\n\"supports\": { " + supports + " },\n";
   if (!struts.empty()) text += "\"struts\": [ " + struts + " ],\n";
-  text += "\"cables\": [ { \"name\": \"C\", \"path\": [" + joined(ground.path, node_name) +
-          "], \"E\": " + number(particulars.E) + ", \"A\": " + number(ground.A) +
-          ", \"alpha\": " + number(ground.alpha) +
-          ", \"start\": " + (ground.two_jacks ? "\"jacked\"" : "\"anchored\"") + ", \"end\": \"jacked\"" +
-          particulars.cable +
-          ",\n\"friction\": { \"law\": " + (ground.capstan ? "\"capstan\"" : "\"point\"") +
-          particulars.friction + " } } ]";
+  for (std::size_t c = 0; c < ground.cables.size(); ++c)
+    cables += (c > 0 ? ",\n" : "") + cable_text(ground.cables[c], cable_name(c), particulars.cables[c]);
+  text += "\"cables\": [ " + cables + " ]";
   if (!particulars.loads.empty()) text += ",\n\"loads\": { " + particulars.loads + " }";
   if (!particulars.sensors.empty()) text += ",\n\"sensors\": { " + particulars.sensors + " }";
   return text + " }\n";
@@ -69,18 +78,21 @@ std::string load_patterns(const Ground& ground, bool with_dead, bool with_sun) {
            joined(ground.loaded,
                   [&](int node) { return node_name(node) + ": [0, " + number(-ground.dead) + "]"; }) +
            " } }";
-  if (with_sun) text += std::string(text.empty() ? "" : ", ") + "\"sun\": { \"temperature\": { \"C\": 1 } }";
-  return text;
+  if (!with_sun) return text;
+  std::string warmed;
+  for (std::size_t c = 0; c < ground.cables.size(); ++c)
+    warmed += (c > 0 ? ", \"" : "\"") + cable_name(c) + "\": 1";
+  return text + (text.empty() ? "" : ", ") + "\"sun\": { \"temperature\": { " + warmed + " } }";
 }
 
-std::string cell_text(const char* column, const Jacked& jacked, const Case& tried, bool is_jack,
-                      bool declared) {
+std::string cell_text(const std::string& column, double full, const Readings& readings, const Case& tried,
+                      bool is_jack, bool declared) {
   const auto& rules = tried.instruments;
-  std::string text = std::string("\"") + column + "\": { \"sd\": " + number(jacked.readings.sd);
+  std::string text = "\"" + column + "\": { \"sd\": " + number(readings.sd);
   if (declared) {
     text += ", \"gain_sd\": " + number(is_jack ? rules.jack_gain_sd : rules.far_gain_sd) +
-            ", \"zero_sd\": " + number(rules.zero_sd * jacked.ground.full);
-    if (rules.step > 0) text += ", \"resolution\": " + number(jacked.readings.step);
+            ", \"zero_sd\": " + number(rules.zero_sd * full);
+    if (rules.step > 0) text += ", \"resolution\": " + number(readings.step);
     if (is_jack && tried.jacking.ram > 0)
       text += ", \"hysteresis\": { \"part\": " + number(tried.jacking.ram) +
               ", \"sd\": " + number(tried.jacking.ram_sd) + ", \"calibrated\": \"mean\" }";
@@ -89,52 +101,75 @@ std::string cell_text(const char* column, const Jacked& jacked, const Case& trie
 }
 
 std::string sensors_text(const Jacked& jacked, const Case& tried, bool far, bool declared) {
-  std::vector<std::string> cells{cell_text("C.end", jacked, tried, true, declared)};
-  if (jacked.ground.two_jacks) cells.push_back(cell_text("C.start", jacked, tried, true, declared));
-  if (far) cells.push_back(cell_text("C.start", jacked, tried, false, declared));
-  if (declared && tried.logs_stroke)
-    cells.push_back("\"C.end.stroke\": { \"sd\": 0.001, \"zero\": \"free\" }");
+  std::vector<std::string> cells;
+  for (std::size_t c = 0; c < jacked.readings.size(); ++c) {
+    const Cable& cable = jacked.ground.cables[c];
+    const std::string start = cable_name(c) + ".start", end = cable_name(c) + ".end";
+    const auto add = [&](const std::string& column, bool is_jack) {
+      cells.push_back(cell_text(column, cable.full, jacked.readings[c], tried, is_jack, declared));
+    };
+    add(end, true);
+    if (cable.two_jacks || far) add(start, cable.two_jacks);
+    if (declared && tried.logs_stroke)
+      cells.push_back("\"" + end + ".stroke\": { \"sd\": 0.001, \"zero\": \"free\" }");
+  }
   return joined(cells, [](const std::string& cell) { return cell; });
 }
 
 }  // namespace
 
+std::string cable_name(std::size_t cable) { return {static_cast<char>('C' + cable)}; }
+
 std::string scene_text(const Jacked& jacked, const Case& tried, bool far, bool declared) {
-  const Ground& ground = jacked.ground;
   Particulars particulars;
-  particulars.E = ground.E;
-  particulars.cable = ", \"seating\": " + number(ground.seating);
-  particulars.friction = ", \"mu\": " + number(ground.mu) + ", \"mu_sd\": " + number(ground.mu_sd) +
-                         ", \"shared\": " + (ground.shared ? "true" : "false");
-  if (declared) {
-    particulars.cable +=
-        ", \"E_sd\": " + number(tried.ground.E_sd) +
-        ", \"seating_sd\": " + number(tried.ground.seating_sd * ground.seating) + ", \"temperature_sd\": " +
-        number(tried.jacking.year_rows > 0 ? tried.jacking.year_sd : tried.jacking.warming_locked);
-    if (ground.shared) particulars.friction += ", \"scatter\": " + number(tried.ground.scatter);
+  for (const Cable& cable : jacked.ground.cables) {
+    CableParticulars own;
+    own.E = cable.E;
+    own.cable = ", \"seating\": " + number(cable.seating);
+    own.friction = ", \"mu\": " + number(cable.mu) + ", \"mu_sd\": " + number(cable.mu_sd) +
+                   ", \"shared\": " + (cable.shared ? "true" : "false");
+    if (declared) {
+      own.cable += ", \"E_sd\": " + number(tried.ground.E_sd) +
+                   ", \"seating_sd\": " + number(tried.ground.seating_sd * cable.seating) +
+                   ", \"temperature_sd\": " +
+                   number(tried.jacking.year_rows > 0 ? tried.jacking.year_sd : tried.jacking.warming_locked);
+      if (cable.shared) own.friction += ", \"scatter\": " + number(tried.ground.scatter);
+    }
+    particulars.cables.push_back(own);
   }
-  particulars.loads = load_patterns(ground, tried.logs_dead, tried.logs_sun);
+  particulars.loads = load_patterns(jacked.ground, tried.logs_dead, tried.logs_sun);
   if (!tried.silent) particulars.sensors = sensors_text(jacked, tried, far, declared);
-  return scene_with(ground, particulars);
+  return scene_with(jacked.ground, particulars);
 }
 
 std::string log_text(const Jacked& jacked, const Case& tried, bool far) {
-  const bool has_start = far || jacked.ground.two_jacks;
-  std::string text = "time,C.end,C.end.locked";
-  if (has_start) text += ",C.start";
-  if (jacked.ground.two_jacks) text += ",C.start.locked";
+  const auto& cables = jacked.ground.cables;
+  std::string text = "time";
+  for (std::size_t c = 0; c < cables.size(); ++c) {
+    const std::string name = cable_name(c);
+    text += "," + name + ".end," + name + ".end.locked";
+    if (far || cables[c].two_jacks) text += "," + name + ".start";
+    if (cables[c].two_jacks) text += "," + name + ".start.locked";
+  }
   if (tried.logs_dead) text += ",dead";
   if (tried.logs_sun) text += ",sun";
-  if (tried.logs_stroke) text += ",C.end.stroke";
+  if (tried.logs_stroke)
+    for (std::size_t c = 0; c < cables.size(); ++c) text += "," + cable_name(c) + ".end.stroke";
   text += '\n';
   for (std::size_t i = 0; i < jacked.rows.size(); ++i) {
     const Deed& deed = jacked.rows[i];
-    text += rounded(deed.time, 3) + ',' + rounded(jacked.readings.end[i], 1) + (deed.locked[1] ? ",1" : ",0");
-    if (has_start) text += ',' + rounded(jacked.readings.start[i], 1);
-    if (jacked.ground.two_jacks) text += deed.locked[0] ? ",1" : ",0";
+    text += rounded(deed.time, 3);
+    for (std::size_t c = 0; c < cables.size(); ++c) {
+      const auto& locked = deed.pulls[c].locked;
+      text += ',' + rounded(jacked.readings[c].end[i], 1) + (locked[1] ? ",1" : ",0");
+      if (far || cables[c].two_jacks) text += ',' + rounded(jacked.readings[c].start[i], 1);
+      if (cables[c].two_jacks) text += locked[0] ? ",1" : ",0";
+    }
     if (tried.logs_dead) text += ',' + number(deed.factor[dead]);
     if (tried.logs_sun) text += ',' + number(deed.logged_sun);
-    if (tried.logs_stroke) text += ',' + (deed.locked[1] ? "" : rounded(jacked.readings.stroke[i], 4));
+    if (tried.logs_stroke)
+      for (std::size_t c = 0; c < cables.size(); ++c)
+        text += ',' + (deed.pulls[c].locked[1] ? "" : rounded(jacked.readings[c].stroke[i], 4));
     text += '\n';
   }
   return text;
@@ -142,22 +177,34 @@ std::string log_text(const Jacked& jacked, const Case& tried, bool far) {
 
 std::string true_scene_text(const Jacked& jacked) {
   Particulars particulars;
-  particulars.E = jacked.ground.E * jacked.reality.stiffness;
-  particulars.cable = ", \"seating\": " + number(jacked.reality.seating);
-  particulars.friction = ", \"mu\": [" + joined(jacked.reality.mu, number) + "]";
+  for (std::size_t c = 0; c < jacked.reality.size(); ++c) {
+    const CableReality& reality = jacked.reality[c];
+    particulars.cables.push_back({jacked.ground.cables[c].E * reality.stiffness,
+                                  ", \"seating\": " + number(reality.seating),
+                                  ", \"mu\": [" + joined(reality.mu, number) + "]"});
+  }
   particulars.loads = load_patterns(jacked.ground, !jacked.ground.loaded.empty(), true);
   return scene_with(jacked.ground, particulars);
 }
 
 std::string true_log_text(const Jacked& jacked) {
-  const bool two = jacked.ground.two_jacks, has_dead = !jacked.ground.loaded.empty();
-  std::string text = "time,C.end,C.end.locked";
-  if (two) text += ",C.start,C.start.locked";
+  const auto& cables = jacked.ground.cables;
+  const bool has_dead = !jacked.ground.loaded.empty();
+  std::string text = "time";
+  for (std::size_t c = 0; c < cables.size(); ++c) {
+    const std::string name = cable_name(c);
+    text += "," + name + ".end," + name + ".end.locked";
+    if (cables[c].two_jacks) text += "," + name + ".start," + name + ".start.locked";
+  }
   if (has_dead) text += ",dead";
   text += ",sun\n";
   for (const Deed& deed : jacked.rows) {
-    text += number(deed.time) + ',' + number(deed.force[1]) + (deed.locked[1] ? ",1" : ",0");
-    if (two) text += ',' + number(deed.force[0]) + (deed.locked[0] ? ",1" : ",0");
+    text += number(deed.time);
+    for (std::size_t c = 0; c < cables.size(); ++c) {
+      const Pull& pull = deed.pulls[c];
+      text += ',' + number(pull.force[1]) + (pull.locked[1] ? ",1" : ",0");
+      if (cables[c].two_jacks) text += ',' + number(pull.force[0]) + (pull.locked[0] ? ",1" : ",0");
+    }
     if (has_dead) text += ',' + number(deed.factor[dead]);
     text += ',' + number(deed.factor[sun]) + '\n';
   }
@@ -165,13 +212,24 @@ std::string true_log_text(const Jacked& jacked) {
 }
 
 std::string truth_text(const Jacked& jacked) {
-  std::string text = "time,phase";
-  for (int i = 1; i <= jacked.ground.segments(); ++i) text += ",C.T" + std::to_string(i);
-  text += ",C.end.payout\n";
+  const auto& cables = jacked.ground.cables;
+  std::string text = "time";
+  for (std::size_t c = 0; c < cables.size(); ++c) {
+    const std::string name = cable_name(c);
+    text += "," + name + ".phase";
+    for (int i = 1; i <= cables[c].segments(); ++i) text += "," + name + ".T" + std::to_string(i);
+    text += "," + name + ".end.payout";
+  }
+  text += '\n';
   for (const Deed& deed : jacked.rows) {
-    text += rounded(deed.time, 3) + ",\"" + name_of(deed.phase) + '"';
-    for (const double T : deed.tension) text += ',' + number(T);
-    text += ',' + number(deed.extension[1]) + '\n';
+    text += rounded(deed.time, 3);
+    for (std::size_t c = 0; c < cables.size(); ++c) {
+      text += std::string(",\"") + name_of(deed.pulls[c].phase) + '"';
+      for (int i = 0; i < cables[c].segments(); ++i)
+        text += ',' + number(deed.tension[static_cast<std::size_t>(cables[c].first_segment + i)]);
+      text += ',' + number(deed.pulls[c].extension[1]);
+    }
+    text += '\n';
   }
   return text;
 }

@@ -8,7 +8,7 @@
 
 namespace estimation_site {
 
-/// What instruments show, row by row; a cell that is not there has no rows.
+/// What the instruments of a cable show, row by row.
 struct Readings {
   std::vector<double> start, end, stroke;
   double sd = 0;    ///< of the noise, as stated [N]
@@ -20,8 +20,11 @@ struct Jacked {
   Ground ground;
   Reality reality;
   std::vector<Deed> rows;
-  Readings readings;
+  std::vector<Readings> readings;  ///< by cable
 };
+
+/// What a cable is called.
+std::string cable_name(std::size_t cable);
 
 /// The scene as the estimator gets it: with what today's format has, or with all that is declared.
 std::string scene_text(const Jacked& jacked, const Case& tried, bool far, bool declared);

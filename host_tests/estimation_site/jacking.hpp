@@ -21,6 +21,7 @@ struct JackingRules {
   bool lock = false;       ///< always, not now and then
   bool visit = false;      ///< a second one, always
   bool loop = false;       ///< a ramp and a release, and no more
+  bool in_turns = false;   ///< one cable after the other, in one round or two
   bool any_pace = false;   ///< the log begins before the pump runs; it is fast or slow, and so are rows
   bool dead_load = false;  ///< comes on while jacking, and changes in holds
   double warming = 0;      ///< sd of the temperature's way in the last hold, and of that after lock-off [K]
@@ -33,7 +34,7 @@ struct JackingRules {
   double ripple = 0;           ///< of the pump, part of the force
 
   auto all() const {
-    return std::tie(stages, least_rate, every_row, lock, visit, loop, any_pace, dead_load, warming,
+    return std::tie(stages, least_rate, every_row, lock, visit, loop, in_turns, any_pace, dead_load, warming,
                     warming_locked, sized, year_rows, year_sd, relaxation, ram, ram_sd, ripple);
   }
 };
@@ -46,14 +47,17 @@ class Jacking {
       : ground_(ground),
         rules_(rules),
         random_(random),
-        truth_(true_structure(ground, reality), ground.full, fineness) {
-    if (ground.two_jacks) room_ = room_between_jacks(reality);
-    for (double& part : ram_)
-      part = rules.ram > 0 ? std::fmax(0, rules.ram + rules.ram_sd * gaussian(random)) : 0;
+        truth_(true_structure(ground, reality), full_forces(ground), fineness),
+        rigs_(ground.cables.size()) {
+    for (std::size_t c = 0; c < rigs_.size(); ++c) {
+      if (ground.cables[c].two_jacks) rigs_[c].room = room_between_jacks(ground.cables[c], reality[c]);
+      for (double& part : rigs_[c].ram)
+        part = rules.ram > 0 ? std::fmax(0, rules.ram + rules.ram_sd * gaussian(random)) : 0;
+    }
     rate_ = log_between(random, rules.least_rate, 50);
     stages_ = 5 + random.below(6);
     ripple_period_ = random.between(6, 20);
-    run();
+    rules.in_turns ? run_in_turns() : run();
     good_ = good_ && truth_.follow(rows_);
   }
   /// False if the truth has no answer.
@@ -61,11 +65,16 @@ class Jacking {
   const std::vector<Deed>& rows() const { return rows_; }
 
  private:
+  static std::vector<double> full_forces(const Ground& ground) {
+    std::vector<double> full;
+    for (const Cable& cable : ground.cables) full.push_back(cable.full);
+    return full;
+  }
   /// A part by which two jacks may surely differ before the cable is pulled through.
-  double room_between_jacks(const Reality& reality) const {
+  double room_between_jacks(const Cable& cable, const CableReality& reality) const {
     double held = 0;
-    for (int j = 0; j < ground_.joints(); ++j)
-      held += reality.mu[static_cast<std::size_t>(j)] * ground_.turning(j);
+    for (int j = 0; j < cable.joints(); ++j)
+      held += reality.mu[static_cast<std::size_t>(j)] * ground_.turning(cable, j);
     return 0.9 * std::fmin(0.15, 1 - std::exp(-held));
   }
 
@@ -100,12 +109,45 @@ class Jacking {
     lock(Phase::locked, warming(std::hypot(rules_.warming, rules_.warming_locked)));
     if (!rules_.visit && !random_.coin()) return;
     if (!unlock()) return;
-    move(Phase::visit, std::fmax(random_.between(0.9, 1.1), last().level / ground_.full + 0.03));
+    move(Phase::visit, std::fmax(random_.between(0.9, 1.1), level() + 0.03));
     wait(Phase::visit, 0);
     lock(Phase::visit, 0);
   }
+  /// Round by round every cable is pulled and locked; now and then a jack keeps its load for the others.
+  void run_in_turns() {
+    if (random_.coin()) rest();
+    std::vector<std::size_t> order(rigs_.size());
+    for (std::size_t c = 0; c < order.size(); ++c) {
+      order[c] = c;
+      std::swap(order[c], order[static_cast<std::size_t>(random_.below(static_cast<int>(c) + 1))]);
+    }
+    const int rounds = 1 + random_.below(2);
+    for (int round = 1; round <= rounds; ++round)
+      for (const std::size_t c : order) {
+        active_ = c;
+        if (!rows_.empty() && pull().locked[1] && !unlock()) return;
+        const double part = std::fmax(double(round) / rounds, level() + 0.03);
+        const Phase phase = round == 1 ? Phase::ramp : Phase::visit;
+        move(phase, part);
+        wait(Phase::hold, 0);
+        if (random_.coin()) {
+          move(Phase::excursion, part * random_.between(1.03, 1.07));
+          move(Phase::excursion, part);
+        }
+        if (random_.below(4) > 0) lock(Phase::locked, 0);
+      }
+  }
 
   const Deed& last() const { return rows_.back(); }
+  const Cable& cable() const { return ground_.cables[active_]; }
+  const Pull& pull() const { return last().pulls[active_]; }
+  /// What the pump of the cable aims at, as a part of its full force.
+  double level() const { return rows_.empty() ? 0 : pull().level / cable().full; }
+  Deed untouched() const {
+    Deed deed;
+    deed.pulls.resize(rigs_.size());
+    return deed;
+  }
   double warming(double size) {
     const double drawn = gaussian(random_);
     return size * (rules_.sized ? std::copysign(1.0, drawn) : drawn);
@@ -122,7 +164,10 @@ class Jacking {
     return {from, to, begin, begin + random_.between(0.1, 0.3)};
   }
   /// How the second jack compares with the first.
-  Way next_lag() { return {lag_, 1 + room_ * random_.between(-1, 1), 0, 1}; }
+  Way next_lag() {
+    const Rig& rig = rigs_[active_];
+    return {rig.lag, 1 + rig.room * random_.between(-1, 1), 0, 1};
+  }
 
   /// How many rows something takes, and the seconds between them.
   struct Pace {
@@ -149,17 +194,17 @@ class Jacking {
     for (int i = 1; i <= pace.rows; ++i) add(next(Phase::ramp, i, pace), false);
   }
   void move(Phase phase, double to) {
-    const Deed from = rows_.empty() ? Deed() : last();
-    const double start = from.level / ground_.full;
+    const Deed from = rows_.empty() ? untouched() : last();
+    const double start = level();
     const bool loads = rules_.dead_load && phase == Phase::ramp;
     const Way dead_way = some_window(from.factor[dead], loads ? to : from.factor[dead]), lag_way = next_lag();
     const Pace pace = this->pace(std::fabs(to - start));
     for (int i = 1; i <= pace.rows; ++i) {
       Deed deed = next(phase, i, pace);
       const double part = double(i) / pace.rows;
-      deed.level = ground_.full * (start + part * (to - start));
+      deed.pulls[active_].level = cable().full * (start + part * (to - start));
       deed.factor[dead] = dead_way.at(part);
-      lag_ = lag_way.at(part);
+      rigs_[active_].lag = lag_way.at(part);
       add(deed, true);
     }
   }
@@ -180,16 +225,17 @@ class Jacking {
   /// Seasons, days and relaxation, which is to forces as warming is; the logged temperature drifts by itself.
   void lock_for_a_year() {
     const double year = 365.25 * 86400, day = 86400, step = year / rules_.year_rows;
-    const double relaxed = rules_.relaxation * ground_.full / (ground_.E * ground_.A * ground_.alpha);
+    const double relaxed = rules_.relaxation * cable().full / (cable().E * cable().A * cable().alpha);
     const double kept = std::exp(-step / day), begin = last().time;
-    const auto level = last().level;
+    const double level = pull().level;
     double error = rules_.year_sd * gaussian(random_);
     const double first_error = error;
     for (int i = 1; i <= rules_.year_rows; ++i) {
       Deed deed = next(Phase::locked, i, {rules_.year_rows, step});
-      deed.fresh = false;
-      deed.locked = {false, true};
-      deed.level = i == 1 ? level : 0;
+      Pull& pull = deed.pulls[active_];
+      pull.fresh = false;
+      pull.locked = {false, true};
+      pull.level = i == 1 ? level : 0;
       const double t = deed.time - begin;
       error = kept * error + std::sqrt(1 - kept * kept) * rules_.year_sd * gaussian(random_);
       const double air = 12 * std::sin(2 * support::pi * t / year) + 5 * std::sin(2 * support::pi * t / day);
@@ -205,9 +251,10 @@ class Jacking {
     const int bleeding = rules_.stages ? 1 : 6;
     for (int i = 1; i <= pace.rows; ++i) {
       Deed deed = next(phase, i, pace);
-      deed.fresh = false;
-      deed.locked = {ground_.two_jacks, true};
-      deed.level = from.level * std::fmax(0, 1 - double(i - 1) / bleeding);
+      Pull& pull = deed.pulls[active_];
+      pull.fresh = false;
+      pull.locked = {cable().two_jacks, true};
+      pull.level = from.pulls[active_].level * std::fmax(0, 1 - double(i - 1) / bleeding);
       deed.factor[sun] = from.factor[sun] + warming * i / pace.rows;
       add(deed, false);
     }
@@ -215,37 +262,40 @@ class Jacking {
   /// The jacks are put back on and pull until they hold what the wedges held; false if that has no answer.
   bool unlock() {
     if (!truth_.follow(rows_)) return false;
-    const Deed from = last();
-    const std::array<double, 2> wedge{from.tension.front(), from.tension.back()};
-    if (ground_.two_jacks) lag_ = wedge[0] / wedge[1];
+    const auto first = last().tension.begin() + cable().first_segment;
+    const std::array<double, 2> wedge{*first, *(first + cable().segments() - 1)};
+    if (cable().two_jacks) rigs_[active_].lag = wedge[0] / wedge[1];
     const Pace pace{rules_.stages ? 3 : 30, rules_.stages ? 0 : std::fmax(1 / rate_, 0.5)};
     for (int i = 1; i <= pace.rows; ++i) {
       Deed deed = next(Phase::visit, i, pace);
       const bool holds = i < pace.rows;
-      deed.fresh = false;
-      deed.locked = {ground_.two_jacks && holds, holds};
-      deed.level = (1 + ram_[1]) * wedge[1] * (holds ? 0.99 * i / pace.rows : 1.005);
+      Pull& pull = deed.pulls[active_];
+      pull.fresh = false;
+      pull.locked = {cable().two_jacks && holds, holds};
+      pull.level = (1 + rigs_[active_].ram[1]) * wedge[1] * (holds ? 0.99 * i / pace.rows : 1.005);
       add(deed, false);
     }
     return true;
   }
 
   Deed next(Phase phase, int i, const Pace& pace) {
-    Deed deed = rows_.empty() ? Deed() : last();
-    deed.phase = phase;
-    deed.fresh = !rules_.stages && i <= 12;
+    Deed deed = rows_.empty() ? untouched() : last();
+    for (Pull& pull : deed.pulls) pull.fresh = false;
+    deed.pulls[active_].phase = phase;
+    deed.pulls[active_].fresh = !rules_.stages && i <= 12;
     deed.time += rules_.stages ? log_between(random_, 10, 600) : pace.step;
     return deed;
   }
   void add(Deed deed, bool pumping) {
     const double turn = 2 * support::pi * double(rows_.size()) / ripple_period_;
-    deed.gauge[1] = deed.level * (1 + (pumping ? rules_.ripple * std::sin(turn) : 0));
-    if (ground_.two_jacks) deed.gauge[0] = lag_ * deed.gauge[1];
+    Pull& pull = deed.pulls[active_];
+    const Rig& rig = rigs_[active_];
+    pull.gauge[1] = pull.level * (1 + (pumping ? rules_.ripple * std::sin(turn) : 0));
+    if (cable().two_jacks) pull.gauge[0] = rig.lag * pull.gauge[1];
     for (std::size_t end = 0; end < 2; ++end) {
       // The ram holds its force until the pressure has turned round.
-      const double held = rows_.empty() ? 0 : last().force[end];
-      deed.force[end] =
-          std::fmin(std::fmax(held, deed.gauge[end] / (1 + ram_[end])), deed.gauge[end] / (1 - ram_[end]));
+      const double held = rows_.empty() ? 0 : this->pull().force[end], gauge = pull.gauge[end];
+      pull.force[end] = std::fmin(std::fmax(held, gauge / (1 + rig.ram[end])), gauge / (1 - rig.ram[end]));
     }
     if (rules_.year_rows == 0) deed.logged_sun = deed.factor[sun];
     rows_.push_back(deed);
@@ -255,8 +305,15 @@ class Jacking {
   const JackingRules& rules_;
   Random& random_;
   Truth truth_;
-  std::array<double, 2> ram_{};
-  double lag_ = 1, room_ = 0, rate_ = 1, ripple_period_ = 10;
+  /// The jacks of a cable.
+  struct Rig {
+    std::array<double, 2> ram{};  ///< their rams' friction, part
+    double lag = 1;               ///< of the first one's gauge to the second's
+    double room = 0;              ///< by which they may differ, part
+  };
+  std::vector<Rig> rigs_;
+  std::size_t active_ = 0;  ///< the cable that is pulled
+  double rate_ = 1, ripple_period_ = 10;
   int stages_ = 8;
   std::vector<Deed> rows_;
   bool good_ = true;

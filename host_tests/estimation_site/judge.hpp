@@ -72,42 +72,66 @@ inline bool is_odd(const std::string& word) {
 
 /// Whether mu is nearly as far from its nominal value as the alarm about it says, or farther.
 inline bool is_mu_far_off(const Jacked& jacked) {
-  for (const double mu : jacked.reality.mu)
-    if (std::fabs(mu - jacked.ground.mu) > 1.9 * jacked.ground.mu_sd) return true;
+  for (std::size_t c = 0; c < jacked.reality.size(); ++c) {
+    const Cable& cable = jacked.ground.cables[c];
+    for (const double mu : jacked.reality[c].mu)
+      if (std::fabs(mu - cable.mu) > 1.9 * cable.mu_sd) return true;
+  }
   return false;
 }
 
-/// Counts what the program has found; returns whether that is an answer to all rows.
-inline bool judge(const Jacked& jacked, int status, const Result& result, Tally& tally) {
-  const double full = jacked.ground.full;
-  const auto segments = static_cast<std::size_t>(jacked.ground.segments());
-  ++tally.jackings;
-  if (status == 1) ++tally.stopped;
-  bool sound = status == 1 || (status == 0 && result.rows() == jacked.rows.size());
+/// Counts what the program has found of a cable; returns whether all of it is finite.
+inline bool judge_cable(const Jacked& jacked, std::size_t c, const Result& result, Tally& tally) {
+  const Cable& cable = jacked.ground.cables[c];
+  const auto segments = static_cast<std::size_t>(cable.segments()),
+             first = static_cast<std::size_t>(cable.first_segment);
   std::vector<std::size_t> T, sd, mu, mu_sd;
   for (std::size_t i = 1; i <= segments; ++i) {
-    const std::string n = std::to_string(i);
-    T.push_back(result.column("C.T" + n));
-    sd.push_back(result.column("C.sd" + n));
+    const std::string name = cable_name(c), n = std::to_string(i);
+    T.push_back(result.column(name + ".T" + n));
+    sd.push_back(result.column(name + ".sd" + n));
     if (i == segments) continue;
-    mu.push_back(result.column("C.mu" + n));
-    mu_sd.push_back(result.column("C.mu_sd" + n));
+    mu.push_back(result.column(name + ".mu" + n));
+    mu_sd.push_back(result.column(name + ".mu_sd" + n));
   }
-  const std::size_t alarms = result.column("alarms"), rows = std::min(result.rows(), jacked.rows.size());
-  std::set<std::string> words;
+  bool sound = true;
+  const std::size_t rows = std::min(result.rows(), jacked.rows.size());
   for (std::size_t row = 0; row < rows; ++row) {
     const Deed& deed = jacked.rows[row];
+    const Pull& pull = deed.pulls[c];
     for (std::size_t i = 0; i < segments; ++i) {
-      const double found = result.number(row, T[i]), deviation = result.number(row, sd[i]);
+      const double found = result.number(row, T[i]), deviation = result.number(row, sd[i]),
+                   truth = deed.tension[first + i];
       if (!std::isfinite(found) || !std::isfinite(deviation) || deviation < 0) {
         sound = false;
         continue;
       }
-      tally.all.add(found, deviation, deed.tension[i], full);
-      tally.phase[static_cast<std::size_t>(deed.phase)].add(found, deviation, deed.tension[i], full);
-      if (deed.fresh) tally.fresh.add(found, deviation, deed.tension[i], full);
-      if (row + 1 == jacked.rows.size()) tally.end.add(found, deviation, deed.tension[i], full);
+      tally.all.add(found, deviation, truth, cable.full);
+      tally.phase[static_cast<std::size_t>(pull.phase)].add(found, deviation, truth, cable.full);
+      if (pull.fresh) tally.fresh.add(found, deviation, truth, cable.full);
+      if (row + 1 == jacked.rows.size()) tally.end.add(found, deviation, truth, cable.full);
     }
+  }
+  if (rows == jacked.rows.size())
+    for (std::size_t j = 0; j < mu.size(); ++j) {
+      const double error = result.number(rows - 1, mu[j]) - jacked.reality[c].mu[j];
+      tally.mu_error += std::pow(error / cable.mu, 2);
+      tally.mu_variance += std::pow(result.number(rows - 1, mu_sd[j]) / cable.mu, 2);
+      ++tally.mu_count;
+    }
+  return sound;
+}
+
+/// Counts what the program has found; returns whether that is an answer to all rows.
+inline bool judge(const Jacked& jacked, int status, const Result& result, Tally& tally) {
+  ++tally.jackings;
+  if (status == 1) ++tally.stopped;
+  bool sound = status == 1 || (status == 0 && result.rows() == jacked.rows.size());
+  for (std::size_t c = 0; c < jacked.ground.cables.size(); ++c)
+    sound = judge_cable(jacked, c, result, tally) && sound;
+  const std::size_t alarms = result.column("alarms"), rows = std::min(result.rows(), jacked.rows.size());
+  std::set<std::string> words;
+  for (std::size_t row = 0; row < rows; ++row) {
     std::istringstream stream(result.word(row, alarms));
     for (std::string word; stream >> word;) words.insert(word.substr(0, word.find(':')));
   }
@@ -118,13 +142,6 @@ inline bool judge(const Jacked& jacked, int status, const Result& result, Tally&
     odd = odd || is_odd(word);
   }
   if (odd) ++tally.odd;
-  if (rows == jacked.rows.size())
-    for (std::size_t j = 0; j < mu.size(); ++j) {
-      const double nominal = jacked.ground.mu, error = result.number(rows - 1, mu[j]) - jacked.reality.mu[j];
-      tally.mu_error += std::pow(error / nominal, 2);
-      tally.mu_variance += std::pow(result.number(rows - 1, mu_sd[j]) / nominal, 2);
-      ++tally.mu_count;
-    }
   if (!sound) ++tally.broken;
   return sound && status == 0;
 }

@@ -40,10 +40,11 @@ std::uint64_t mixed(std::uint64_t seed, std::uint64_t i) {
   return z ^ (z >> 31);
 }
 
-/// What the cells show of a jacking.
-void read_instruments(Random& random, const InstrumentRules& rules, Jacked& jacked) {
-  const double full = jacked.ground.full;
-  Readings& readings = jacked.readings;
+/// What the cells of a cable show of a jacking.
+Readings read_cable(Random& random, const InstrumentRules& rules, const Jacked& jacked, std::size_t c) {
+  const Cable& cable = jacked.ground.cables[c];
+  const double full = cable.full;
+  Readings readings;
   readings.sd = full * log_between(random, rules.least_sd, rules.most_sd);
   readings.step = rules.step * full;
   const double noise = rules.noise * readings.sd;
@@ -53,20 +54,29 @@ void read_instruments(Random& random, const InstrumentRules& rules, Jacked& jack
     return Cell(gain, zero, noise, rules.memory, readings.step);
   };
   Cell at_jack = cell(rules.jack_gain_sd),
-       at_start = cell(jacked.ground.two_jacks ? rules.jack_gain_sd : rules.far_gain_sd);
+       at_start = cell(cable.two_jacks ? rules.jack_gain_sd : rules.far_gain_sd);
   const double mark = random.between(-0.05, 0.05);
   int last_free = 0, last_of_ramp = 0;
   for (std::size_t i = 0; i < jacked.rows.size(); ++i) {
     const Deed& deed = jacked.rows[i];
-    readings.end.push_back(at_jack.read(random, deed.gauge[1], deed.time));
-    const double at_far = jacked.ground.two_jacks ? deed.gauge[0] : deed.tension.front();
+    const Pull& pull = deed.pulls[c];
+    readings.end.push_back(at_jack.read(random, pull.gauge[1], deed.time));
+    const double at_far =
+        cable.two_jacks ? pull.gauge[0] : deed.tension[static_cast<std::size_t>(cable.first_segment)];
     readings.start.push_back(at_start.read(random, at_far, deed.time));
-    readings.stroke.push_back(mark + deed.extension[1] + 0.001 * gaussian(random));
-    if (!deed.locked[1]) last_free = static_cast<int>(i);
-    if (deed.phase == Phase::ramp) last_of_ramp = static_cast<int>(i);
+    readings.stroke.push_back(mark + pull.extension[1] + 0.001 * gaussian(random));
+    if (!pull.locked[1]) last_free = static_cast<int>(i);
+    if (pull.phase == Phase::ramp) last_of_ramp = static_cast<int>(i);
   }
   if (rules.loose_plug) loosen_plug(random, full, readings.end, last_free);
   if (rules.far_freezes) freeze(readings.start, static_cast<int>(last_of_ramp * random.between(0.3, 0.8)));
+  return readings;
+}
+
+/// What the cells show of a jacking.
+void read_instruments(Random& random, const InstrumentRules& rules, Jacked& jacked) {
+  for (std::size_t c = 0; c < jacked.ground.cables.size(); ++c)
+    jacked.readings.push_back(read_cable(random, rules, jacked, c));
 }
 
 /// A jacking before anything is read, and the random numbers that instruments draw from.
@@ -76,9 +86,10 @@ struct Unread {
 };
 
 Unread random_jacking(const Options& options, const Case& tried, std::uint64_t i, long& without_truth) {
-  for (std::uint64_t attempt = 0;; ++attempt) {
+  Jacked jacked;
+  for (std::uint64_t attempt = 0; attempt < 1000; ++attempt) {
     Random random(mixed(options.seed, 1000 * i + attempt));
-    Jacked jacked;
+    jacked = Jacked();
     jacked.ground = random_ground(random, tried.ground);
     jacked.reality = random_reality(random, jacked.ground, tried.ground);
     const Jacking jacking(jacked.ground, jacked.reality, tried.jacking, random, options.fineness);
@@ -89,6 +100,8 @@ Unread random_jacking(const Options& options, const Case& tried, std::uint64_t i
     jacked.rows = jacking.rows();
     return {jacked, random};
   }
+  std::fprintf(stderr, "%s: no jacking in a thousand has a truth\n", tried.name.c_str());
+  std::exit(1);
 }
 
 /// Jackings by number; kept for the cases that differ in their instruments only.
@@ -123,6 +136,22 @@ std::string without_folder(const std::string& errors) {
   for (const char* file : {"scene.json", "log.csv"})
     if (line.find(file) != std::string::npos) return line.substr(line.find(file));
   return line;
+}
+
+/// The largest difference to the true forces, as a part of the full force of the cable. tension(row, cable,
+/// segment of the cable) is the other force; every row is asked for in turn.
+template <class Tension>
+double largest_difference(const Jacked& jacked, const Tension& tension) {
+  double worst = 0;
+  for (std::size_t row = 0; row < jacked.rows.size(); ++row)
+    for (std::size_t c = 0; c < jacked.ground.cables.size(); ++c) {
+      const Cable& cable = jacked.ground.cables[c];
+      for (int i = 0; i < cable.segments(); ++i) {
+        const double truth = jacked.rows[row].tension[static_cast<std::size_t>(cable.first_segment + i)];
+        worst = std::fmax(worst, std::fabs(tension(row, c, i) - truth) / cable.full);
+      }
+    }
+  return worst;
 }
 
 /// Runs the program on the jackings of a case.
@@ -169,12 +198,9 @@ class Trial {
                             "--substeps", "8", "-o", path("simulated.csv")});
     if (status != 0) return -1;
     const Result result(text_of(scratch_.path / "simulated.csv"));
-    double worst = 0;
-    for (std::size_t row = 0; row < jacked.rows.size(); ++row)
-      for (std::size_t i = 0; i < jacked.rows[row].tension.size(); ++i)
-        worst = std::fmax(worst, std::fabs(result.number(row, result.column("C.T" + std::to_string(i + 1))) -
-                                           jacked.rows[row].tension[i]));
-    return worst / jacked.ground.full;
+    return largest_difference(jacked, [&](std::size_t row, std::size_t c, int i) {
+      return result.number(row, result.column(cable_name(c) + ".T" + std::to_string(i + 1)));
+    });
   }
 
  private:
@@ -286,14 +312,13 @@ std::vector<Outcome> try_case(const Options& options, const Case& tried, Jacking
 double compare_with_reference(const Jacked& jacked) {
   reference::Reference found(true_structure(jacked.ground, jacked.reality));
   if (!found.start()) return -1;
-  double worst = 0;
-  for (const Deed& deed : jacked.rows) {
-    if (!found.advance(row_of(deed))) return -1;
-    for (int i = 0; i < jacked.ground.segments(); ++i)
-      worst = std::fmax(worst, std::fabs(static_cast<double>(found.tension(i)) -
-                                         deed.tension[static_cast<std::size_t>(i)]));
-  }
-  return worst / jacked.ground.full;
+  std::size_t followed = 0;
+  bool good = true;
+  const double worst = largest_difference(jacked, [&](std::size_t row, std::size_t c, int i) {
+    for (; good && followed <= row; ++followed) good = found.advance(row_of(jacked.rows[followed]));
+    return static_cast<double>(found.tension(jacked.ground.cables[c].first_segment + i));
+  });
+  return good ? worst : -1;
 }
 
 /// The worst of some differences, and how many there are.

@@ -15,24 +15,26 @@ namespace estimation_site {
 inline reference::Row row_of(const Deed& deed) {
   reference::Row row;
   for (const double factor : deed.factor) row.factor.add(factor);
-  row.jack.add(
-      {taut::Jack<double>{deed.force[0], deed.locked[0]}, taut::Jack<double>{deed.force[1], deed.locked[1]}});
+  for (const Pull& pull : deed.pulls)
+    row.jack.add({taut::Jack<double>{pull.force[0], pull.locked[0]},
+                  taut::Jack<double>{pull.force[1], pull.locked[1]}});
   return row;
 }
 
 /// Follows the rows of a jacking and writes the forces into them.
 ///
 /// Rows on one straight line of the loads are gone through in steps of at most a `fineness`-th of the full
-/// force, forces between the ends of a step on a straight line.
+/// force of a cable, forces between the ends of a step on a straight line.
 class Truth {
  public:
-  Truth(reference::Structure structure, double full, int fineness)
+  Truth(reference::Structure structure, std::vector<double> full, int fineness)
       : segments_(structure.prestrain.size()),
-        full_(full),
+        full_(std::move(full)),
         fineness_(fineness),
         steps_(std::move(structure)) {
     good_ = steps_.start(1);
     last_.tension.assign(static_cast<std::size_t>(segments_), 0.0);
+    last_.pulls.resize(full_.size());
   }
   bool good() const { return good_; }
 
@@ -50,27 +52,35 @@ class Truth {
   /// Largest change on the way, 1 being that of one step.
   double change(const Deed& a, const Deed& b) const {
     double most = 0;
-    for (std::size_t end = 0; end < 2; ++end)
-      most = std::fmax(most, std::fabs(b.force[end] - a.force[end]) / full_);
+    for (std::size_t c = 0; c < full_.size(); ++c)
+      for (std::size_t end = 0; end < 2; ++end)
+        most = std::fmax(most, std::fabs(b.pulls[c].force[end] - a.pulls[c].force[end]) / full_[c]);
     most = std::fmax(most, std::fabs(b.factor[dead] - a.factor[dead]));
     most = std::fmax(most, std::fabs(b.factor[sun] - a.factor[sun]) / 40);
     return most * fineness_;
   }
+  static bool has_same_wedges(const Deed& a, const Deed& b) {
+    return std::equal(a.pulls.begin(), a.pulls.end(), b.pulls.begin(),
+                      [](const Pull& one, const Pull& other) { return one.locked == other.locked; });
+  }
   /// Whether the loads go on past a row as they came to it.
   bool is_straight(const std::vector<Deed>& rows, std::size_t i) const {
     const Deed &before = i == done_ ? last_ : rows[i - 1], &at = rows[i], &after = rows[i + 1];
-    if (before.locked != at.locked || at.locked != after.locked) return false;
+    if (!has_same_wedges(before, at) || !has_same_wedges(at, after)) return false;
     const auto bend = [](double a, double b, double c) { return std::fabs(a - 2 * b + c); };
     double most = 0;
-    for (std::size_t end = 0; end < 2; ++end)
-      most = std::fmax(most, bend(before.force[end], at.force[end], after.force[end]) / full_);
+    for (std::size_t c = 0; c < full_.size(); ++c)
+      for (std::size_t end = 0; end < 2; ++end)
+        most = std::fmax(
+            most,
+            bend(before.pulls[c].force[end], at.pulls[c].force[end], after.pulls[c].force[end]) / full_[c]);
     for (std::size_t load = 0; load < patterns; ++load)
       most = std::fmax(most, bend(before.factor[load], at.factor[load], after.factor[load]));
     return most < 1e-9;
   }
   /// One straight line up to row `end`.
   void stretch(std::vector<Deed>& rows, std::size_t end) {
-    const bool wedge_moves = last_.locked != rows[end].locked;
+    const bool wedge_moves = !has_same_wedges(last_, rows[end]);
     const int steps = std::max(wedge_moves ? fineness_ / 4 + 1 : 1,
                                static_cast<int>(std::ceil(change(last_, rows[end]) - 1e-9)));
     good_ = steps_.advance(row_of(rows[end]), steps);
@@ -85,19 +95,23 @@ class Truth {
     deed.tension.resize(static_cast<std::size_t>(segments_));
     for (int i = 0; i < segments_; ++i)
       deed.tension[static_cast<std::size_t>(i)] = static_cast<double>(steps_.tension(i));
-    for (int end = 0; end < 2; ++end)
-      deed.extension[static_cast<std::size_t>(end)] = static_cast<double>(steps_.extension(end));
+    for (std::size_t c = 0; c < full_.size(); ++c)
+      for (std::size_t end = 0; end < 2; ++end)
+        deed.pulls[c].extension[end] = static_cast<double>(steps_.extension(static_cast<int>(2 * c + end)));
   }
   static void mix(const Deed& a, const Deed& b, double part, Deed& between) {
     between.tension.resize(a.tension.size());
     for (std::size_t i = 0; i < a.tension.size(); ++i)
       between.tension[i] = a.tension[i] + part * (b.tension[i] - a.tension[i]);
-    for (std::size_t end = 0; end < 2; ++end)
-      between.extension[end] = a.extension[end] + part * (b.extension[end] - a.extension[end]);
+    for (std::size_t c = 0; c < a.pulls.size(); ++c)
+      for (std::size_t end = 0; end < 2; ++end) {
+        const double from = a.pulls[c].extension[end], to = b.pulls[c].extension[end];
+        between.pulls[c].extension[end] = from + part * (to - from);
+      }
   }
 
   int segments_;
-  double full_;
+  std::vector<double> full_;  ///< force of every cable [N]
   int fineness_;
   campaign::LoadSteps steps_;
   Deed last_;

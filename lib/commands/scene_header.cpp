@@ -398,13 +398,11 @@ class Constants {
 
 // As Estimator counts them.
 UnknownCounts unknowns(const ExportedArrays& arrays) {
-  using AnyEstimator = Estimator<Condensed<double, Capacity>, 1>;
   const auto is_self_locking = [&](int j) {
     return !(arrays.condensed.rho[static_cast<std::size_t>(j)] > 0);
   };
-  UnknownCounts count =
-      count_unknowns(arrays.condensed.cables, is_self_locking, arrays.prior,
-                     AnyEstimator::remembered_corners(static_cast<int>(arrays.condensed.load.size())));
+  UnknownCounts count = count_unknowns(arrays.condensed.cables, is_self_locking, arrays.prior,
+                                       static_cast<int>(arrays.condensed.load.size()));
   const auto& strokes = arrays.prior.stroke;
   for (const StrokeGauge<double>& stroke : strokes) count.further += stroke.unknowns();
   // Every gauge has a place, with unknowns or without.

@@ -56,7 +56,7 @@ template <class Parts>
         begin_leg(parts, k);
       },
       [&](int k) {
-        remember_load(parts, k, sample);
+        remember_load(parts, k);
         forget_leg(parts);
       },
       [&](int c) { return parts.filter.relative_deviation(tracker, c); });

@@ -31,7 +31,7 @@ namespace taut {
 ///
 /// `Parameters` bounds the number of unknowns that forces depend on: one a cable with a shared mu, one a
 /// joint otherwise; gain, zero and hysteresis of a jack's load cell where they are not known;
-/// `remembered_corners` of every jack whose load cell has noise; the draw-in of its wedge; and the strain
+/// remembered_corners() of every jack whose load cell has noise; the draw-in of its wedge; and the strain
 /// that a locked cable takes on by itself. If there is no room for the last three, they are taken for exact.
 /// `Further` bounds those that readings alone depend on: gain and zero of cells at anchored ends, and of
 /// gauges. See count_unknowns().
@@ -58,10 +58,6 @@ class Estimator {
   using Alarms = typename Parts::Alarms;
   using Confirmed = typename Parts::Confirmed;
   using NoGauges = FixedList<LoadCell<Scalar>, 0>;
-  /// Loads of a jack that friction is taken to remember, of a scene with so many load patterns.
-  static constexpr int remembered_corners(int load_patterns) {
-    return Parts::remembered_corners(load_patterns);
-  }
 
   /// All that restore() needs to go on with the same bits, as Tracker::State: a plain value.
   struct State {
@@ -123,6 +119,7 @@ class Estimator {
     parts_.forces.restore(state.forces);
     parts_.confirmed = state.confirmed;
     parts_.is_ahead = state.is_ahead;
+    parts_.is_beyond.fill(state.is_ahead);
     parts_.leg = state.leg;
     return parts_.tracker.restore(condensed, parts_.filter.friction(linear_part(condensed)), state.tracker,
                                   load_errors(parts_));
@@ -217,6 +214,7 @@ class Estimator {
     parts_.limits = limits;
     parts_.alarms.clear();
     parts_.is_belief_fine = parts_.is_ahead = parts_.misfits = false;
+    parts_.is_beyond.fill(false);
     forget_leg(parts_);
     parts_.forces.start();
     return number_unknowns(parts_, condensed, prior, gauges);
@@ -229,10 +227,9 @@ class Estimator {
     }
     follow_cell_noise(parts_, readings, corners);
     if (parts_.gauges.size() > 0) follow_gauges(parts_, corners, readings.dt);
-    look_ahead(parts_);
     for (int c = 0; c < parts_.model().cables.size(); ++c)
       if (parts_.drifts(c)) parts_.filter.diffuse(parts_.drift[c], c, readings.dt);
-    if (measure_far_ends(parts_, readings)) look_ahead(parts_);
+    measure_far_ends(parts_, readings);
   }
   /// What is odd about what is known now: friction and gains if they have changed, forces beyond limits.
   [[gnu::always_inline]] void check_answers() {

@@ -31,10 +31,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   using ReadingsType = Readings<Scalar, Cap>;
   using SampleType = Sample<Scalar, Cap>;
   using FilterType = FrictionFilter<CondensedType, Parameters, Further>;
-  /// Loads of a jack that friction is taken to remember: where it reversed, was locked, or rested while one
-  /// of so many load patterns changed.
-  static constexpr int remembered_corners(int load_patterns) { return load_patterns > 0 ? 3 : 2; }
-  using JacksType = JackLoads<Scalar, Cap, remembered_corners(Cap::loads)>;
+  using JacksType = JackLoads<Scalar, Cap, remembered_corners(Cap::loads, max_jacks<Cap>)>;
   /// Where the tracker is driven to, by jack.
   using Drives = FixedArray<Jack<Scalar>, JacksType::capacity>;
   using FarEndsType = FarEnds<FilterType, JacksType>;
@@ -74,12 +71,17 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   Confirmed confirmed;
   FixedArray<Leg, legs> leg;
   bool is_ahead = false;  ///< of what is confirmed
-  bool misfits = false;   ///< some load cell at an anchored end is off the model
+  /// Where the loads are confirmed to have come: whether the best estimate of a jack of the cable lies behind
+  /// the next event.
+  FixedArray<bool, Cap::cables> is_beyond;
+  bool misfits = false;  ///< some load cell at an anchored end is off the model
 
   const auto& model() const { return tracker.model(); }
   /// The scene without second-order theory.
   const auto& linear() const { return linear_part(tracker.condensed()); }
   int patterns() const { return load_patterns(model()); }
+  /// Of a jack.
+  int corners() const { return remembered_corners(patterns(), jacks.size()); }
   int cable_of(int segment) const {
     int c = 0;
     while (segment >= model().cables[c].first_segment + model().cables[c].segments()) ++c;
@@ -119,8 +121,15 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   bool loads_are_in_doubt(int cable = -1) const { return jacks.are_in_doubt(cable); }
   /// Whether what is read of a cable can teach anything.
   bool can_teach(int cable) const { return filter.belief().has_friction() && !loads_are_in_doubt(cable); }
-  /// Forces teach nothing where the tracker is ahead: what is read belongs to no place that is confirmed.
-  bool can_learn(int cable) const { return !is_ahead && can_teach(cable); }
+  /// Forces teach nothing of a cable for whose own jacks the tracker is ahead: what is read belongs to no
+  /// place that is confirmed. `cable` is negative if they are of no cable in particular.
+  bool can_learn(int cable) const { return can_teach(cable) && !(is_ahead && is_all_beyond(cable)); }
+  bool is_all_beyond(int cable) const {
+    if (cable >= 0) return is_beyond[cable];
+    for (int c = 0; c < model().cables.size(); ++c)
+      if (!is_beyond[c]) return false;
+    return true;
+  }
 
   // What is known of a segment.
 

@@ -22,7 +22,7 @@ Status number_unknowns(Parts& parts, const typename Parts::Condensed& condensed,
   };
   jacks.start(linear, prior);
   Status known = filter.start(linear, prior);
-  const auto corners = static_cast<std::size_t>(Parts::remembered_corners(load_patterns(linear)));
+  const auto corners = static_cast<std::size_t>(remembered_corners(load_patterns(linear), jacks.size()));
   for (std::size_t m = 0; m < corners; ++m)
     for (int k = 0; k < jacks.size(); ++k) jacks[k].memory[m] = number(jacks.in(prior.cell, k).sd > 0);
   for (int c = 0; c < linear.cables.size(); ++c) parts.drift[c] = number(prior.drift_sd[c] > 0);

@@ -26,6 +26,7 @@ class FarEnds {
   using Cap = typename FilterType::Cap;
   using TrackerType = typename FilterType::TrackerType;
   using EndType = CableEnd<Cap>;
+  using IsBeyond = FixedArray<bool, Cap::cables>;
   /// What has been gathered so far.
   struct State {
     Gathered<Scalar> gathered;
@@ -83,14 +84,16 @@ class FarEnds {
       if (ends_[e].cable() == cable) largest = larger(largest, state_.watch[e].fit.misfit());
     return largest;
   }
-  /// Takes a reading [N] of cell `e` into account at once. Cost: that of FilterType::update().
+  /// Takes a reading [N] of cell `e` into account at once, if FilterType::is_informative(). Cost: that of
+  /// FilterType::update().
   [[nodiscard]] Update measure(int e, Scalar reading, TrackerType& tracker, FilterType& filter,
-                               const Jacks& jacks) {
+                               const Jacks& jacks, const IsBeyond& is_beyond) {
     const EndType& end = ends_[e];
     const Scalar sd = state_.watch[e].sd;
     const auto predict = [&](auto& prediction) { predict_at(end, tracker, filter, jacks, prediction); };
     predict(filter.prediction());
-    if (!filter.is_informative(tracker, end.cable(), sd)) return compare(e, reading, tracker, filter, jacks);
+    if (!filter.is_informative(tracker, end.cable(), sd, is_beyond))
+      return compare(e, reading, tracker, filter, jacks);
     const Scalar lasting = variance_that_lasts(e, filter, jacks);
     if (is_known(lasting, filter)) return look(e, reading, tracker, filter, jacks);
     count_learned(1);
@@ -227,7 +230,7 @@ class FarEnds {
     const Scalar sd = state_.watch[0].sd;
     const auto jack = jacks[0].reading(jacks.in(filter.prior().cell, 0));
     predict_at(ends_[0], tracker, filter, jacks, prediction);
-    if (!filter.is_informative(tracker, ends_[0].cable(), sd)) return false;
+    if (!filter.is_informative(tracker, ends_[0].cable(), sd, IsBeyond())) return false;
     Gathered<Scalar>& gathered = state_.gathered;
     gathered.begin(driven + jack.beyond, driven, room());
     const Scalar by_jack = prediction.by_jack[0];

@@ -162,11 +162,12 @@ class FrictionFilter {
   /// Begins a row: its measurements share the errors of the jacks' readings.
   void begin_row() { belief_.begin_row(); }
   /// Whether prediction() has a derivative to go by: all of `cable` must slide (-1: no cable does in
-  /// particular), and every other one whose friction shows in a number read with the standard deviation `sd`.
-  /// Cost: a pass over the joints.
-  bool is_informative(const TrackerType& tracker, int cable, Scalar sd) const {
+  /// particular), and every other one whose friction shows in a number read with the standard deviation `sd`;
+  /// and none of them on another piece, as is_beyond[cable] says. Cost: a pass over the joints.
+  bool is_informative(const TrackerType& tracker, int cable, Scalar sd,
+                      const FixedArray<bool, Cap::cables>& is_beyond) const {
     for (int c = 0; c < tracker.model().cables.size(); ++c)
-      if (matters(tracker, c, cable, sd) && !slides_throughout(tracker, c)) return false;
+      if (matters(tracker, c, cable, sd) && (is_beyond[c] || !slides_throughout(tracker, c))) return false;
     return true;
   }
   /// Whether friction of cable `c` matters to prediction(), read with `sd` at `cable` (-1: at none).

@@ -58,17 +58,26 @@ class Instruments {
   FixedArray<std::array<InstrumentUnknowns, 2>, Cap::cables> of_;
 };
 
+/// How many loads of a jack friction is taken to remember, by unknowns of an Estimator: where it reversed,
+/// was locked, or rested while one of so many load patterns, or one of several jacks, changed.
+constexpr int remembered_corners(int load_patterns, int jacks) {
+  return load_patterns > 0 || jacks > 1 ? 3 : 2;
+}
+
 /// How many unknowns an Estimator of these cables needs room for: forces depend on those that are carried,
 /// readings alone on the further ones, without those of gauges. is_self_locking(joint) tells which joints
-/// have no friction to be found.
+/// have no friction to be found, `load_patterns` how many other loads there are.
 struct UnknownCounts {
   int carried = 0, further = 0;
 };
 template <class Cables, class IsSelfLocking, class PriorType>
 constexpr UnknownCounts count_unknowns(const Cables& cables, const IsSelfLocking& is_self_locking,
-                                       const PriorType& known, int remembered_corners) {
+                                       const PriorType& known, int load_patterns) {
   UnknownCounts count;
-  int c = 0;
+  int jacks = 0, c = 0;
+  for (const auto& cable : cables)
+    for (const End end : cable.ends) jacks += !cable.closed && end == End::jacked ? 1 : 0;
+  const int corners = remembered_corners(load_patterns, jacks);
   for (const auto& cable : cables) {
     int free = 0;
     for (int j = 0; j < cable.joints(); ++j) free += is_self_locking(cable.first_joint + j) ? 0 : 1;
@@ -77,8 +86,7 @@ constexpr UnknownCounts count_unknowns(const Cables& cables, const IsSelfLocking
     for (std::size_t end = 0; end < 2 && !cable.closed; ++end) {
       const auto& cell = known.cell[c][end];
       if (cable.ends[end] == End::jacked)
-        count.carried +=
-            cell.unknowns() + (cell.sd > 0 ? remembered_corners : 0) + (known.seating_sd[c] > 0 ? 1 : 0);
+        count.carried += cell.unknowns() + (cell.sd > 0 ? corners : 0) + (known.seating_sd[c] > 0 ? 1 : 0);
       else if (cell.sd > 0)
         count.further += cell.unknowns();
     }

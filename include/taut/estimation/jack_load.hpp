@@ -13,6 +13,7 @@
 #include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/jump_guard.hpp"
 #include "taut/estimation/load_filter.hpp"
+#include "taut/estimation/load_moves.hpp"
 #include "taut/estimation/noise_level.hpp"
 #include "taut/estimation/readings.hpp"
 #include "taut/numerics/larger.hpp"
@@ -44,6 +45,7 @@ struct JackLoad {
   LoadFilter<Scalar> filter;
   JumpGuard<Scalar> guard;
   NoiseLevel<Scalar> noise;
+  LoadMoves<Scalar> moves;
   ConditionedLoad<Scalar> at{};
   Jack<Scalar> driven{};  ///< where the tracker was driven to
   Scalar since = 0;       ///< time since the last reading
@@ -70,10 +72,11 @@ struct JackLoad {
   /// forgotten next.
   std::array<std::int16_t, static_cast<std::size_t>(Reversals)> memory{};
   int oldest = 0;
-  std::int16_t seating = 0;  ///< the unknown of its wedge's draw-in, or -1
-  Scalar come_sd = 0;        ///< standard deviation of the load where come_to_best() was [N]
-  Scalar lasts = 0;          ///< what its readings are off by together, NoiseLevel::Found::lasting [N]
-  std::int16_t frozen = 0;   ///< the one of `memory` that its error is while other loads change, or -1
+  std::int16_t seating = 0;   ///< the unknown of its wedge's draw-in, or -1
+  Scalar come_sd = 0;         ///< standard deviation of the load where come_to_best() was [N]
+  Scalar lasts = 0;           ///< what its readings are off by together, NoiseLevel::Found::lasting [N]
+  std::int16_t frozen = 0;    ///< the one of `memory` that its error is while other loads change, or -1
+  bool rests_beside = false;  ///< other loads change, and friction comes to rest at the load that it has
 
   /// A reading, or none if it is more than the cable can carry, `most` [N].
   static Scalar possible(Scalar reading, Scalar most) {
@@ -202,6 +205,7 @@ struct JackLoad {
                           const LoadCell<Scalar>& cell, Scalar most, const ForceEstimate<Scalar>& held,
                           Corners<Scalar>& corners, const Seen& is_seen = Seen()) {
     is_new = locks_now = false;
+    moves.rest();
     load_before = at.load;
     at.reversed = false;
     since += dt;
@@ -266,7 +270,9 @@ struct JackLoad {
       at = behind_branches(at, cell);
       raw /= branch(cell);
     }
-    note_farthest(filter.sd() / branch(cell) / 2);
+    const Scalar noise_sd = filter.sd() / branch(cell);
+    note_farthest(noise_sd / 2);
+    if (!at.refused) moves.follow(at.load, noise_sd, since > JumpGuard<Scalar>::far_apart);
     if (first == 0 && at.load > 0) first = Scalar(1e-3) * cell.sd;
     since = 0;
     is_new = !at.refused;
@@ -313,8 +319,10 @@ struct JackLoad {
   /// Whether the error of a cell with two branches is another one from here on: the load leaves the place of
   /// its last turn.
   bool changes_branch() const { return erred_up != pulls && !locked && target() != turned; }
-  /// From there to the best estimate of the load [N].
-  Scalar beyond() const { return locked ? Scalar(0) : at.load - driven.force; }
+  /// The best estimate of the load, not below the least one [N].
+  Scalar best() const { return larger(at.load, first); }
+  /// From where the tracker was driven to, to the best estimate of the load [N].
+  Scalar beyond() const { return locked ? Scalar(0) : best() - driven.force; }
   /// The load as a measurement of the row sees it: the raw reading if there is one, so that errors are
   /// independent from row to row.
   JackReading<Scalar> reading(const LoadCell<Scalar>& cell) const {

@@ -98,7 +98,7 @@ class JackLoads {
     SampleType to = target(given);
     for (int k = 0; k < size(); ++k)
       if (!state_.jack[k].locked && !state_.jack[k].at.behind)
-        in(to.jack, k).force = larger(state_.jack[k].at.load, Scalar(0));
+        in(to.jack, k).force = larger(state_.jack[k].best(), Scalar(0));
     return to;
   }
   /// Where it was driven to last.

@@ -15,7 +15,7 @@ template <class Parts>
 int next_memory(Parts& parts, int k) {
   using Scalar = typename Parts::Scalar;
   auto& jack = parts.jacks[k];
-  const int corners = Parts::remembered_corners(parts.patterns());
+  const int corners = parts.corners();
   int found = jack.oldest;
   Scalar smallest = -1;
   for (int i = 0; i < corners; ++i) {
@@ -70,30 +70,42 @@ bool changes_factors(const Parts& parts, const typename Parts::SampleType& sampl
   return false;
 }
 
-/// While other loads change, friction comes to rest at the loads that jacks have then, known or not. Cost: a
-/// few operations a jack.
+/// Whether another jack than `k` has gone on in this row.
+template <class Parts>
+bool another_has_gone(const Parts& parts, int k) {
+  for (int other = 0; other < parts.jacks.size(); ++other)
+    if (other != k && parts.jacks[other].moves.has_gone()) return true;
+  return false;
+}
+
+/// While other loads change, friction comes to rest at the loads that jacks have then, known or not. To a
+/// jack at rest another jack's load is one, too; it then rests beside it until it goes on itself. Cost: a few
+/// operations a jack, and a pair of jacks.
 template <class Parts>
 void follow_other_loads(Parts& parts, const typename Parts::SampleType& sample,
                         Corners<typename Parts::Scalar>& corners) {
-  if (parts.jacks.patterns() == 0) return;
-  const bool changes = changes_factors(parts, sample);
+  const bool has_others = parts.jacks.size() > 1;
+  if (parts.jacks.patterns() == 0 && !has_others) return;
+  const bool factors_change = changes_factors(parts, sample);
   for (int k = 0; k < parts.jacks.size(); ++k) {
     auto& jack = parts.jacks[k];
     if (jack.locked || jack.memory[0] < 0) continue;
+    const bool rests = has_others && !jack.moves.is_fast(),
+               changes = factors_change || (rests && another_has_gone(parts, k));
     if (changes) jack.come_to_best(parts.cell(k));
     if (changes && jack.frozen >= 0) parts.filter.widen(jack.frozen, jack.come_sd);
-    corners.loads |= changes != (jack.frozen >= 0);
+    jack.rests_beside = changes || (rests && jack.frozen >= 0);
+    corners.loads |= jack.rests_beside != (jack.frozen >= 0);
   }
 }
 
 /// Where jack `k` has come to its load of this row, and other loads begin to change or cease to. Cost: that
 /// of FrictionFilter::remember_load(), and of next_memory().
 template <class Parts>
-void remember_load(Parts& parts, int k, const typename Parts::SampleType& sample) {
+void remember_load(Parts& parts, int k) {
   auto& jack = parts.jacks[k];
-  const bool changes = changes_factors(parts, sample);
-  if (jack.locked || jack.memory[0] < 0 || changes == (jack.frozen >= 0)) return;
-  if (!changes) return forget_other_loads(parts, k);
+  if (jack.locked || jack.memory[0] < 0 || jack.rests_beside == (jack.frozen >= 0)) return;
+  if (!jack.rests_beside) return forget_other_loads(parts, k);
   jack.frozen = static_cast<std::int16_t>(next_memory(parts, k));
   parts.filter.remember_load(parts.tracker, resting_error(parts, k), jack.come_sd);
   parts.is_belief_fine = false;

@@ -6,15 +6,19 @@
 
 namespace taut {
 
-/// Whether a best estimate is beyond the present piece.
+/// Notes of every cable whether the best estimate of one of its jacks is beyond the present piece. Returns
+/// whether one is. Cost: that of Tracker::reaches() a jack.
 template <class Parts>
-bool is_beyond_piece(const Parts& parts) {
+bool note_beyond(Parts& parts) {
+  parts.is_beyond.fill(false);
+  bool any = false;
   for (int k = 0; k < parts.jacks.size(); ++k) {
     const auto& jack = parts.jacks[k];
-    if (!jack.locked && !jack.at.behind && jack.beyond() != 0 && !parts.tracker.reaches(k, jack.at.load))
-      return true;
+    if (jack.locked || jack.at.behind || jack.beyond() == 0 || parts.tracker.reaches(k, jack.best()))
+      continue;
+    any = parts.is_beyond[parts.jacks.end(k).cable()] = true;
   }
-  return false;
+  return any;
 }
 
 /// While it is ahead: whether a best estimate has left the piece there, or has come back.
@@ -26,7 +30,7 @@ bool is_best_elsewhere(const Parts& parts) {
     if (jack.locked) continue;
     const bool goes_up = jack.driven.force >= parts.confirmed.jack[k].force;
     const Scalar further = goes_up ? jack.beyond() : -jack.beyond();
-    if (further > 0 ? !parts.tracker.reaches(k, jack.at.load) : further < -jack.at.sd) return true;
+    if (further > 0 ? !parts.tracker.reaches(k, jack.best()) : further < -jack.at.sd) return true;
   }
   return false;
 }
@@ -57,7 +61,7 @@ void go_back(Parts& parts) {
 /// where nothing changes, that of Tracker::reaches() a jack; else of one path, and of Tracker::restore().
 template <class Parts>
 void look_ahead(Parts& parts) {
-  if (parts.is_ahead ? !is_best_elsewhere(parts) : !is_beyond_piece(parts)) return;
+  if (parts.is_ahead ? !is_best_elsewhere(parts) : !note_beyond(parts)) return;
   if (parts.is_ahead && !is_best_further(parts)) go_back(parts);
   auto& jacks = parts.jacks;
   if (!parts.is_ahead) {
@@ -75,12 +79,15 @@ void look_ahead(Parts& parts) {
 }
 
 /// While it is ahead: nothing is done if the loads of a row lie on the way there. If they have come as far,
-/// it is ahead no longer, and else goes back. Cost: a few operations a jack, or those of go_back().
+/// it is ahead no longer, and else goes back; as it does with several cables, for what is read of one may
+/// teach where only the jack of another has to be confirmed. Cost: a few operations a jack, or those of
+/// go_back().
 template <class Parts>
 void follow_ahead(Parts& parts, const Corners<typename Parts::Scalar>& corners,
                   const typename Parts::SampleType& sample) {
   using Scalar = typename Parts::Scalar;
   const auto& jacks = parts.jacks;
+  if (parts.model().cables.size() > 1) return go_back(parts);
   bool is_on_way = !corners.any(), is_past = is_on_way;
   for (int i = 0; i < parts.patterns(); ++i) is_on_way &= sample.factor[i] == jacks.factor(i);
   for (int k = 0; k < jacks.size(); ++k) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "taut/estimation/learning.hpp"
+#include "taut/estimation/look_ahead.hpp"
 
 namespace taut {
 
@@ -39,7 +40,8 @@ Update correct_drift(Parts& parts, int e, typename Parts::Scalar reading) {
   return update;
 }
 
-/// A reading of the cell at anchored end `e`; `gathers` is whether it is gathered with others. Returns
+/// A reading of the cell at anchored end `e`; the tracker is where the loads are confirmed to have come, if
+/// it is not ahead for the jacks of this cable. `gathers` is whether it is gathered with others. Returns
 /// whether anything was learned. Cost: an update at most.
 template <class Parts>
 bool measure_far_end(Parts& parts, int e, typename Parts::Scalar reading, bool gathers) {
@@ -51,11 +53,11 @@ bool measure_far_end(Parts& parts, int e, typename Parts::Scalar reading, bool g
     return false;
   }
   const int readings = gathers ? far_ends.waiting() + 1 : 1;
-  const Update update = parts.drifts(end.cable()) ? correct_drift(parts, e, reading)
-                        : parts.is_ahead
-                            ? far_ends.compare(e, reading, parts.tracker, parts.filter, parts.jacks)
-                        : gathers ? far_ends.gather(reading, parts.tracker, parts.filter, parts.jacks)
-                                  : far_ends.measure(e, reading, parts.tracker, parts.filter, parts.jacks);
+  const Update update =
+      parts.drifts(end.cable()) ? correct_drift(parts, e, reading)
+      : parts.is_ahead          ? far_ends.compare(e, reading, parts.tracker, parts.filter, parts.jacks)
+      : gathers                 ? far_ends.gather(reading, parts.tracker, parts.filter, parts.jacks)
+                : far_ends.measure(e, reading, parts.tracker, parts.filter, parts.jacks, parts.is_beyond);
   // Once, as long as it lasts.
   const bool is_told = update == Update::no_information && watch.is_told;
   watch.is_told = update == Update::no_information;
@@ -64,19 +66,18 @@ bool measure_far_end(Parts& parts, int e, typename Parts::Scalar reading, bool g
   return update == Update::updated;
 }
 
-/// All cells at anchored ends. Returns whether anything was learned. Cost: that of measure_far_end() for
-/// each.
-template <class Parts>
-bool measure_far_ends(Parts& parts, const typename Parts::ReadingsType& readings) {
+/// The cells at anchored ends of the cables with is_chosen(cable). Returns whether anything was learned.
+/// Cost: that of measure_far_end() for each.
+template <class Parts, class IsChosen>
+bool measure_far_ends(Parts& parts, const typename Parts::ReadingsType& readings, bool gathers,
+                      const IsChosen& is_chosen) {
   auto& far_ends = parts.far_ends;
-  const bool gathers = !parts.is_ahead && far_ends.gathers(parts.jacks);
   bool learns = false;
-  if (!parts.loads_are_in_doubt()) parts.misfits = false;
   for (int e = 0; e < far_ends.ends().size(); ++e) {
     const auto& end = far_ends.ends()[e];
     const auto& given = end.in(readings.ends);
     // Another cable's load that is in doubt makes the reading less certain; its own, what slides.
-    if (parts.loads_are_in_doubt(end.cable())) continue;
+    if (!is_chosen(end.cable()) || parts.loads_are_in_doubt(end.cable())) continue;
     if (parts.can_be(given, end.cable()))
       learns |= measure_far_end(parts, e, given.force, gathers);
     else if (given.has_force)
@@ -86,6 +87,21 @@ bool measure_far_ends(Parts& parts, const typename Parts::ReadingsType& readings
     if (given.has_force) parts.alarms.add(Parts::alarm_at(Alarm::Kind::misfit, end));
   }
   return learns;
+}
+
+/// All cells at anchored ends: where the loads are confirmed to have come, and those of cables whose jacks
+/// are beyond the present piece once the tracker is ahead, where it then stays. Cost: that of
+/// measure_far_end() for each, and of look_ahead().
+template <class Parts>
+[[gnu::always_inline]] inline void measure_far_ends(Parts& parts,
+                                                    const typename Parts::ReadingsType& readings) {
+  const bool any = parts.is_ahead || note_beyond(parts);
+  const auto is_beyond = parts.is_beyond;
+  if (!parts.loads_are_in_doubt()) parts.misfits = false;
+  const bool learns = measure_far_ends(parts, readings, !any && parts.far_ends.gathers(parts.jacks),
+                                       [&](int c) { return !is_beyond[c]; });
+  if (any || learns) look_ahead(parts);
+  if (any) measure_far_ends(parts, readings, false, [&](int c) { return is_beyond[c]; });
 }
 
 }  // namespace taut

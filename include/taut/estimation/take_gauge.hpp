@@ -40,9 +40,10 @@ void take_measurement(Parts& parts, const Predict& predict, typename Parts::Scal
   using Scalar = typename Parts::Scalar;
   if (!(sd > 0) || !parts.can_learn(contradiction.cable)) return;
   auto& filter = parts.filter;
+  go_back(parts);
   wait_for_none(parts);
   predict(filter.prediction());
-  if (filter.is_informative(parts.tracker, contradiction.cable, sd))
+  if (filter.is_informative(parts.tracker, contradiction.cable, sd, parts.is_beyond))
     note(
         parts,
         filter.update(parts.tracker, predict, parts.jacks.readings(filter.prior()), {reading, sd, Scalar(0)}),
@@ -64,13 +65,15 @@ void follow_gauges(Parts& parts, const Corners<typename Parts::Scalar>& corners,
     parts.gauges.follow_sliding(c, parts.filter.slides_throughout(parts.tracker, c));
 }
 
-/// Whether all cables that prediction() depends on, read with `sd` at `cable`, surely slide throughout. Cost:
+/// Whether all cables that prediction() depends on, read with `sd` at `cable`, surely slide throughout, none
+/// of them on another piece. Cost:
 /// a pass over the joints.
 template <class Parts>
 bool is_sure(const Parts& parts, int cable, typename Parts::Scalar sd) {
   for (int c = 0; c < parts.model().cables.size(); ++c)
     if (parts.filter.matters(parts.tracker, c, cable, sd) &&
-        !parts.gauges.surely_slides(c, parts.filter.relative_deviation(parts.tracker, c)))
+        (parts.is_beyond[c] ||
+         !parts.gauges.surely_slides(c, parts.filter.relative_deviation(parts.tracker, c))))
       return false;
   return true;
 }
@@ -81,6 +84,8 @@ template <class Parts>
 struct WhileSliding {
   Parts& parts;
   bool can_learn(int cable) const { return parts.can_learn(cable); }
+  /// Before it is predicted: to where it counts.
+  void begin() const { go_back(parts); }
   bool is_sure(int cable, typename Parts::Scalar sd) const { return taut::is_sure(parts, cable, sd); }
   template <class Predict>
   Update update(const Predict& predict, const typename Parts::JacksType::Readings& jacks,
@@ -95,6 +100,7 @@ template <class Parts>
 struct AlongLeg {
   Parts& parts;
   bool can_learn(int cable) const { return parts.can_teach(cable); }
+  void begin() const {}
   bool is_sure(int, typename Parts::Scalar) const { return true; }
   template <class Predict>
   Update update(const Predict& predict, const typename Parts::JacksType::Readings& jacks,
@@ -127,6 +133,7 @@ void take_gauge(Parts& parts, const Predict& predict, typename Parts::Scalar rea
     jacks = parts.jacks.readings(filter.prior());
   };
   const Scalar sd = gauges.sd(gauge);
+  rule.begin();
   wait_for_none(parts);
   predict_reading(filter.prediction());
   if (!rule.is_sure(contradiction.cable, sd)) return look_ahead(parts);
