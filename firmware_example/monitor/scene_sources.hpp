@@ -80,7 +80,6 @@ class FromFlash {
 /// condensation tells which they are.
 template <class SceneType>
 constexpr taut::UnknownCounts most_unknowns(const SceneType& scene) {
-  using Model = taut::Condensed<float, typename SceneType::Capacity>;
   taut::FrictionPrior<float, typename SceneType::Capacity> known{};
   for (int c = 0; c < scene.cables.size(); ++c) {
     known.mu_sd[c] = static_cast<float>(scene.cables[c].mu_sd);

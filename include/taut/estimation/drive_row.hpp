@@ -43,7 +43,10 @@ template <class Parts>
                                              Progress<typename Parts::Scalar>& progress) {
   auto& jacks = parts.jacks;
   auto& tracker = parts.tracker;
-  if (parts.is_ahead) follow_ahead(parts, corners, sample);
+  if (parts.is_ahead)
+    follow_ahead(parts, corners, sample);
+  else
+    parts.slides_ahead.fill(false);
   for (int k = 0; k < jacks.size(); ++k)
     if (!jacks[k].at.reversed) change_branch(parts, k);
   if (parts.is_ahead || (!corners.any() && try_extend(tracker, jacks, sample))) return true;

@@ -215,6 +215,7 @@ class Estimator {
     parts_.alarms.clear();
     parts_.is_belief_fine = parts_.is_ahead = parts_.misfits = false;
     parts_.is_beyond.fill(false);
+    parts_.slides_ahead.fill(false);
     forget_leg(parts_);
     parts_.forces.start();
     return number_unknowns(parts_, condensed, prior, gauges);
@@ -281,7 +282,7 @@ auto Estimator<CondensedType, Parameters, Further>::advance(const ReadingsType& 
   Corners<Scalar> corners;
   Progress<Scalar> progress{Status::success(), Scalar(1), 0};
   const bool has_more = condition_loads(parts_, readings, corners);
-  follow_other_loads(parts_, readings.sample, corners);
+  follow_other_loads(parts_, readings, corners);
   if (!drive_row(parts_, readings.sample, corners, event_budget, progress)) return progress;
   measure_row(readings, corners);
   if (has_more) check_jacks(parts_, readings);

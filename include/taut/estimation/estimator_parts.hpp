@@ -54,6 +54,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
     Values linearized_at;  ///< where the model was linearized there
     bool is_known = false;
   };
+  static constexpr bool has_several = Cap::cables > 1;
   /// Only strokes are compared all along it.
   static constexpr int legs = Cap::strokes && Further > 0 ? 1 : 0;
 
@@ -72,8 +73,10 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   FixedArray<Leg, legs> leg;
   bool is_ahead = false;  ///< of what is confirmed
   /// Where the loads are confirmed to have come: whether the best estimate of a jack of the cable lies behind
-  /// the next event.
+  /// an event that may be one of its own joints.
   FixedArray<bool, Cap::cables> is_beyond;
+  /// Whether a cable slid throughout where the tracker was ahead in the row before.
+  FixedArray<bool, has_several ? Cap::cables : 0> slides_ahead;
   bool misfits = false;  ///< some load cell at an anchored end is off the model
 
   const auto& model() const { return tracker.model(); }

@@ -54,7 +54,8 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
     variance += part * part;
     if (!may_be_back) continue;
     // If it has reversed, the force did not follow from where it was farthest.
-    const Scalar held = most * load.back(load.driven.force), off = (load.rises ? held : -held) - further;
+    const Scalar held = most * load.short_of_farthest(load.driven.force),
+                 off = (load.rises ? held : -held) - further;
     variance += off * off;
   }
   if (HasDeviation) {

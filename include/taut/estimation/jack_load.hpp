@@ -205,7 +205,6 @@ struct JackLoad {
                           const LoadCell<Scalar>& cell, Scalar most, const ForceEstimate<Scalar>& held,
                           Corners<Scalar>& corners, const Seen& is_seen = Seen()) {
     is_new = locks_now = false;
-    moves.rest();
     load_before = at.load;
     at.reversed = false;
     since += dt;
@@ -270,9 +269,7 @@ struct JackLoad {
       at = behind_branches(at, cell);
       raw /= branch(cell);
     }
-    const Scalar noise_sd = filter.sd() / branch(cell);
-    note_farthest(noise_sd / 2);
-    if (!at.refused) moves.follow(at.load, noise_sd, since > JumpGuard<Scalar>::far_apart);
+    note_farthest(filter.sd() / branch(cell) / 2);
     if (first == 0 && at.load > 0) first = Scalar(1e-3) * cell.sd;
     since = 0;
     is_new = !at.refused;
@@ -295,6 +292,15 @@ struct JackLoad {
     filter.come_to(to * branch(cell));
     at.confirmed = to;
   }
+  /// Beside other jacks: after take(), whether it goes on.
+  void follow_moves(Scalar dt, const LoadCell<Scalar>& cell) {
+    if (is_new)
+      moves.follow(at.load, filter.sd() / branch(cell), dt > JumpGuard<Scalar>::far_apart);
+    else
+      moves.rest();
+  }
+  /// Whether its readings could be those of a jack that does not pull.
+  bool may_idle() const { return !locked && at.load < 5 * filter.sd(); }
   bool has_reversed() const { return !locked && at.reversed; }
   /// What slides and what sticks in its cable is in doubt: the load may have reversed, or the reading of this
   /// row was none, and the load is where it was last read, or elsewhere.
@@ -302,8 +308,13 @@ struct JackLoad {
   /// How far a load may have come back to `from` without being confirmed to have turned: the forces that
   /// friction holds did not follow. Zero within three standard deviations, as it is by chance [N].
   Scalar back(Scalar from) const {
-    const Scalar off = rises ? farthest - from : from - farthest;
-    return off > 3 * farthest_sd ? off - farthest_sd : Scalar(0);
+    const Scalar off = short_of_farthest(from);
+    return off > 2 * farthest_sd ? off : Scalar(0);
+  }
+  /// How far `from` is short of the farthest place where the load has surely been, within one standard
+  /// deviation of that [N].
+  Scalar short_of_farthest(Scalar from) const {
+    return larger((rises ? farthest - from : from - farthest) - farthest_sd, Scalar(0));
   }
   bool may_be_back() const { return at.behind || back(at.load) > 0; }
   /// By how much the load may be off, if it is in doubt [N].

@@ -82,15 +82,18 @@ bool another_has_gone(const Parts& parts, int k) {
 /// jack at rest another jack's load is one, too; it then rests beside it until it goes on itself. Cost: a few
 /// operations a jack, and a pair of jacks.
 template <class Parts>
-void follow_other_loads(Parts& parts, const typename Parts::SampleType& sample,
+void follow_other_loads(Parts& parts, const typename Parts::ReadingsType& readings,
                         Corners<typename Parts::Scalar>& corners) {
-  const bool has_others = parts.jacks.size() > 1;
+  const bool has_others = Parts::JacksType::capacity > 1 && parts.jacks.size() > 1;
   if (parts.jacks.patterns() == 0 && !has_others) return;
-  const bool factors_change = changes_factors(parts, sample);
+  const bool factors_change = changes_factors(parts, readings.sample);
+  for (int k = 0; has_others && k < parts.jacks.size(); ++k)
+    parts.jacks[k].follow_moves(readings.dt, parts.cell(k));
   for (int k = 0; k < parts.jacks.size(); ++k) {
     auto& jack = parts.jacks[k];
     if (jack.locked || jack.memory[0] < 0) continue;
-    const bool rests = has_others && !jack.moves.is_fast(),
+    // Of a load that is none there is nothing to remember.
+    const bool rests = has_others && !jack.moves.is_fast() && !jack.may_idle(),
                changes = factors_change || (rests && another_has_gone(parts, k));
     if (changes) jack.come_to_best(parts.cell(k));
     if (changes && jack.frozen >= 0) parts.filter.widen(jack.frozen, jack.come_sd);

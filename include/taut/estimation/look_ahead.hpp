@@ -6,8 +6,9 @@
 
 namespace taut {
 
-/// Notes of every cable whether the best estimate of one of its jacks is beyond the present piece. Returns
-/// whether one is. Cost: that of Tracker::reaches() a jack.
+/// Notes of every cable whether the best estimate of one of its jacks is beyond the present piece, and not
+/// only because something happens to another cable on the way. Returns whether one is beyond it at all. Cost:
+/// that of Tracker::reaches() a jack.
 template <class Parts>
 bool note_beyond(Parts& parts) {
   parts.is_beyond.fill(false);
@@ -16,7 +17,12 @@ bool note_beyond(Parts& parts) {
     const auto& jack = parts.jacks[k];
     if (jack.locked || jack.at.behind || jack.beyond() == 0 || parts.tracker.reaches(k, jack.best()))
       continue;
-    any = parts.is_beyond[parts.jacks.end(k).cable()] = true;
+    any = true;
+    const int c = parts.jacks.end(k).cable();
+    if constexpr (Parts::has_several)
+      parts.is_beyond[c] = !parts.slides_ahead[c];
+    else
+      parts.is_beyond[c] = true;
   }
   return any;
 }
@@ -87,7 +93,12 @@ void follow_ahead(Parts& parts, const Corners<typename Parts::Scalar>& corners,
                   const typename Parts::SampleType& sample) {
   using Scalar = typename Parts::Scalar;
   const auto& jacks = parts.jacks;
-  if (parts.model().cables.size() > 1) return go_back(parts);
+  if constexpr (Parts::has_several)
+    if (parts.model().cables.size() > 1) {
+      for (int c = 0; c < parts.model().cables.size(); ++c)
+        parts.slides_ahead[c] = parts.filter.slides_throughout(parts.tracker, c);
+      return go_back(parts);
+    }
   bool is_on_way = !corners.any(), is_past = is_on_way;
   for (int i = 0; i < parts.patterns(); ++i) is_on_way &= sample.factor[i] == jacks.factor(i);
   for (int k = 0; k < jacks.size(); ++k) {
