@@ -194,6 +194,9 @@ TEST_CASE_TEMPLATE(
       for (int k = cable.first_segment; k < cable.first_segment + cable.segments(); ++k)
         worst =
             std::fmax(worst, std::fabs(static_cast<double>(pair->estimator().force(k)) - pair->tension(k)));
+      // Beside the jack the force is its load, and as well known.
+      CHECK(static_cast<double>(pair->estimator().deviation(cable.end_segment(1))) ==
+            doctest::Approx(static_cast<double>(pair->estimator().load(0, 1).sd)).epsilon(1e-3));
     }
   CAPTURE(worst);
   CHECK(worst < 0.15 * noise);

@@ -209,7 +209,7 @@ class FarEnds {
   template <class PredictionType>
   static void predict_at(const EndType& end, const TrackerType& tracker, const FilterType& filter,
                          const Jacks& jacks, PredictionType& prediction) {
-    predict_tension(tracker, end.segment(tracker.model()), filter.belief(), jacks.ends(), prediction);
+    predict_tension(tracker, end.segment(tracker.model()), filter.belief(), jacks, prediction);
     const InstrumentUnknowns& own = filter.instruments().at(end.cable(), end.end);
     if (own.gain >= 0) prediction.H[own.gain] = prediction.value;
     if (own.zero >= 0) prediction.H[own.zero] = 1;

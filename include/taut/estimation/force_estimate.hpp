@@ -6,6 +6,7 @@
 #include "taut/estimation/held_over.hpp"
 #include "taut/estimation/prediction.hpp"
 #include "taut/numerics/larger.hpp"
+#include "taut/scene/fixed_list.hpp"
 
 namespace taut {
 
@@ -38,10 +39,14 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
   const auto& belief = filter.belief();
   using Scalar = typename TrackerType::Scalar;
   using EndType = CableEnd<typename TrackerType::Cap>;
+  FixedArray<Scalar, Jacks::capacity> by_jack;
+  const auto sensitivity = [&](int p) {
+    return tracker.sensitivity(p, segment) - jacks.counted_elsewhere(p, by_jack);
+  };
   Scalar T = tracker.tension(segment), variance = 0;
   for (int k = 0; k < jacks.size(); ++k) {
     const auto& load = jacks[k];
-    const Scalar slope = tracker.slope(k, segment), further = slope * load.beyond();
+    const Scalar slope = by_jack[k] = tracker.slope(k, segment), further = slope * load.beyond();
     T += further;
     if (!HasDeviation || load.locked) continue;
     const EndType& at = jacks.end(k);
@@ -59,10 +64,9 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
     variance += off * off;
   }
   if (HasDeviation) {
-    const Scalar of_scatter =
-        filter.scatter().variance(segment, [&](int p) { return tracker.sensitivity(p, segment); });
+    const Scalar of_scatter = filter.scatter().variance(segment, sensitivity);
     const Scalar of_unknowns = of_scatter + belief.variance_of([&](int p) {
-      const Scalar S = tracker.sensitivity(p, segment);
+      const Scalar S = sensitivity(p);
       T += S * (belief.mean(p) - belief.linearized_at(p));
       return S;
     });
@@ -73,7 +77,7 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
   } else {
     for (int p = 0; p < belief.carried(); ++p)
       if (belief.mean(p) != belief.linearized_at(p))
-        T += tracker.sensitivity(p, segment) * (belief.mean(p) - belief.linearized_at(p));
+        T += sensitivity(p) * (belief.mean(p) - belief.linearized_at(p));
   }
   return {larger(T, Scalar(0)), HasDeviation ? std::sqrt(larger(variance, Scalar(0))) : Scalar(0)};
 }
@@ -89,7 +93,7 @@ ForceEstimate<typename TrackerType::Scalar> estimate_strut(const TrackerType& tr
   using Scalar = typename TrackerType::Scalar;
   const auto& belief = filter.belief();
   typename FilterType::PredictionType N;
-  predict_strut(tracker, rows, strut, belief, jacks.ends(), N);
+  predict_strut(tracker, rows, strut, belief, jacks, N);
   auto [force, variance] = belief.expect(N, jacks.readings(prior), Scalar(0));
   for (int p = 0; p < belief.carried(); ++p) variance += N.H[p] * N.H[p] * filter.scatter().most(p);
   return {force, std::sqrt(larger(variance, Scalar(0)))};

@@ -16,7 +16,7 @@ ExpectedExtension<typename Parts::Scalar> expected_extension(Parts& parts, int k
   const auto& jacks = parts.jacks;
   const auto& belief = parts.filter.belief();
   auto& prediction = parts.filter.prediction();
-  predict_stroke(parts.tracker, jacks.end(k), belief, jacks.ends(), prediction);
+  predict_stroke(parts.tracker, jacks.end(k), belief, jacks, prediction);
   typename Parts::FilterType::JackReadings best;
   ExpectedExtension<Scalar> extension;
   for (int i = 0; i < jacks.size(); ++i) {

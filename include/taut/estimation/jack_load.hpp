@@ -281,7 +281,7 @@ struct JackLoad {
   /// confirmed to have come.
   void come_to_best(const LoadCell<Scalar>& cell) {
     come_sd = at.behind ? larger(at.sd, std::fabs(at.load - at.confirmed)) : at.sd;
-    if (!is_new || at.behind) return;
+    if (!is_new || (at.behind && frozen < 0)) return;
     // Where a ramp ends, the estimate overshoots at first.
     const bool goes_up = at.load > at.confirmed;
     const Scalar noise_sd = filter.sd() / branch(cell), most = goes_up ? raw + noise_sd : raw - noise_sd;

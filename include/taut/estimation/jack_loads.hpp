@@ -81,6 +81,23 @@ class JackLoads {
       if (state_.jack[k].is_in_doubt() && (cable < 0 || ends_[k].cable() == cable)) return true;
     return false;
   }
+  /// While other loads change, a jack's load is off by what friction comes to rest at: an error that is an
+  /// unknown, and that its readings have, too. It counts with them, so that derivatives `H` by the unknowns
+  /// are those with the load as it is read. Cost: a few operations a jack.
+  template <class ByJack, class ByUnknown>
+  void count_once(const ByJack& by_jack, ByUnknown& H) const {
+    if constexpr (Reversals > 2)
+      for (int k = 0; k < size(); ++k)
+        if (state_.jack[k].frozen >= 0) H[state_.jack[k].frozen] -= by_jack[k];
+  }
+  /// What count_once() takes from the derivative by unknown `p`.
+  template <class ByJack>
+  Scalar counted_elsewhere(int p, const ByJack& by_jack) const {
+    if constexpr (Reversals > 2)
+      for (int k = 0; k < size(); ++k)
+        if (state_.jack[k].frozen == p) return by_jack[k];
+    return 0;
+  }
   /// Where the tracker is driven to for a row.
   SampleType target(const SampleType& given) const {
     SampleType to = given;

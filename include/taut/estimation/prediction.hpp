@@ -22,7 +22,7 @@ void clear_further(const BeliefType& unknowns, PredictionType& prediction) {
   for (int p = unknowns.carried(); p < unknowns.in_use(); ++p) prediction.H[p] = 0;
 }
 
-/// The tension of a segment [N]. `unknowns` is a Belief, `jacks` all jacked ends. Always possible.
+/// The tension of a segment [N]. `unknowns` is a Belief, `jacks` are JackLoads. Always possible.
 /// Cost: two multiplications an unknown and input.
 template <class TrackerType, class BeliefType, class Jacks, class PredictionType>
 void predict_tension(const TrackerType& tracker, int segment, const BeliefType& unknowns, const Jacks& jacks,
@@ -31,6 +31,7 @@ void predict_tension(const TrackerType& tracker, int segment, const BeliefType& 
   clear_further(unknowns, prediction);
   for (int p = 0; p < unknowns.carried(); ++p) prediction.H[p] = tracker.sensitivity(p, segment);
   for (int k = 0; k < jacks.size(); ++k) prediction.by_jack[k] = tracker.slope(k, segment);
+  jacks.count_once(prediction.by_jack, prediction.H);
 }
 
 /// The stroke of a jack [m]: its extension since the start. The same arguments; Cost: all that moves along
@@ -44,7 +45,8 @@ void predict_stroke(const TrackerType& tracker, const CableEnd<Cap>& at, const B
   clear_further(unknowns, prediction);
   for (int p = 0; p < unknowns.carried(); ++p) prediction.H[p] = of(tracker.slip_sensitivity(p));
   for (int k = 0; k < jacks.size(); ++k)
-    prediction.by_jack[k] = of(tracker.slip_slope(jacks[k].cable(), jacks[k].end));
+    prediction.by_jack[k] = of(tracker.slip_slope(jacks.end(k).cable(), jacks.end(k).end));
+  jacks.count_once(prediction.by_jack, prediction.H);
 }
 
 /// The axial force of a strut [N], tension positive. `rows` are the CondensedStruts of the scene, `strut` has
@@ -63,7 +65,8 @@ void predict_strut(const TrackerType& tracker, const StrutRows& rows, int strut,
     prediction.H[p] = static_cast<Scalar>(carried(tracker.elongations_by(tracker.slip_sensitivity(p))));
   for (int k = 0; k < jacks.size(); ++k)
     prediction.by_jack[k] = static_cast<Scalar>(
-        carried(tracker.elongations_by(tracker.slip_slope(jacks[k].cable(), jacks[k].end))));
+        carried(tracker.elongations_by(tracker.slip_slope(jacks.end(k).cable(), jacks.end(k).end))));
+  jacks.count_once(prediction.by_jack, prediction.H);
 }
 
 }  // namespace taut

@@ -16,19 +16,19 @@ namespace taut {
 template <class Parts>
 auto foretell_strut(const Parts& parts, const typename Parts::Condensed::Struts& rows, int strut) {
   return [&parts, &rows, strut](auto& prediction) {
-    predict_strut(parts.tracker, rows, strut, parts.filter.belief(), parts.jacks.ends(), prediction);
+    predict_strut(parts.tracker, rows, strut, parts.filter.belief(), parts.jacks, prediction);
   };
 }
 template <class Parts>
 auto foretell_stroke(const Parts& parts, int k) {
   return [&parts, k](auto& prediction) {
-    predict_stroke(parts.tracker, parts.jacks.end(k), parts.filter.belief(), parts.jacks.ends(), prediction);
+    predict_stroke(parts.tracker, parts.jacks.end(k), parts.filter.belief(), parts.jacks, prediction);
   };
 }
 template <class Parts>
 auto foretell_segment(const Parts& parts, int segment) {
   return [&parts, segment](auto& prediction) {
-    predict_tension(parts.tracker, segment, parts.filter.belief(), parts.jacks.ends(), prediction);
+    predict_tension(parts.tracker, segment, parts.filter.belief(), parts.jacks, prediction);
   };
 }
 
