@@ -143,6 +143,16 @@ inline std::vector<Case> all_cases(int year_rows) {
   }
   make_typical_mix(add("typical-mix"));
   {
+    Case& c = add("cables-together", Demand::model);
+    c.ground.truss_only = c.jacking.together = true;
+    c.ground.most_cables = 3;
+  }
+  {
+    Case& c = add("cables-in-stages", Demand::model);
+    c.ground.truss_only = c.jacking.in_turns = c.jacking.stages = true;
+    c.ground.most_cables = 3;
+  }
+  {
     Case& c = add("cables-in-turns-mix");
     make_typical_mix(c);
     c.ground.truss_only = c.jacking.in_turns = true;

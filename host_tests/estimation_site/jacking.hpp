@@ -22,6 +22,7 @@ struct JackingRules {
   bool visit = false;      ///< a second one, always
   bool loop = false;       ///< a ramp and a release, and no more
   bool in_turns = false;   ///< one cable after the other, in one round or two
+  bool together = false;   ///< the same with all cables at once, by one pump
   bool any_pace = false;   ///< the log begins before the pump runs; it is fast or slow, and so are rows
   bool dead_load = false;  ///< comes on while jacking, and changes in holds
   double warming = 0;      ///< sd of the temperature's way in the last hold, and of that after lock-off [K]
@@ -34,8 +35,8 @@ struct JackingRules {
   double ripple = 0;           ///< of the pump, part of the force
 
   auto all() const {
-    return std::tie(stages, least_rate, every_row, lock, visit, loop, in_turns, any_pace, dead_load, warming,
-                    warming_locked, sized, year_rows, year_sd, relaxation, ram, ram_sd, ripple);
+    return std::tie(stages, least_rate, every_row, lock, visit, loop, in_turns, together, any_pace, dead_load,
+                    warming, warming_locked, sized, year_rows, year_sd, relaxation, ram, ram_sd, ripple);
   }
 };
 
@@ -57,7 +58,7 @@ class Jacking {
     rate_ = log_between(random, rules.least_rate, 50);
     stages_ = 5 + random.below(6);
     ripple_period_ = random.between(6, 20);
-    rules.in_turns ? run_in_turns() : run();
+    rules.in_turns || rules.together ? run_in_rounds() : run();
     good_ = good_ && truth_.follow(rows_);
   }
   /// False if the truth has no answer.
@@ -114,17 +115,20 @@ class Jacking {
     lock(Phase::visit, 0);
   }
   /// Round by round every cable is pulled and locked; now and then a jack keeps its load for the others.
-  void run_in_turns() {
+  void run_in_rounds() {
     if (random_.coin()) rest();
     std::vector<std::size_t> order(rigs_.size());
     for (std::size_t c = 0; c < order.size(); ++c) {
       order[c] = c;
       std::swap(order[c], order[static_cast<std::size_t>(random_.below(static_cast<int>(c) + 1))]);
     }
+    std::vector<std::vector<std::size_t>> groups;
+    for (const std::size_t c : order) groups.push_back({c});
+    if (rules_.together) groups = {order};
     const int rounds = 1 + random_.below(2);
     for (int round = 1; round <= rounds; ++round)
-      for (const std::size_t c : order) {
-        active_ = c;
+      for (const auto& group : groups) {
+        active_ = group;
         if (!rows_.empty() && pull().locked[1] && !unlock()) return;
         const double part = std::fmax(double(round) / rounds, level() + 0.03);
         const Phase phase = round == 1 ? Phase::ramp : Phase::visit;
@@ -139,10 +143,16 @@ class Jacking {
   }
 
   const Deed& last() const { return rows_.back(); }
-  const Cable& cable() const { return ground_.cables[active_]; }
-  const Pull& pull() const { return last().pulls[active_]; }
-  /// What the pump of the cable aims at, as a part of its full force.
-  double level() const { return rows_.empty() ? 0 : pull().level / cable().full; }
+  /// The first one of those that are pulled.
+  const Cable& cable() const { return ground_.cables[active_.front()]; }
+  const Pull& pull() const { return last().pulls[active_.front()]; }
+  /// What the pump aims at, as a part of the full force; the most of several.
+  double level() const {
+    double most = 0;
+    for (const std::size_t c : active_)
+      if (!rows_.empty()) most = std::fmax(most, last().pulls[c].level / ground_.cables[c].full);
+    return most;
+  }
   Deed untouched() const {
     Deed deed;
     deed.pulls.resize(rigs_.size());
@@ -163,10 +173,12 @@ class Jacking {
     const double begin = random_.between(0, 0.7);
     return {from, to, begin, begin + random_.between(0.1, 0.3)};
   }
-  /// How the second jack compares with the first.
-  Way next_lag() {
-    const Rig& rig = rigs_[active_];
-    return {rig.lag, 1 + rig.room * random_.between(-1, 1), 0, 1};
+  /// How the second jack of each cable compares with the first.
+  std::vector<Way> next_lags() {
+    std::vector<Way> ways;
+    for (const std::size_t c : active_)
+      ways.push_back({rigs_[c].lag, 1 + rigs_[c].room * random_.between(-1, 1), 0, 1});
+    return ways;
   }
 
   /// How many rows something takes, and the seconds between them.
@@ -195,16 +207,20 @@ class Jacking {
   }
   void move(Phase phase, double to) {
     const Deed from = rows_.empty() ? untouched() : last();
-    const double start = level();
     const bool loads = rules_.dead_load && phase == Phase::ramp;
-    const Way dead_way = some_window(from.factor[dead], loads ? to : from.factor[dead]), lag_way = next_lag();
-    const Pace pace = this->pace(std::fabs(to - start));
+    const Way dead_way = some_window(from.factor[dead], loads ? to : from.factor[dead]);
+    const std::vector<Way> lag_ways = next_lags();
+    const Pace pace = this->pace(std::fabs(to - level()));
     for (int i = 1; i <= pace.rows; ++i) {
       Deed deed = next(phase, i, pace);
       const double part = double(i) / pace.rows;
-      deed.pulls[active_].level = cable().full * (start + part * (to - start));
       deed.factor[dead] = dead_way.at(part);
-      rigs_[active_].lag = lag_way.at(part);
+      for (std::size_t a = 0; a < active_.size(); ++a) {
+        const std::size_t c = active_[a];
+        const double full = ground_.cables[c].full, begin = from.pulls[c].level / full;
+        deed.pulls[c].level = full * (begin + part * (to - begin));
+        rigs_[c].lag = lag_ways[a].at(part);
+      }
       add(deed, true);
     }
   }
@@ -232,7 +248,7 @@ class Jacking {
     const double first_error = error;
     for (int i = 1; i <= rules_.year_rows; ++i) {
       Deed deed = next(Phase::locked, i, {rules_.year_rows, step});
-      Pull& pull = deed.pulls[active_];
+      Pull& pull = deed.pulls[active_.front()];
       pull.fresh = false;
       pull.locked = {false, true};
       pull.level = i == 1 ? level : 0;
@@ -251,10 +267,12 @@ class Jacking {
     const int bleeding = rules_.stages ? 1 : 6;
     for (int i = 1; i <= pace.rows; ++i) {
       Deed deed = next(phase, i, pace);
-      Pull& pull = deed.pulls[active_];
-      pull.fresh = false;
-      pull.locked = {cable().two_jacks, true};
-      pull.level = from.pulls[active_].level * std::fmax(0, 1 - double(i - 1) / bleeding);
+      for (const std::size_t c : active_) {
+        Pull& pull = deed.pulls[c];
+        pull.fresh = false;
+        pull.locked = {ground_.cables[c].two_jacks, true};
+        pull.level = from.pulls[c].level * std::fmax(0, 1 - double(i - 1) / bleeding);
+      }
       deed.factor[sun] = from.factor[sun] + warming * i / pace.rows;
       add(deed, false);
     }
@@ -262,17 +280,22 @@ class Jacking {
   /// The jacks are put back on and pull until they hold what the wedges held; false if that has no answer.
   bool unlock() {
     if (!truth_.follow(rows_)) return false;
-    const auto first = last().tension.begin() + cable().first_segment;
-    const std::array<double, 2> wedge{*first, *(first + cable().segments() - 1)};
-    if (cable().two_jacks) rigs_[active_].lag = wedge[0] / wedge[1];
+    std::vector<double> wedge(rigs_.size());
+    for (const std::size_t c : active_) {
+      const auto first = last().tension.begin() + ground_.cables[c].first_segment;
+      wedge[c] = *(first + ground_.cables[c].segments() - 1);
+      if (ground_.cables[c].two_jacks) rigs_[c].lag = *first / wedge[c];
+    }
     const Pace pace{rules_.stages ? 3 : 30, rules_.stages ? 0 : std::fmax(1 / rate_, 0.5)};
     for (int i = 1; i <= pace.rows; ++i) {
       Deed deed = next(Phase::visit, i, pace);
       const bool holds = i < pace.rows;
-      Pull& pull = deed.pulls[active_];
-      pull.fresh = false;
-      pull.locked = {cable().two_jacks && holds, holds};
-      pull.level = (1 + rigs_[active_].ram[1]) * wedge[1] * (holds ? 0.99 * i / pace.rows : 1.005);
+      for (const std::size_t c : active_) {
+        Pull& pull = deed.pulls[c];
+        pull.fresh = false;
+        pull.locked = {ground_.cables[c].two_jacks && holds, holds};
+        pull.level = (1 + rigs_[c].ram[1]) * wedge[c] * (holds ? 0.99 * i / pace.rows : 1.005);
+      }
       add(deed, false);
     }
     return true;
@@ -281,21 +304,25 @@ class Jacking {
   Deed next(Phase phase, int i, const Pace& pace) {
     Deed deed = rows_.empty() ? untouched() : last();
     for (Pull& pull : deed.pulls) pull.fresh = false;
-    deed.pulls[active_].phase = phase;
-    deed.pulls[active_].fresh = !rules_.stages && i <= 12;
+    for (const std::size_t c : active_) {
+      deed.pulls[c].phase = phase;
+      deed.pulls[c].fresh = !rules_.stages && i <= 12;
+    }
     deed.time += rules_.stages ? log_between(random_, 10, 600) : pace.step;
     return deed;
   }
   void add(Deed deed, bool pumping) {
     const double turn = 2 * support::pi * double(rows_.size()) / ripple_period_;
-    Pull& pull = deed.pulls[active_];
-    const Rig& rig = rigs_[active_];
-    pull.gauge[1] = pull.level * (1 + (pumping ? rules_.ripple * std::sin(turn) : 0));
-    if (cable().two_jacks) pull.gauge[0] = rig.lag * pull.gauge[1];
-    for (std::size_t end = 0; end < 2; ++end) {
-      // The ram holds its force until the pressure has turned round.
-      const double held = rows_.empty() ? 0 : this->pull().force[end], gauge = pull.gauge[end];
-      pull.force[end] = std::fmin(std::fmax(held, gauge / (1 + rig.ram[end])), gauge / (1 - rig.ram[end]));
+    for (const std::size_t c : active_) {
+      Pull& pull = deed.pulls[c];
+      const Rig& rig = rigs_[c];
+      pull.gauge[1] = pull.level * (1 + (pumping ? rules_.ripple * std::sin(turn) : 0));
+      if (ground_.cables[c].two_jacks) pull.gauge[0] = rig.lag * pull.gauge[1];
+      for (std::size_t end = 0; end < 2; ++end) {
+        // The ram holds its force until the pressure has turned round.
+        const double held = rows_.empty() ? 0 : last().pulls[c].force[end], gauge = pull.gauge[end];
+        pull.force[end] = std::fmin(std::fmax(held, gauge / (1 + rig.ram[end])), gauge / (1 - rig.ram[end]));
+      }
     }
     if (rules_.year_rows == 0) deed.logged_sun = deed.factor[sun];
     rows_.push_back(deed);
@@ -312,7 +339,7 @@ class Jacking {
     double room = 0;              ///< by which they may differ, part
   };
   std::vector<Rig> rigs_;
-  std::size_t active_ = 0;  ///< the cable that is pulled
+  std::vector<std::size_t> active_{0};  ///< the cables that are pulled
   double rate_ = 1, ripple_period_ = 10;
   int stages_ = 8;
   std::vector<Deed> rows_;

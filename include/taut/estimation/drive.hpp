@@ -109,10 +109,10 @@ Progress<typename TrackerType::Scalar> pull_more(TrackerType& tracker, const Jac
   return progress;
 }
 
-/// Drives the tracker to the loads that ends had when they were locked, then to where loads have reversed,
-/// then to where jacks were a row ago, before the other loads began to change. remember(k) is called where
-/// jack `k` was locked or reversed, remember_load(k) at last. Fails as Tracker::advance() does. Cost: that of
-/// drive_straight() three times.
+/// Drives the tracker to where loads have reversed, then to where jacks were a row ago, before the other
+/// loads began to change, then to the loads that ends had when they were locked. remember(k, sd) is called
+/// where jack `k` reversed or was locked at a load of that standard deviation [N], remember_load(k) in
+/// between. Fails as Tracker::advance() does. Cost: that of drive_straight() three times.
 template <class TrackerType, class Jacks, class Remember, class RememberLoad, class Uncertainty>
 Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks& jacks,
                                                      const Corners<typename TrackerType::Scalar>& corners,
@@ -121,25 +121,25 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
                                                      const Uncertainty& mu_sd) {
   auto corner = jacks.driven(load_patterns(tracker.model()));
   Progress<typename TrackerType::Scalar> progress;
-  if (corners.locks) {
-    for (int k = 0; k < jacks.size(); ++k)
-      if (jacks[k].locks_now) jacks.in(corner.jack, k).force = jacks[k].at.load;
-    progress = drive_straight(tracker, jacks, corner, event_budget, mu_sd);
-    for (int k = 0; k < jacks.size(); ++k)
-      if (progress.status && jacks[k].locks_now) remember(k);
-  }
-  if (corners.reverses && progress.status) {
+  if (corners.reverses) {
     for (int k = 0; k < jacks.size(); ++k)
       if (jacks[k].has_reversed()) jacks.in(corner.jack, k).force = jacks[k].at.reversal;
-    progress = join(progress, drive_straight(tracker, jacks, corner, event_budget, mu_sd));
+    progress = drive_straight(tracker, jacks, corner, event_budget, mu_sd);
     for (int k = 0; k < jacks.size(); ++k)
-      if (progress.status && jacks[k].has_reversed()) remember(k);
+      if (progress.status && jacks[k].has_reversed()) remember(k, jacks[k].turn_sd);
   }
   if (corners.loads && progress.status) {
     corner = jacks.corner(corner);
     progress = join(progress, drive_straight(tracker, jacks, corner, event_budget, mu_sd));
     for (int k = 0; k < jacks.size(); ++k)
       if (progress.status) remember_load(k);
+  }
+  if (corners.locks && progress.status) {
+    for (int k = 0; k < jacks.size(); ++k)
+      if (jacks[k].locks_now) jacks.in(corner.jack, k).force = jacks[k].at.load;
+    progress = join(progress, drive_straight(tracker, jacks, corner, event_budget, mu_sd));
+    for (int k = 0; k < jacks.size(); ++k)
+      if (progress.status && jacks[k].locks_now) remember(k, jacks[k].lock_sd);
   }
   return progress;
 }

@@ -54,8 +54,8 @@ template <class Parts>
   begin_row(parts);
   progress = drive(
       tracker, jacks, corners, jacks.target(sample), event_budget,
-      [&](int k) {
-        remember_reversal(parts, k);
+      [&](int k, typename Parts::Scalar sd) {
+        remember_reversal(parts, k, sd);
         begin_leg(parts, k);
       },
       [&](int k) {

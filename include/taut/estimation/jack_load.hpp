@@ -59,7 +59,7 @@ struct JackLoad {
   Scalar sd_before = 0;  ///< standard deviation of the load a sample ago [N]
   Scalar load_before = 0;                ///< best estimate of the load a row ago [N]
   Scalar farthest = 0, farthest_sd = 0;  ///< the one that went farthest since the load turned [N]
-  Scalar turn_sd = 0;                    ///< standard deviation of the load where it turned or was locked [N]
+  Scalar turn_sd = 0, lock_sd = 0;       ///< standard deviation of the load where it turned, was locked [N]
   bool rises = false;                    ///< since it turned
   bool is_new = false;                   ///< `raw` is of this row, and was believed
   Scalar believed = 0, refused = 0;      ///< the last reading that was believed, and that was not [N]
@@ -211,7 +211,16 @@ struct JackLoad {
     if (locks) {
       sd_before = at.sd;
       if (locked) return false;
-      turn_sd = larger(at.sd, back(at.load));
+      // What of a turn is not confirmed by now never will be: it need not be as sure as if every row were
+      // one.
+      const Scalar come_back = back(at.load);
+      at.reversed = come_back > (since > JumpGuard<Scalar>::far_apart ? Scalar(0) : 5 * filter.sd());
+      if (at.reversed) {
+        at.reversal = farthest;
+        turn_sd = farthest_sd;
+        corners.reverses = true;
+      }
+      lock_sd = at.reversed ? at.sd : larger(at.sd, come_back);
       corners.locks = locks_now = locked = true;
       at.behind = false;
       filter.start(filter.sd());
@@ -301,7 +310,7 @@ struct JackLoad {
   }
   /// Whether its readings could be those of a jack that does not pull.
   bool may_idle() const { return !locked && at.load < 5 * filter.sd(); }
-  bool has_reversed() const { return !locked && at.reversed; }
+  bool has_reversed() const { return (!locked || locks_now) && at.reversed; }
   /// What slides and what sticks in its cable is in doubt: the load may have reversed, or the reading of this
   /// row was none, and the load is where it was last read, or elsewhere.
   bool is_in_doubt() const { return at.behind || (!locked && at.refused); }

@@ -107,7 +107,11 @@ class JackLoads {
   /// Where jacks are when other loads begin to change, or cease to.
   SampleType corner(const SampleType& given) const {
     SampleType to = given;
-    for (int k = 0; k < size(); ++k) in(to.jack, k) = {state_.jack[k].corner(), state_.jack[k].locked};
+    for (int k = 0; k < size(); ++k) {
+      const Load& jack = state_.jack[k];
+      // The wedge of an end that is locked now is drawn in afterwards.
+      in(to.jack, k) = {jack.corner(), jack.locked && !jack.locks_now};
+    }
     return to;
   }
   /// The best estimates of the loads, where none has perhaps reversed.

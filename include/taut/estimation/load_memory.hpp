@@ -43,10 +43,10 @@ void forget_other_loads(Parts& parts, int k) {
   parts.jacks[k].frozen = -1;
 }
 
-/// A jack that reverses or is locked now: friction will remember the error of its load. Cost: that of
-/// FrictionFilter::remember_reversal(), and of next_memory().
+/// A jack that reverses or is locked now: friction will remember the error of its load, with the standard
+/// deviation `sd` [N]. Cost: that of FrictionFilter::remember_reversal(), and of next_memory().
 template <class Parts>
-void remember_reversal(Parts& parts, int k) {
+void remember_reversal(Parts& parts, int k, typename Parts::Scalar sd) {
   auto& jack = parts.jacks[k];
   change_branch(parts, k);
   const bool loads_change = jack.frozen >= 0;
@@ -56,7 +56,7 @@ void remember_reversal(Parts& parts, int k) {
   const int p = next_memory(parts, k);
   if (p < 0) return;
   const auto& at = parts.jacks.end(k);
-  parts.filter.remember_reversal(parts.tracker, p, at.cable(), at.end, jack.turn_sd);
+  parts.filter.remember_reversal(parts.tracker, p, at.cable(), at.end, sd);
   parts.is_belief_fine = false;
   if (!loads_change || jack.locked) return;
   jack.frozen = static_cast<std::int16_t>(p);
@@ -70,11 +70,11 @@ bool changes_factors(const Parts& parts, const typename Parts::SampleType& sampl
   return false;
 }
 
-/// Whether another jack than `k` has gone on in this row.
+/// Whether another jack than `k` has gone on in this row, or its wedge is drawn in.
 template <class Parts>
 bool another_has_gone(const Parts& parts, int k) {
   for (int other = 0; other < parts.jacks.size(); ++other)
-    if (other != k && parts.jacks[other].moves.has_gone()) return true;
+    if (other != k && (parts.jacks[other].moves.has_gone() || parts.jacks[other].locks_now)) return true;
   return false;
 }
 

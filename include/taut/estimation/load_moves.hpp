@@ -21,10 +21,10 @@ class LoadMoves {
       is_fast_ = after_pause || rows_ < few || gone > 2 * surely * noise;
       from_ = load;
       rows_ = 0;
-    } else if (rows_ < few) {
-      ++rows_;
-    } else {
+    } else if (after_pause || rows_ == few) {
       is_fast_ = false;
+    } else {
+      ++rows_;
     }
   }
   /// Whether it has gone on in this row, by three deviations of the noise since it did last.
