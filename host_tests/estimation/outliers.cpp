@@ -35,6 +35,13 @@ class Read {
     taut::Corners<double> corners;
     return jack_.take(false, {}, 1, cell_, most, {}, corners);
   }
+  /// Locks the end; whether that is known to have been after a turn.
+  bool locks_after_turn(double dt) {
+    taut::Corners<double> corners;
+    static_cast<void>(jack_.take(true, {}, dt, cell_, most, {}, corners));
+    return corners.locks && corners.reverses && jack_.has_reversed();
+  }
+  double lock_sd() const { return jack_.lock_sd; }
   bool refused() const { return jack_.at.refused; }
   double load() const { return jack_.at.load; }
   double sd() const { return jack_.at.sd; }
@@ -353,6 +360,27 @@ TEST_CASE("a peak in one row of load stages is not lost, though its reading was 
     REQUIRE_FALSE(read.refused());
     CHECK(read.reversal() == doctest::Approx(way > 0 ? 1.25e5 : 7.5e4).epsilon(0.01));
   }
+}
+
+TEST_CASE(
+    "a peak in load stages that is followed by lock-off is a turn; what noise makes of a hold is none") {
+  Read jack(100);
+  for (const double stage : {2e4, 4e4, 6e4, 8e4}) CHECK_FALSE(jack.tells(stage, 60));
+  // Six deviations of the noise more, and back: not as far as confirms a turn among many rows.
+  CHECK_FALSE(jack.tells(8.06e4, 60));
+  CHECK_FALSE(jack.tells(8e4, 60));
+  CHECK(jack.reversal() == 0);
+  CHECK(jack.locks_after_turn(60));
+  CHECK(jack.reversal() == doctest::Approx(8.06e4).epsilon(0.002));
+  CHECK(jack.lock_sd() < 150);
+
+  int turns = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Jacking held(seed);
+    held.go_to(140);
+    turns += held.read.locks_after_turn(1) ? 1 : 0;
+  }
+  CHECK(turns == 0);
 }
 
 TEST_CASE("readings far below zero, one after the other, are no load that was there") {
