@@ -109,10 +109,11 @@ Progress<typename TrackerType::Scalar> pull_more(TrackerType& tracker, const Jac
   return progress;
 }
 
-/// Drives the tracker to where loads have reversed, then to where jacks were a row ago, before the other
-/// loads began to change, then to the loads that ends had when they were locked. remember(k, sd) is called
-/// where jack `k` reversed or was locked at a load of that standard deviation [N], remember_load(k) in
-/// between. Fails as Tracker::advance() does. Cost: that of drive_straight() three times.
+/// Drives the tracker to where jacks were a row ago, before the other loads began to change, then to where
+/// loads have reversed, then to the loads that ends had when they were locked. remember(k, sd) is called
+/// where jack `k` reversed or was locked at a load of that standard deviation [N], remember_load(k) where it
+/// was a row ago, or once it has reversed since. Fails as Tracker::advance() does. Cost: that of
+/// drive_straight() four times.
 template <class TrackerType, class Jacks, class Remember, class RememberLoad, class Uncertainty>
 Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks& jacks,
                                                      const Corners<typename TrackerType::Scalar>& corners,
@@ -121,26 +122,32 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
                                                      const Uncertainty& mu_sd) {
   auto corner = jacks.driven(load_patterns(tracker.model()));
   Progress<typename TrackerType::Scalar> progress;
-  if (corners.reverses) {
-    for (int k = 0; k < jacks.size(); ++k)
-      if (jacks[k].has_reversed()) jacks.in(corner.jack, k).force = jacks[k].at.reversal;
-    progress = drive_straight(tracker, jacks, corner, event_budget, mu_sd);
-    for (int k = 0; k < jacks.size(); ++k)
-      if (progress.status && jacks[k].has_reversed()) remember(k, jacks[k].turn_sd);
-  }
-  if (corners.loads && progress.status) {
-    corner = jacks.corner(corner);
+  // Goes where `place` is set for the jacks with is_there(k), and remembers that.
+  const auto go = [&](const auto& is_there, const auto& place, const auto& keep) {
+    bool any = false;
+    for (int k = 0; k < jacks.size(); ++k) {
+      if (!progress.status || !is_there(k)) continue;
+      jacks.in(corner.jack, k) = {place(k), jacks.in(corner.jack, k).locked && jacks[k].locked};
+      any = true;
+    }
+    if (!any) return;
     progress = join(progress, drive_straight(tracker, jacks, corner, event_budget, mu_sd));
     for (int k = 0; k < jacks.size(); ++k)
-      if (progress.status) remember_load(k);
-  }
-  if (corners.locks && progress.status) {
-    for (int k = 0; k < jacks.size(); ++k)
-      if (jacks[k].locks_now) jacks.in(corner.jack, k).force = jacks[k].at.load;
-    progress = join(progress, drive_straight(tracker, jacks, corner, event_budget, mu_sd));
-    for (int k = 0; k < jacks.size(); ++k)
-      if (progress.status && jacks[k].locks_now) remember(k, jacks[k].lock_sd);
-  }
+      if (progress.status && is_there(k)) keep(k);
+  };
+  const auto a_row_ago = [&](int k) { return jacks[k].corner(); };
+  const auto has_reversed = [&](int k) { return jacks[k].has_reversed(); };
+  if (corners.loads) go([&](int k) { return !has_reversed(k); }, a_row_ago, remember_load);
+  if (corners.reverses)
+    go(
+        has_reversed, [&](int k) { return jacks[k].at.reversal; },
+        [&](int k) { remember(k, jacks[k].turn_sd); });
+  // What has just turned must not be driven without a change: its joints would count as sliding there.
+  if (corners.loads)
+    go([&](int k) { return has_reversed(k) && jacks[k].changes_rest(); }, a_row_ago, remember_load);
+  if (corners.locks)
+    go([&](int k) { return jacks[k].locks_now; }, [&](int k) { return jacks[k].at.load; },
+       [&](int k) { remember(k, jacks[k].lock_sd); });
   return progress;
 }
 

@@ -310,6 +310,8 @@ struct JackLoad {
   }
   /// Whether its readings could be those of a jack that does not pull.
   bool may_idle() const { return !locked && at.load < 5 * filter.sd(); }
+  /// Whether it begins to rest beside other loads in this row, or ceases to.
+  bool changes_rest() const { return rests_beside != (frozen >= 0); }
   bool has_reversed() const { return (!locked || locks_now) && at.reversed; }
   /// What slides and what sticks in its cable is in doubt: the load may have reversed, or the reading of this
   /// row was none, and the load is where it was last read, or elsewhere.

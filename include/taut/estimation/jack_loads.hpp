@@ -104,16 +104,6 @@ class JackLoads {
     for (int k = 0; k < size(); ++k) in(to.jack, k) = {state_.jack[k].target(), state_.jack[k].locked};
     return to;
   }
-  /// Where jacks are when other loads begin to change, or cease to.
-  SampleType corner(const SampleType& given) const {
-    SampleType to = given;
-    for (int k = 0; k < size(); ++k) {
-      const Load& jack = state_.jack[k];
-      // The wedge of an end that is locked now is drawn in afterwards.
-      in(to.jack, k) = {jack.corner(), jack.locked && !jack.locks_now};
-    }
-    return to;
-  }
   /// The best estimates of the loads, where none has perhaps reversed.
   SampleType best(const SampleType& given) const {
     SampleType to = target(given);

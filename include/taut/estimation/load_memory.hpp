@@ -98,7 +98,7 @@ void follow_other_loads(Parts& parts, const typename Parts::ReadingsType& readin
     if (changes) jack.come_to_best(parts.cell(k));
     if (changes && jack.frozen >= 0) parts.filter.widen(jack.frozen, jack.come_sd);
     jack.rests_beside = changes || (rests && jack.frozen >= 0);
-    corners.loads |= jack.rests_beside != (jack.frozen >= 0);
+    corners.loads |= jack.changes_rest();
   }
 }
 
@@ -107,7 +107,7 @@ void follow_other_loads(Parts& parts, const typename Parts::ReadingsType& readin
 template <class Parts>
 void remember_load(Parts& parts, int k) {
   auto& jack = parts.jacks[k];
-  if (jack.locked || jack.memory[0] < 0 || jack.rests_beside == (jack.frozen >= 0)) return;
+  if (jack.locked || jack.memory[0] < 0 || !jack.changes_rest()) return;
   if (!jack.rests_beside) return forget_other_loads(parts, k);
   jack.frozen = static_cast<std::int16_t>(next_memory(parts, k));
   parts.filter.remember_load(parts.tracker, resting_error(parts, k), jack.come_sd);
