@@ -96,8 +96,15 @@ template <class Parts>
 [[gnu::always_inline]] inline void measure_far_ends(Parts& parts,
                                                     const typename Parts::ReadingsType& readings) {
   const bool any = parts.is_ahead || note_beyond(parts);
-  const auto is_beyond = parts.is_beyond;
   if (!parts.loads_are_in_doubt()) parts.misfits = false;
+  // With one cable all are, or none.
+  if constexpr (!Parts::has_several) {
+    if (any) look_ahead(parts);
+    const bool gathers = !any && parts.far_ends.gathers(parts.jacks);
+    if (measure_far_ends(parts, readings, gathers, [](int) { return true; })) look_ahead(parts);
+    return;
+  }
+  const auto is_beyond = parts.is_beyond;
   const bool learns = measure_far_ends(parts, readings, !any && parts.far_ends.gathers(parts.jacks),
                                        [&](int c) { return !is_beyond[c]; });
   if (any || learns) look_ahead(parts);
