@@ -38,6 +38,12 @@ inline void make_typical_mix(Case& mix) {
   mix.instruments.noise = 1.3;
 }
 
+/// Two or three of them.
+inline void put_cables_below_truss(Case& tried) {
+  tried.ground.truss_only = true;
+  tried.ground.most_cables = 3;
+}
+
 inline std::vector<Case> all_cases(int year_rows) {
   std::vector<Case> cases;
   const auto add = [&](const char* name, Demand demand = Demand::accuracy) -> Case& {
@@ -84,8 +90,8 @@ inline std::vector<Case> all_cases(int year_rows) {
   add("any-pace", Demand::model).jacking.any_pace = true;
   {
     Case& c = add("cables-in-turns", Demand::model);
-    c.ground.truss_only = c.jacking.in_turns = true;
-    c.ground.most_cables = 3;
+    c.jacking.in_turns = true;
+    put_cables_below_truss(c);
   }
   add("second-visit", Demand::model).jacking.visit = true;
   {
@@ -144,19 +150,19 @@ inline std::vector<Case> all_cases(int year_rows) {
   make_typical_mix(add("typical-mix"));
   {
     Case& c = add("cables-together", Demand::model);
-    c.ground.truss_only = c.jacking.together = true;
-    c.ground.most_cables = 3;
+    c.jacking.together = true;
+    put_cables_below_truss(c);
   }
   {
     Case& c = add("cables-in-stages", Demand::model);
-    c.ground.truss_only = c.jacking.in_turns = c.jacking.stages = true;
-    c.ground.most_cables = 3;
+    c.jacking.in_turns = c.jacking.stages = true;
+    put_cables_below_truss(c);
   }
   {
     Case& c = add("cables-in-turns-mix");
     make_typical_mix(c);
-    c.ground.truss_only = c.jacking.in_turns = true;
-    c.ground.most_cables = 3;
+    c.jacking.in_turns = true;
+    put_cables_below_truss(c);
   }
   make_typical_mix(add("typical-mix-silent"));
   cases.back().silent = true;

@@ -86,10 +86,9 @@ struct Unread {
 };
 
 Unread random_jacking(const Options& options, const Case& tried, std::uint64_t i, long& without_truth) {
-  Jacked jacked;
   for (std::uint64_t attempt = 0; attempt < 1000; ++attempt) {
     Random random(mixed(options.seed, 1000 * i + attempt));
-    jacked = Jacked();
+    Jacked jacked;
     jacked.ground = random_ground(random, tried.ground);
     jacked.reality = random_reality(random, jacked.ground, tried.ground);
     const Jacking jacking(jacked.ground, jacked.reality, tried.jacking, random, options.fineness);

@@ -74,10 +74,7 @@ template <class Cables, class IsSelfLocking, class PriorType>
 constexpr UnknownCounts count_unknowns(const Cables& cables, const IsSelfLocking& is_self_locking,
                                        const PriorType& known, int load_patterns) {
   UnknownCounts count;
-  int jacks = 0, c = 0;
-  for (const auto& cable : cables)
-    for (const End end : cable.ends) jacks += !cable.closed && end == End::jacked ? 1 : 0;
-  const int corners = remembered_corners(load_patterns, jacks);
+  int jacks = 0, noisy_jacks = 0, c = 0;
   for (const auto& cable : cables) {
     int free = 0;
     for (int j = 0; j < cable.joints(); ++j) free += is_self_locking(cable.first_joint + j) ? 0 : 1;
@@ -85,13 +82,17 @@ constexpr UnknownCounts count_unknowns(const Cables& cables, const IsSelfLocking
     if (known.mu_sd[c] > 0) count.carried += known.shared[c] && free > 1 ? 1 : free;
     for (std::size_t end = 0; end < 2 && !cable.closed; ++end) {
       const auto& cell = known.cell[c][end];
-      if (cable.ends[end] == End::jacked)
-        count.carried += cell.unknowns() + (cell.sd > 0 ? corners : 0) + (known.seating_sd[c] > 0 ? 1 : 0);
-      else if (cell.sd > 0)
+      if (cable.ends[end] == End::jacked) {
+        ++jacks;
+        noisy_jacks += cell.sd > 0 ? 1 : 0;
+        count.carried += cell.unknowns() + (known.seating_sd[c] > 0 ? 1 : 0);
+      } else if (cell.sd > 0) {
         count.further += cell.unknowns();
+      }
     }
     ++c;
   }
+  count.carried += noisy_jacks * remembered_corners(load_patterns, jacks);
   return count;
 }
 

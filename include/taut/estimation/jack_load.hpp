@@ -211,8 +211,7 @@ struct JackLoad {
     if (locks) {
       sd_before = at.sd;
       if (locked) return false;
-      // What of a turn is not confirmed by now never will be: it need not be as sure as if every row were
-      // one.
+      // What of a turn is not confirmed by now never will be: asked once, it need not be as sure.
       const Scalar come_back = back(at.load);
       at.reversed = come_back > (since > JumpGuard<Scalar>::far_apart ? Scalar(0) : 5 * filter.sd());
       if (at.reversed) {

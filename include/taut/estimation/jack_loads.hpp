@@ -108,8 +108,7 @@ class JackLoads {
   SampleType best(const SampleType& given) const {
     SampleType to = target(given);
     for (int k = 0; k < size(); ++k)
-      if (!state_.jack[k].locked && !state_.jack[k].at.behind)
-        in(to.jack, k).force = larger(state_.jack[k].best(), Scalar(0));
+      if (!state_.jack[k].locked && !state_.jack[k].at.behind) in(to.jack, k).force = state_.jack[k].best();
     return to;
   }
   /// Where it was driven to last.

@@ -66,8 +66,7 @@ void follow_gauges(Parts& parts, const Corners<typename Parts::Scalar>& corners,
 }
 
 /// Whether all cables that prediction() depends on, read with `sd` at `cable`, surely slide throughout, none
-/// of them on another piece. Cost:
-/// a pass over the joints.
+/// of them on another piece. Cost: a pass over the joints.
 template <class Parts>
 bool is_sure(const Parts& parts, int cable, typename Parts::Scalar sd) {
   for (int c = 0; c < parts.model().cables.size(); ++c)
