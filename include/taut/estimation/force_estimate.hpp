@@ -108,12 +108,14 @@ typename TrackerType::Scalar estimate_extension(const TrackerType& tracker, cons
                                                 typename TrackerType::Scalar of_tracker) {
   const int cable = jacks.end(k).cable();
   const std::size_t end = jacks.end(k).end;
-  auto extension = of_tracker;
+  FixedArray<typename TrackerType::Scalar, Jacks::capacity> by_jack;
+  by_jack[k] = tracker.extension_slope(cable, end);
+  auto extension = of_tracker + by_jack[k] * jacks[k].beyond();
   for (int p = 0; p < belief.carried(); ++p)
     if (belief.mean(p) != belief.linearized_at(p))
-      extension += tracker.extension_sensitivity(p, cable, end) * (belief.mean(p) - belief.linearized_at(p));
-  const auto beyond = jacks[k].beyond();
-  return beyond == 0 ? extension : extension + tracker.extension_slope(cable, end) * beyond;
+      extension += (tracker.extension_sensitivity(p, cable, end) - jacks.counted_elsewhere(p, by_jack)) *
+                   (belief.mean(p) - belief.linearized_at(p));
+  return extension;
 }
 
 }  // namespace taut
