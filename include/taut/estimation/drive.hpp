@@ -110,10 +110,10 @@ Progress<typename TrackerType::Scalar> pull_more(TrackerType& tracker, const Jac
 }
 
 /// Drives the tracker to where jacks were a row ago, before the other loads began to change, then to where
-/// loads have reversed, then to the loads that ends had when they were locked. remember(k, sd) is called
-/// where jack `k` reversed or was locked at a load of that standard deviation [N], remember_load(k) where it
-/// was a row ago, or once it has reversed since. Fails as Tracker::advance() does. Cost: that of
-/// drive_straight() four times.
+/// loads have reversed, then to the loads that ends had when they were locked. remember(k, sd, turns) is
+/// called where jack `k` reversed or was locked at a load of that standard deviation [N], and whether it
+/// turned there, remember_load(k) where it was a row ago, or once it has reversed since. Fails as
+/// Tracker::advance() does. Cost: that of drive_straight() four times.
 template <class TrackerType, class Jacks, class Remember, class RememberLoad, class Uncertainty>
 Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks& jacks,
                                                      const Corners<typename TrackerType::Scalar>& corners,
@@ -141,13 +141,13 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
   if (corners.reverses)
     go(
         has_reversed, [&](int k) { return jacks[k].at.reversal; },
-        [&](int k) { remember(k, jacks[k].turn_sd); });
+        [&](int k) { remember(k, jacks[k].turn_sd, true); });
   // What has just turned must not be driven without a change: its joints would count as sliding there.
   if (corners.loads)
     go([&](int k) { return has_reversed(k) && jacks[k].changes_rest(); }, a_row_ago, remember_load);
   if (corners.locks)
     go([&](int k) { return jacks[k].locks_now; }, [&](int k) { return jacks[k].at.load; },
-       [&](int k) { remember(k, jacks[k].lock_sd); });
+       [&](int k) { remember(k, jacks[k].lock_sd, jacks[k].rises != jacks[k].at.reversed); });
   return progress;
 }
 

@@ -7,6 +7,7 @@
 #include "taut/estimation/leg.hpp"
 #include "taut/estimation/load_memory.hpp"
 #include "taut/estimation/look_ahead.hpp"
+#include "taut/estimation/other_friction.hpp"
 #include "taut/estimation/witness.hpp"
 
 namespace taut {
@@ -52,11 +53,16 @@ template <class Parts>
   if (parts.is_ahead || (!corners.any() && try_extend(tracker, jacks, sample))) return true;
   learn_waiting(parts);
   begin_row(parts);
+  for (int k = 0; k < jacks.size(); ++k)
+    if (jacks[k].driven.locked && !jacks[k].locked) turn_forces(parts, k);
   progress = drive(
       tracker, jacks, corners, jacks.target(sample), event_budget,
-      [&](int k, typename Parts::Scalar sd) {
+      [&](int k, typename Parts::Scalar sd, bool turns) {
+        if (turns) turn_forces(parts, k);
         remember_reversal(parts, k, sd);
         begin_leg(parts, k);
+        // Not in use while the tracker is not ahead.
+        if (jacks[k].locks_now) parts.confirmed.tracker = tracker.save();
       },
       [&](int k) {
         remember_load(parts, k);
@@ -65,6 +71,8 @@ template <class Parts>
       [&](int c) { return parts.filter.relative_deviation(tracker, c); });
   if (corners.any() || progress.events > 0) parts.far_ends.restart();
   if (!progress.status || progress.fraction < 1) return false;
+  for (int k = 0; k < jacks.size(); ++k)
+    if (jacks[k].locks_now) try_other_friction(parts, jacks.end(k).cable(), parts.confirmed.tracker);
   if (corners.locks && remember_seating(parts))
     progress = join(progress, tracker.advance(jacks.target(sample), event_budget));
   if (progress.status && corners.locks) progress.status = remember_drift(parts);

@@ -70,6 +70,7 @@ class Estimator {
     bool is_ahead = false;  ///< of what is confirmed; else that has no meaning
     FixedArray<typename Parts::Leg, Parts::legs> leg;
     typename ForceWatchType::State forces;
+    typename Parts::TurnedForcesType turned;
   };
 
   // Beginning.
@@ -96,9 +97,9 @@ class Estimator {
   Progress<Scalar> come_down(const ReadingsType& first);
   /// The state between two rows. Cost: a copy of it.
   State save() const {
-    return {parts_.tracker.save(),  parts_.jacks.save(),  parts_.filter.save(),
-            parts_.far_ends.save(), parts_.gauges.save(), parts_.confirmed,
-            parts_.is_ahead,        parts_.leg,           parts_.forces.save()};
+    return {parts_.tracker.save(), parts_.jacks.save(), parts_.filter.save(), parts_.far_ends.save(),
+            parts_.gauges.save(),  parts_.confirmed,    parts_.is_ahead,      parts_.leg,
+            parts_.forces.save(),  parts_.turned};
   }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `capacity_exceeded` if and
   /// only if start() would, and with `bad_sample` if the state is none of this scene or was saved before
@@ -117,6 +118,7 @@ class Estimator {
     parts_.misfits = parts_.far_ends.misfits();
     parts_.gauges.restore(state.gauges);
     parts_.forces.restore(state.forces);
+    parts_.turned = state.turned;
     parts_.confirmed = state.confirmed;
     parts_.is_ahead = state.is_ahead;
     parts_.is_beyond.fill(state.is_ahead);
@@ -218,6 +220,7 @@ class Estimator {
     parts_.slides_ahead.fill(false);
     forget_leg(parts_);
     parts_.forces.start();
+    parts_.turned.clear();
     return number_unknowns(parts_, condensed, prior, gauges);
   }
   /// What a row measures, once the tracker has come to its loads; the tracker looks ahead.

@@ -13,6 +13,7 @@
 #include "taut/estimation/gauges.hpp"
 #include "taut/estimation/jack_loads.hpp"
 #include "taut/estimation/readings.hpp"
+#include "taut/estimation/turned_forces.hpp"
 #include "taut/scene/capacity.hpp"
 #include "taut/tracking/tracker.hpp"
 
@@ -37,6 +38,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   using FarEndsType = FarEnds<FilterType, JacksType>;
   using GaugesType = Gauges<Scalar, Further, Cap::cables>;
   using ForceWatchType = ForceWatch<Scalar, Cap::segments>;
+  using TurnedForcesType = TurnedForces<Scalar, Cap, Parameters>;
   using Alarms = FixedList<Alarm, 8 + 5 * Cap::cables + Cap::joints + Cap::segments>;
   using EndType = CableEnd<Cap>;
 
@@ -47,6 +49,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   };
 
   using Values = typename FilterType::Values;
+  static constexpr int unknowns = Parameters + Further;
 
   /// Where the way of a jack began that it is on, see begin_leg().
   struct Leg {
@@ -68,6 +71,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   FilterType filter;
   GaugesType gauges;
   ForceWatchType forces;
+  TurnedForcesType turned;
   Alarms alarms;
   Confirmed confirmed;
   FixedArray<Leg, legs> leg;
@@ -136,10 +140,12 @@ struct EstimatorParts : CondensedType::Capacity::Account {
 
   // What is known of a segment.
 
-  Scalar force(int segment) const { return estimate_force<false>(tracker, jacks, filter, segment).force; }
+  Scalar force(int segment) const {
+    return estimate_force<false>(tracker, jacks, filter, turned, segment).force;
+  }
   /// In a cable whose cells are off the model, the deviation is wider by that.
   ForceEstimate<Scalar> estimate(int segment) const {
-    auto estimate = estimate_force<true>(tracker, jacks, filter, segment);
+    auto estimate = estimate_force<true>(tracker, jacks, filter, turned, segment);
     if (misfits) {
       const Scalar misfit = far_ends.misfit(cable_of(segment));
       estimate.deviation = std::sqrt(estimate.deviation * estimate.deviation + misfit * misfit);

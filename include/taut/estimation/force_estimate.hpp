@@ -31,11 +31,13 @@ typename TrackerType::Scalar carried_over(const TrackerType& tracker, const EndT
 /// the loads and of friction: T + dT/dF (F - driven) + dT/dmu (mu - mu_0), not below zero. The standard
 /// deviation has that of the loads, of friction and its scatter, and of what friction remembers, Eq. (20);
 /// zero if not `HasDeviation`. A load that may be elsewhere may have let joints slide that stick here; of one
-/// that may have turned friction may hold more than it is confirmed to have done. Cost: one product a jack
-/// and unknown in use, and with a deviation half the square of the unknowns.
-template <bool HasDeviation, class TrackerType, class Jacks, class FilterType>
+/// that may have turned friction may hold more than it is confirmed to have done; a joint that slides since a
+/// turn may stick, as `turned` has it. Cost: one product a jack and unknown in use, and with a deviation half
+/// the square of the unknowns.
+template <bool HasDeviation, class TrackerType, class Jacks, class FilterType, class Turned>
 ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tracker, const Jacks& jacks,
-                                                           const FilterType& filter, int segment) {
+                                                           const FilterType& filter, const Turned& turned,
+                                                           int segment) {
   const auto& belief = filter.belief();
   using Scalar = typename TrackerType::Scalar;
   using EndType = CableEnd<typename TrackerType::Cap>;
@@ -64,12 +66,21 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
     variance += off * off;
   }
   if (HasDeviation) {
+    const int leader = turned.leader_of(segment);
+    Scalar by_friction = 0;
     const Scalar of_scatter = filter.scatter().variance(segment, sensitivity);
-    const Scalar of_unknowns = of_scatter + belief.variance_of([&](int p) {
+    Scalar of_unknowns = of_scatter + belief.variance_of([&](int p) {
       const Scalar S = sensitivity(p);
       T += S * (belief.mean(p) - belief.linearized_at(p));
+      if (leader >= 0 && p < belief.friction() && turned.leader(p) == leader)
+        by_friction += S * turned.move(p);
       return S;
     });
+    if (leader >= 0) {
+      const Scalar sd = std::sqrt(larger(belief.variance(leader), Scalar(0))), straight = by_friction * sd,
+                   kinked = turned.deviation(segment, T, by_friction, sd);
+      of_unknowns += kinked * kinked - straight * straight;
+    }
     // Forces are about exponential in mu: the longer side counts.
     const Scalar square = T * T;
     variance +=

@@ -44,31 +44,40 @@ bool is_on_leg(const Parts& parts) {
   return moved < 2;
 }
 
-/// Goes the leg anew with friction at these values of the unknowns; the tracker is not ahead. False if that
-/// cannot be: then all is as it was. Cost: those of Tracker::restore(), adjust() and a path.
+/// Goes from a state that the tracker had with the model linearized at `there` to the loads that it has now,
+/// first to friction at other values of the unknowns if there are any. False if that cannot be: then the
+/// tracker is elsewhere. Cost: those of Tracker::restore(), adjust() and a path.
 template <class Parts>
-bool go_leg_anew(Parts& parts, const typename Parts::Values& values) {
+bool go_anew(Parts& parts, const typename Parts::TrackerType::State& from,
+             const typename Parts::Values& there, const typename Parts::Values* values) {
   auto& tracker = parts.tracker;
   auto& filter = parts.filter;
-  const auto& condensed = tracker.condensed();
   const auto to = parts.jacks.driven(parts.patterns());
-  const auto before = filter.belief().save().linearized_at;
-  // Not in use while the tracker is not ahead.
-  auto& here = parts.confirmed.tracker = tracker.save();
-  const auto restore = [&](const auto& state) {
-    return tracker.restore(condensed, filter.friction(parts.linear()), state, load_errors(parts)).ok();
-  };
-  static_cast<void>(filter.linearize_at(parts.leg[0].linearized_at));
-  bool is_there = restore(parts.leg[0].from);
-  const auto change = filter.linearize_at(values);
-  is_there = is_there && tracker.adjust(filter.friction(parts.linear()), change).ok();
-  if (is_there) {
-    const auto progress = tracker.advance(to);
-    is_there = progress.status.ok() && !(progress.fraction < 1);
+  static_cast<void>(filter.linearize_at(there));
+  bool is_there =
+      tracker.restore(tracker.condensed(), filter.friction(parts.linear()), from, load_errors(parts)).ok();
+  if (values != nullptr) {
+    const auto change = filter.linearize_at(*values);
+    is_there = is_there && tracker.adjust(filter.friction(parts.linear()), change).ok();
   }
-  if (is_there) return true;
-  static_cast<void>(filter.linearize_at(before));
-  static_cast<void>(restore(here));
+  if (!is_there) return false;
+  const auto progress = tracker.advance(to);
+  return progress.status.ok() && !(progress.fraction < 1);
+}
+
+/// Goes the leg anew with friction at these values of the unknowns; the tracker is not ahead. False if that
+/// cannot be: then all is as it was. Cost: that of go_anew(), and of Tracker::restore().
+template <class Parts>
+bool go_leg_anew(Parts& parts, const typename Parts::Values& values) {
+  const auto before = parts.filter.belief().save().linearized_at;
+  // Not in use while the tracker is not ahead.
+  auto& here = parts.confirmed.tracker = parts.tracker.save();
+  if (go_anew(parts, parts.leg[0].from, parts.leg[0].linearized_at, &values)) return true;
+  static_cast<void>(parts.filter.linearize_at(before));
+  static_cast<void>(
+      parts.tracker
+          .restore(parts.tracker.condensed(), parts.filter.friction(parts.linear()), here, load_errors(parts))
+          .ok());
   return false;
 }
 

@@ -1,0 +1,190 @@
+// Friction that nobody measures, and a jack that turned: which joint has slid back last depends on friction,
+// so that a force is no straight line in it. Error bars against a closed form between rigid saddles.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "estimation/ramp.hpp"
+#include "taut/estimation/turned_forces.hpp"
+
+using namespace estimation;
+
+namespace {
+
+constexpr int segments = 8;
+constexpr double mu = 0.25, mu_sd = 0.3 * mu, jack_sd = 1e-5 * full;
+
+/// The forces of the chain, from the anchored end to the jack, with capstan friction: from each step of the
+/// jack to the next every joint either sticks, or slides to the edge of its cone.
+class Chain {
+ public:
+  explicit Chain(double friction) : mu_(friction), T_(segments, 0) {}
+  double operator[](int segment) const { return T_[static_cast<std::size_t>(segment)]; }
+
+  void pull(double force) { T_ = pulled_by(force); }
+  /// The wedge is drawn in by so much [m].
+  void lock(double seating) {
+    double least = 0, most = T_.back();
+    for (int i = 0; i < 200; ++i) {
+      const double force = (least + most) / 2;
+      (shortened_by(pulled_by(force)) < seating ? most : least) = force;
+    }
+    T_ = pulled_by(most);
+  }
+
+ private:
+  std::vector<double> pulled_by(double force) const {
+    std::vector<double> T = T_;
+    T.back() = force;
+    for (std::size_t i = segments - 1; i-- > 0;) {
+      const double rho = std::exp(-mu_ * support::chain_turn[i]);
+      T[i] = std::clamp(T[i], T[i + 1] * rho, T[i + 1] / rho);
+    }
+    return T;
+  }
+  double shortened_by(const std::vector<double>& T) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < segments; ++i)
+      sum +=
+          (T_[i] - T[i]) * support::chain_length(static_cast<int>(i)) / (support::cable_E * support::cable_A);
+    return sum;
+  }
+
+  double mu_;
+  std::vector<double> T_;
+};
+
+/// The estimator of the chain: a jack at its end that reads well, and friction to 30 %.
+class Jacked {
+ public:
+  using Model = taut::Condensed<double, PlaneCapacity>;
+  using Estimator = taut::Estimator<Model, 4>;
+
+  explicit Jacked(double seating) {
+    auto cable = support::steel_cable(mu);
+    cable.law = taut::FrictionLaw::capstan;
+    cable.mu_sd = mu_sd;
+    cable.shared_mu = true;
+    cable.cell[1].sd = jack_sd;
+    cable.seating = seating;
+    const auto scene = std::make_unique<Plane>();
+    support::rigid_saddles(*scene, cable, support::chain_points(segments));
+    taut::find_friction_prior(*scene, prior_);
+    REQUIRE(support::condense(*scene, model_).ok());
+    REQUIRE(estimator_.start(model_, prior_).status.ok());
+  }
+  void go(double from, double to, int rows) {
+    for (int i = 1; i <= rows; ++i) row(from + (to - from) * i / rows, false);
+  }
+  void lock() { row(0, true); }
+  taut::ForceEstimate<double> operator[](int segment) const { return estimator_.estimate(segment); }
+
+ private:
+  void row(double force, bool locked) {
+    taut::Readings<double, PlaneCapacity> readings;
+    readings.dt = 1;
+    readings.sample.jack[0][1].locked = locked;
+    readings.ends[0][1].has_force = !locked;
+    readings.ends[0][1].force = force;
+    REQUIRE(estimator_.advance(readings).status.ok());
+  }
+
+  Model model_;
+  taut::FrictionPrior<double, PlaneCapacity> prior_;
+  Estimator estimator_;
+};
+
+/// Of all frictions within two standard deviations: how far their forces leave the error bars of the same
+/// width at most, in standard deviations, beyond what the jack's readings leave open.
+double farthest(const Jacked& jacked, const std::vector<Chain>& chains) {
+  double worst = 0;
+  for (const Chain& chain : chains)
+    for (int i = 0; i < segments; ++i) {
+      const double off = std::fabs(jacked[i].force - chain[i]) - 20 * jack_sd;
+      worst = std::max(worst, off / jacked[i].deviation);
+    }
+  return worst;
+}
+std::vector<Chain> likely_chains() {
+  std::vector<Chain> chains;
+  for (double x = -2; x <= 2.001; x += 0.25) chains.emplace_back(mu + x * mu_sd);
+  return chains;
+}
+template <class Deed>
+void each(std::vector<Chain>& chains, const Deed& deed) {
+  for (Chain& chain : chains) deed(chain);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "after lock-off error bars hold the forces of every friction that is likely, wherever the last joint "
+    "slid") {
+  double longest = 0, shortest = 1;
+  for (const bool overstressed : {false, true})
+    for (double seating = 1e-3; seating < 0.02; seating *= 1.15) {
+      CAPTURE(overstressed);
+      CAPTURE(seating);
+      const auto jacked = std::make_unique<Jacked>(seating);
+      auto chains = likely_chains();
+      jacked->go(0, full, 60);
+      jacked->go(full, full, 20);
+      each(chains, [](Chain& chain) { chain.pull(full); });
+      if (overstressed) {
+        jacked->go(full, 0.92 * full, 8);
+        jacked->go(0.92 * full, 0.92 * full, 20);
+        each(chains, [](Chain& chain) { chain.pull(0.92 * full); });
+      }
+      jacked->lock();
+      each(chains, [&](Chain& chain) { chain.lock(seating); });
+      // Where the jack came back before, the place where it locks is known to first order.
+      CHECK(farthest(*jacked, chains) < (overstressed ? 5 : 2.2));
+      // The structure is taken back by the jack: what slid back sticks at first.
+      const double held = (*jacked)[segments - 1].force;
+      for (const double part : {0.985, 1.0, 1.02}) {
+        const double force = part * full;
+        if (force < 1.02 * held) continue;
+        jacked->go(force, force, 30);
+        each(chains, [&](Chain& chain) { chain.pull(force); });
+        CHECK(farthest(*jacked, chains) < 2.6);
+      }
+      for (int i = 0; i < segments; ++i) {
+        longest = std::max(longest, (*jacked)[i].deviation / full);
+        shortest = std::min(shortest, (*jacked)[i].deviation / full);
+      }
+    }
+  // They are no wider than friction makes them.
+  CHECK(longest < 0.2);
+}
+
+TEST_CASE("a force since a turn is the lower of sticking and sliding if it fell, and the higher if it rose") {
+  taut::TurnedForces<double, PlaneCapacity, 2> turned;
+  turned.clear();
+  // Before it has turned nothing is known of that.
+  CHECK(turned.leader_of(0) < 0);
+  turned.set_move(1, 1, 1);
+  // Sticking at 100 it would have 10 less with a standard deviation of friction more, which is 0.1.
+  turned.turn(0, 100, -100, 1);
+  CHECK(turned.leader_of(0) == 1);
+  const auto deviation = [&](double force, double slides, double sd = 0.1) {
+    return turned.deviation(0, force, slides, sd);
+  };
+  // It has fallen to 98 and hardly depends on friction: with two deviations more, it would have stuck at 80.
+  CHECK(deviation(98, 1) == doctest::Approx(-9));
+  // It has fallen to 70: it slides with any friction that is likely.
+  CHECK(deviation(70, 30) == doctest::Approx(3));
+  // It has risen to 104: with two deviations less, it would have stuck at 120.
+  CHECK(deviation(104, 1) == doctest::Approx(-8));
+  // It has not moved: what was known at the turn is known.
+  CHECK(deviation(100, -100) == doctest::Approx(-10));
+  // Once friction is known four times as well, so is what it makes of the force.
+  CHECK(deviation(100, -100, 0.025) == doctest::Approx(-2.5));
+  // What was found two deviations away counts if it is more.
+  turned.find(0, 50);
+  turned.find(0, -20);
+  CHECK(deviation(70, 30) == doctest::Approx(5));
+  CHECK(deviation(70, -80) == doctest::Approx(-8));
+}

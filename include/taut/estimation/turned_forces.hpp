@@ -1,0 +1,73 @@
+// What segments had where the jack of their cable turned last, and what they have if friction is another.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "taut/numerics/larger.hpp"
+#include "taut/scene/fixed_list.hpp"
+
+namespace taut {
+
+/// What the derivatives of forces by friction do not tell once a jack has turned, was locked or took hold
+/// again. From there on joints let go one after the other, and which has last depends on friction: beyond the
+/// next kink, forces change in another way. All derivatives are by one move of the unknowns of friction, by
+/// which a cable has more or less of it as a whole, Eq. (55). A plain value.
+template <class Scalar, class Cap, int Parameters>
+class TurnedForces {
+ public:
+  using Values = FixedArray<Scalar, Parameters>;
+  /// So many standard deviations away friction is still likely.
+  static constexpr int far = 2;
+
+  void clear() {
+    move_.fill(Scalar(0));
+    leader_.fill(-1);
+    leader_of_.fill(-1);
+  }
+  /// Unknown `p` moves by so much where `leader`, one unknown of its cable that stands for all, does by one.
+  void set_move(int p, Scalar move, int leader) {
+    move_[p] = move;
+    leader_[p] = static_cast<std::int16_t>(leader);
+  }
+  Scalar move(int p) const { return move_[p]; }
+  int leader(int p) const { return leader_[p]; }
+  /// The jack turns: a segment has this force [N], with this derivative by the move while its joint sticks.
+  void turn(int segment, Scalar force, Scalar derivative, int leader) {
+    force_[segment] = force;
+    sticks_[segment] = derivative;
+    found_[segment] = 0;
+    leader_of_[segment] = static_cast<std::int16_t>(leader);
+  }
+  /// After turn(): the force was found to change by so much with the move, `far` standard deviations away.
+  void find(int segment, Scalar derivative) { found_[segment] = farther(found_[segment], derivative); }
+
+  /// What a force [N] changes with a standard deviation of friction, of a segment whose derivative by the
+  /// move is `slides` where the tracker is. As a function of friction the force is the lower of what the
+  /// segment has where its joint sticks and where it slides if it fell since the turn, the higher if it rose:
+  /// `far` standard deviations away, the longer side counts; so does what was found. `sd` is the standard
+  /// deviation of leader_of(segment). Cost: a few operations.
+  Scalar deviation(int segment, Scalar force, Scalar slides, Scalar sd) const {
+    const Scalar changed = force - force_[segment], way = changed < 0 ? Scalar(-1) : Scalar(1);
+    Scalar longest = farther(slides, found_[segment]) * sd;
+    for (const Scalar x : {Scalar(-far), Scalar(far)}) {
+      const Scalar further = way * larger(way * x * slides * sd, way * (x * sticks_[segment] * sd - changed));
+      longest = farther(longest, further / x);
+    }
+    return longest;
+  }
+  /// The unknown that stands for the friction of a segment's cable, or -1: its jack has not turned.
+  int leader_of(int segment) const { return leader_of_[segment]; }
+
+ private:
+  static Scalar farther(Scalar a, Scalar b) { return std::fabs(b) > std::fabs(a) ? b : a; }
+
+  Values move_;                                        // of unknowns
+  FixedArray<std::int16_t, Parameters> leader_;        // that they move with, or -1
+  FixedArray<Scalar, Cap::segments> force_;            // at the turn [N]
+  FixedArray<Scalar, Cap::segments> sticks_;           // its derivative there
+  FixedArray<Scalar, Cap::segments> found_;            // the one that was found since
+  FixedArray<std::int16_t, Cap::segments> leader_of_;  // or -1: it has not turned
+};
+
+}  // namespace taut
