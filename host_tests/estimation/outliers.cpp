@@ -31,6 +31,14 @@ class Read {
     taut::Corners<double> corners;
     return jack_.take(false, given, dt, cell_, most, {}, corners);
   }
+  /// The same where another cell has seen the load go there.
+  bool tells_what_is_seen(double reading, double dt) {
+    taut::EndReading<double> given;
+    given.has_force = true;
+    given.force = reading;
+    taut::Corners<double> corners;
+    return jack_.take(false, given, dt, cell_, most, {}, corners, [] { return true; });
+  }
   bool tells_nothing() {
     taut::Corners<double> corners;
     return jack_.take(false, {}, 1, cell_, most, {}, corners);
@@ -347,6 +355,23 @@ TEST_CASE("a pump that starts after a wait: bars hold the load at once, the esti
           if (i >= 3) CHECK(off < 500);
         }
       }
+}
+
+TEST_CASE("a first stage after rows at rest is believed at once where another cell has seen it") {
+  for (const bool is_seen : {false, true})
+    for (const double resting : {0.0, 5e4}) {
+      CAPTURE(is_seen);
+      CAPTURE(resting);
+      Read read(300);
+      for (int i = 0; i < 12; ++i) CHECK_FALSE(read.tells(resting, 20));
+      const bool tells = is_seen ? read.tells_what_is_seen(1.25e5, 20) : read.tells(1.25e5, 20);
+      CHECK_FALSE(tells);
+      CHECK(read.refused() != is_seen);
+      if (is_seen) CHECK(read.load() == doctest::Approx(1.25e5).epsilon(0.01));
+      CHECK_FALSE(read.tells(2.5e5, 20));
+      CHECK_FALSE(read.tells(2.5e5, 20));
+      CHECK(read.load() == doctest::Approx(2.5e5).epsilon(0.01));
+    }
 }
 
 TEST_CASE("a peak in one row of load stages is not lost, though its reading was refused at first") {

@@ -197,9 +197,9 @@ struct JackLoad {
   };
   /// Takes what a row says of the jack: whether it is locked, a reading of its load cell, and the time since
   /// the row before. `held` is the force of a locked end; is_seen() says whether another cell has seen the
-  /// load go where it is read, so that it is not held back. Returns true if and only if a reading is now
-  /// known to have been an outlier: this one or the one before. Cost: that of LoadFilter::take(), and at most
-  /// one call of is_seen().
+  /// load go where it is read, so that it is neither held back nor refused. Returns true if and only if a
+  /// reading is now known to have been an outlier: this one or the one before. Cost: that of
+  /// LoadFilter::take() twice, and at most two calls of is_seen().
   template <class Seen = Unseen>
   [[nodiscard]] bool take(bool locks, const EndReading<Scalar>& given, Scalar dt,
                           const LoadCell<Scalar>& cell, Scalar most, const ForceEstimate<Scalar>& held,
@@ -260,6 +260,10 @@ struct JackLoad {
     if (was_peak(reading)) come_to_refused();
     const int run_length = filter.run_length();
     new (&at) ConditionedLoad<Scalar>(filter.take(reading, since));
+    if (at.refused && std::isfinite(reading) && is_seen()) {
+      filter.lose();
+      new (&at) ConditionedLoad<Scalar>(filter.take(reading, since));
+    }
     if (filter.run_length() < run_length) {
       noise.bend();
       corners.bends = true;
