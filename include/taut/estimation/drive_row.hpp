@@ -53,6 +53,7 @@ template <class Parts>
   if (parts.is_ahead || (!corners.any() && try_extend(tracker, jacks, sample))) return true;
   learn_waiting(parts);
   begin_row(parts);
+  leave_turns(parts, [&](int k) { return jacks[k].target(); });
   for (int k = 0; k < jacks.size(); ++k)
     if (jacks[k].driven.locked && !jacks[k].locked) turn_forces(parts, k);
   progress = drive(

@@ -264,7 +264,7 @@ class FrictionFilter {
   void remember_load(TrackerType& tracker, const JackError<Scalar>& error, Scalar sd) {
     const int p = error.parameter;
     keep_what_is_known(tracker, p);
-    tracker.begin_load_error(error);
+    tracker.begin_load_error(error, still_in(p, sd));
     belief_.renew(p, sd);
   }
   /// Unknown `p` is not known better than to `sd`.
@@ -287,7 +287,7 @@ class FrictionFilter {
   /// the standard deviation `sd` [N]. Cost: that of Tracker::turn(), and at worst of Tracker::adjust().
   void remember_reversal(TrackerType& tracker, int p, int cable, std::size_t end, Scalar sd) {
     keep_what_is_known(tracker, p);
-    tracker.turn(p, cable, end);
+    tracker.turn(p, cable, end, still_in(p, sd));
     belief_.renew(p, sd);
   }
 
@@ -354,6 +354,11 @@ class FrictionFilter {
     const auto weight = static_cast<Real>(weight_[j]);
     const auto limit = prior_->limit(c, j, prior_->mu[j] + weight * static_cast<Real>(at));
     return {at == 0 ? model.rho[j] : limit.rho, p, weight * limit.slope};
+  }
+  /// Unknown `p` will have this standard deviation and mean something else; what friction remembers of it
+  /// elsewhere stays as uncertain as it is if it goes on with this part.
+  Scalar still_in(int p, Scalar sd) const {
+    return sd > 0 ? std::sqrt(larger(belief_.variance(p), Scalar(0))) / sd : Scalar(0);
   }
   /// Unknown `p` will mean something else: what is known of it goes into the tracker.
   void keep_what_is_known(TrackerType& tracker, int p) {

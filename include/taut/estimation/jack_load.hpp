@@ -68,10 +68,12 @@ struct JackLoad {
   bool locks_now = false, locked = false;
   ElongationCheck<Scalar> elongation;  ///< of the leg that it is on
   std::uint8_t below = 0;  ///< locked: readings in a row that were confirmed to be below what the wedge holds
-  /// Unknown errors of its load where it reversed, was locked or rested, or -1. What matters least is
-  /// forgotten next.
+  /// Unknown errors of its load where it reversed, was locked or rested, or -1. The next one joins
+  /// what matters least.
   std::array<std::int16_t, static_cast<std::size_t>(Reversals)> memory{};
   int oldest = 0;
+  std::int16_t at_turn = 0;   ///< the one of `memory` that is its error where it reversed last, or -1
+  Scalar turned_at = 0;       ///< where the tracker was then [N]
   std::int16_t seating = 0;   ///< the unknown of its wedge's draw-in, or -1
   Scalar come_sd = 0;         ///< standard deviation of the load where come_to_best() was [N]
   Scalar lasts = 0;           ///< what its readings are off by together, NoiseLevel::Found::lasting [N]
@@ -114,7 +116,7 @@ struct JackLoad {
   void start(const LoadCell<Scalar>& cell) {
     *this = JackLoad();
     pulls = erred_up = rises = true;
-    seating = frozen = -1;
+    at_turn = seating = frozen = -1;
     filter.start(cell.sd);
     noise.start(cell.sd);
   }
@@ -315,6 +317,8 @@ struct JackLoad {
   bool may_idle() const { return !locked && at.load < 5 * filter.sd(); }
   /// Whether it begins to rest beside other loads in this row, or ceases to.
   bool changes_rest() const { return rests_beside != (frozen >= 0); }
+  /// Whether the tracker is still where it reversed.
+  bool rests_at_turn() const { return at_turn >= 0 && !locked && driven.force == turned_at; }
   bool has_reversed() const { return (!locked || locks_now) && at.reversed; }
   /// What slides and what sticks in its cable is in doubt: the load may have reversed, or the reading of this
   /// row was none, and the load is where it was last read, or elsewhere.

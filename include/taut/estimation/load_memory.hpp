@@ -57,10 +57,22 @@ void remember_reversal(Parts& parts, int k, typename Parts::Scalar sd) {
   if (p < 0) return;
   const auto& at = parts.jacks.end(k);
   parts.filter.remember_reversal(parts.tracker, p, at.cable(), at.end, sd);
+  jack.at_turn = static_cast<std::int16_t>(p);
+  jack.turned_at = jack.at.reversal;
   parts.is_belief_fine = false;
   if (!loads_change || jack.locked) return;
   jack.frozen = static_cast<std::int16_t>(p);
   parts.tracker.change_load_error(resting_error(parts, k));
+}
+
+/// Jacks that rest where they reversed leave now if to(jack) is another load. There their joints still slide,
+/// and follow the load as it is; what friction remembers of it begins here. Cost: that of Tracker::turn() for
+/// each.
+template <class Parts, class To>
+void leave_turns(Parts& parts, const To& to) {
+  for (int k = 0; k < parts.jacks.size(); ++k)
+    if (parts.jacks[k].rests_at_turn() && to(k) != parts.jacks[k].turned_at)
+      parts.tracker.turn(parts.jacks[k].at_turn, parts.jacks.end(k).cable(), parts.jacks.end(k).end, 1);
 }
 
 template <class Parts>

@@ -3,6 +3,7 @@
 
 #include "taut/estimation/estimator_unknowns.hpp"
 #include "taut/estimation/learning.hpp"
+#include "taut/estimation/load_memory.hpp"
 
 namespace taut {
 
@@ -75,6 +76,7 @@ void look_ahead(Parts& parts) {
     parts.confirmed.tracker = parts.tracker.save();
     for (int k = 0; k < jacks.size(); ++k) parts.confirmed.jack[k] = jacks[k].driven;
     parts.is_ahead = true;
+    leave_turns(parts, [&](int k) { return jacks[k].best(); });
   }
   const auto to = jacks.best(jacks.driven(parts.patterns()));
   const auto progress = parts.tracker.advance(to);

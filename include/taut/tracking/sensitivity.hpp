@@ -139,12 +139,12 @@ class Sensitivity {
       event_shift_[p] = -derivative(map, p, i, x) * map.stiffness(i) / falling;
   }
   /// From here on parameter `p` is by how much further input `k` went before it turned, or before its jack
-  /// was locked.
-  void turn(const Map& map, int p, int k) {
+  /// was locked; and also so many times what it meant before.
+  void turn(const Map& map, int p, int k, Scalar before) {
     use(p);
-    frozen_.derivative[p] = {};
+    frozen_.derivative[p].scale(before);
     for (int i = 0; i < map.active(); ++i)
-      of_variable(map.variable(i), p) = static_cast<Scalar>(map.column_value(k, i));
+      of_variable(map.variable(i), p) += static_cast<Scalar>(map.column_value(k, i));
   }
   /// From here on parameter `p` is by how much less cable an end holds that is locked; `jack` is
   /// 2 x cable + end.
@@ -276,7 +276,7 @@ class Sensitivity<CondensedType, Laws, 0> {
   template <class Change>
   static void for_each(const Change&) {}
   static void depend_on_load(const JackError<Scalar>&) {}
-  static void turn(const Map&, int, int) {}
+  static void turn(const Map&, int, int, Scalar) {}
   static void draw_in(int, int) {}
   template <class Values>
   static Scalar tension(const Map&, int, int, const Values&, const Values&) {

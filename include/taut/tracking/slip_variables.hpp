@@ -75,6 +75,13 @@ struct SlipState {
       return extension[variable.index / 2][static_cast<std::size_t>(variable.index % 2)];
     return slip[variable.index];
   }
+  /// All of it is so many times what it was.
+  void scale(Real by) {
+    for (int j = 0; j < Cap::joints; ++j) slip[j] *= by;
+    for (int c = 0; c < Cap::cables; ++c)
+      for (Real& each : extension[c]) each *= by;
+    for (int r = 0; r < max_spans<Cap>; ++r) slack_length[r] *= by;
+  }
 };
 
 /// As many as there can be: their laws are linear in the tensions, and no more of them are independent.

@@ -154,12 +154,13 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     return make_map_anew();
   }
   /// From here on unknown `p` is an error [N] in the force at which this jack reverses now, or is locked:
-  /// what friction remembers of it is carried along.
-  void turn(int p, int cable, std::size_t end) {
+  /// what friction remembers of it is carried along. It is also `before` times what it was until now, which
+  /// is remembered elsewhere.
+  void turn(int p, int cable, std::size_t end, Scalar before = 0) {
     const int k = cables_.input_of(cable, end);
     if (k < 0) return;
     freeze_here();
-    cables_.derivatives.turn(cables_.map, p, k);
+    cables_.derivatives.turn(cables_.map, p, k, before);
     drop_map();
   }
   /// From here on unknown `p` is by how much further [m] the wedge of a locked end was drawn in than the
@@ -187,8 +188,8 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     drop_map();
   }
   /// The same for an unknown that meant something else until now, of a jack that came here by itself.
-  void begin_load_error(const JackError<Scalar>& error) {
-    turn(error.parameter, error.jack / 2, static_cast<std::size_t>(error.jack % 2));
+  void begin_load_error(const JackError<Scalar>& error, Scalar before = 0) {
+    turn(error.parameter, error.jack / 2, static_cast<std::size_t>(error.jack % 2), before);
     cables_.derivatives.depend_on_load(error);
   }
   /// The force of the jack does not depend on unknown `p` any more, but friction has come to rest at what it
