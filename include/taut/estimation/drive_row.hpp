@@ -72,8 +72,8 @@ template <class Parts>
       [&](int c) { return parts.filter.relative_deviation(tracker, c); });
   if (corners.any() || progress.events > 0) parts.far_ends.restart();
   if (!progress.status || progress.fraction < 1) return false;
-  for (int k = 0; k < jacks.size(); ++k)
-    if (jacks[k].locks_now) try_other_friction(parts, jacks.end(k).cable(), parts.confirmed.tracker);
+  for (int c = 0; corners.locks && c < parts.model().cables.size(); ++c)
+    if (parts.locks_now(c)) try_other_friction(parts, c, parts.confirmed.tracker);
   if (corners.locks && remember_seating(parts))
     progress = join(progress, tracker.advance(jacks.target(sample), event_budget));
   if (progress.status && corners.locks) progress.status = remember_drift(parts);

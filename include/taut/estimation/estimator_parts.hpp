@@ -114,6 +114,12 @@ struct EstimatorParts : CondensedType::Capacity::Account {
       if (jacks.end(k).cable() == c && !jacks[k].locked) return false;
     return true;
   }
+  /// Whether the wedge of one of its ends is drawn in in this row.
+  bool locks_now(int c) const {
+    for (int k = 0; k < jacks.size(); ++k)
+      if (jacks.end(k).cable() == c && jacks[k].locks_now) return true;
+    return false;
+  }
   /// Whether it drifts: its strain does where wedges hold it.
   bool drifts(int c) const { return drift[c] >= 0 && is_held(c); }
 

@@ -6,6 +6,7 @@
 
 #include "taut/estimation/estimator_parts.hpp"
 #include "taut/scene/fixed_list.hpp"
+#include "taut/status.hpp"
 
 namespace taut {
 
@@ -61,6 +62,14 @@ auto load_errors(const Parts& parts) {
   for (int k = 0; k < parts.jacks.size(); ++k)
     for_each_load_error(parts, k, [&](const Error& error) { errors.add(error); });
   return errors;
+}
+
+/// Brings the tracker back to a state that it had with the model linearized where it is now. Fails as
+/// Tracker::restore() does. Cost: that.
+template <class Parts>
+Status put_back(Parts& parts, const typename Parts::TrackerType::State& saved) {
+  return parts.tracker.restore(parts.tracker.condensed(), parts.filter.friction(parts.linear()), saved,
+                               load_errors(parts));
 }
 
 /// The force of jack `k` depends on its unknowns in another way from here on.

@@ -264,7 +264,7 @@ struct JackLoad {
     new (&at) ConditionedLoad<Scalar>(filter.take(reading, since));
     if (at.refused && std::isfinite(reading) && is_seen()) {
       filter.lose();
-      new (&at) ConditionedLoad<Scalar>(filter.take(reading, since));
+      at = filter.take(reading, since);
     }
     if (filter.run_length() < run_length) {
       noise.bend();

@@ -54,8 +54,7 @@ bool go_anew(Parts& parts, const typename Parts::TrackerType::State& from,
   auto& filter = parts.filter;
   const auto to = parts.jacks.driven(parts.patterns());
   static_cast<void>(filter.linearize_at(there));
-  bool is_there =
-      tracker.restore(tracker.condensed(), filter.friction(parts.linear()), from, load_errors(parts)).ok();
+  bool is_there = put_back(parts, from).ok();
   if (values != nullptr) {
     const auto change = filter.linearize_at(*values);
     is_there = is_there && tracker.adjust(filter.friction(parts.linear()), change).ok();
@@ -74,10 +73,7 @@ bool go_leg_anew(Parts& parts, const typename Parts::Values& values) {
   auto& here = parts.confirmed.tracker = parts.tracker.save();
   if (go_anew(parts, parts.leg[0].from, parts.leg[0].linearized_at, &values)) return true;
   static_cast<void>(parts.filter.linearize_at(before));
-  static_cast<void>(
-      parts.tracker
-          .restore(parts.tracker.condensed(), parts.filter.friction(parts.linear()), here, load_errors(parts))
-          .ok());
+  static_cast<void>(put_back(parts, here).ok());
   return false;
 }
 

@@ -56,10 +56,7 @@ template <class Parts>
 void go_back(Parts& parts) {
   if (!parts.is_ahead) return;
   parts.is_ahead = false;
-  static_cast<void>(parts.tracker
-                        .restore(parts.tracker.condensed(), parts.filter.friction(parts.linear()),
-                                 parts.confirmed.tracker, load_errors(parts))
-                        .ok());
+  static_cast<void>(put_back(parts, parts.confirmed.tracker).ok());
   for (int k = 0; k < parts.jacks.size(); ++k) parts.jacks[k].driven = parts.confirmed.jack[k];
 }
 
