@@ -1,6 +1,7 @@
 // Where the best estimate of a load lies behind the next event: the tracker goes there, and comes back.
 #pragma once
 
+#include "taut/estimation/drive.hpp"
 #include "taut/estimation/estimator_unknowns.hpp"
 #include "taut/estimation/learning.hpp"
 #include "taut/estimation/load_memory.hpp"
@@ -60,13 +61,37 @@ void go_back(Parts& parts) {
   for (int k = 0; k < parts.jacks.size(); ++k) parts.jacks[k].driven = parts.confirmed.jack[k];
 }
 
+/// Goes straight to these loads, two jacks as far as friction holds them. Returns whether it is there.
+template <class Parts>
+bool go_straight(Parts& parts, typename Parts::SampleType to) {
+  const auto progress =
+      drive_straight(parts.tracker, parts.jacks, to, Parts::TrackerType::default_budget,
+                     [&](int c) { return parts.filter.relative_deviation(parts.tracker, c); });
+  const bool is_there = progress.status.ok() && !(progress.fraction < 1);
+  if (is_there)
+    parts.jacks.arrive(to, parts.patterns());
+  else
+    parts.jacks.arrive(parts.tracker.loads(), parts.patterns());
+  return is_there;
+}
+
+/// Goes back, and on to where the loads of this row are confirmed to have come: while it was ahead they may
+/// have gone far. Cost: that of go_back(), and of a path.
+template <class Parts>
+void go_back_to_target(Parts& parts) {
+  go_back(parts);
+  leave_turns(parts, [&](int k) { return parts.jacks[k].target(); });
+  static_cast<void>(go_straight(parts, parts.jacks.target(parts.jacks.driven(parts.patterns()))));
+}
+
 /// Where the best estimate of a load lies beyond the present piece, the forces there follow from the events
 /// in between: the tracker goes there, and stays while the loads that are confirmed are on their way. Cost:
-/// where nothing changes, that of Tracker::reaches() a jack; else of one path, and of Tracker::restore().
+/// where nothing changes, that of Tracker::reaches() a jack; else of one path or two, and of
+/// Tracker::restore().
 template <class Parts>
 void look_ahead(Parts& parts) {
   if (parts.is_ahead ? !is_best_elsewhere(parts) : !note_beyond(parts)) return;
-  if (parts.is_ahead && !is_best_further(parts)) go_back(parts);
+  if (parts.is_ahead && !is_best_further(parts)) go_back_to_target(parts);
   auto& jacks = parts.jacks;
   if (!parts.is_ahead) {
     learn_waiting(parts);
@@ -75,12 +100,7 @@ void look_ahead(Parts& parts) {
     parts.is_ahead = true;
     leave_turns(parts, [&](int k) { return jacks[k].best(); });
   }
-  const auto to = jacks.best(jacks.driven(parts.patterns()));
-  const auto progress = parts.tracker.advance(to);
-  if (progress.status && !(progress.fraction < 1))
-    jacks.arrive(to, parts.patterns());
-  else
-    go_back(parts);
+  if (!go_straight(parts, jacks.best(jacks.driven(parts.patterns())))) go_back_to_target(parts);
 }
 
 /// While it is ahead: nothing is done if the loads of a row lie on the way there. If they have come as far,
