@@ -101,6 +101,14 @@ inline std::vector<Case> all_cases(int year_rows) {
   }
   add("load-stages", Demand::model).jacking.stages = true;
   {
+    Case& c = add("turns", Demand::model);
+    c.jacking.swings = c.jacking.lock = true;
+  }
+  {
+    Case& c = add("turns-in-stages", Demand::model);
+    c.jacking.swings = c.jacking.lock = c.jacking.stages = true;
+  }
+  {
     Case& c = add("pressure-gauge");
     c.jacking.ram = 0.02;
     c.jacking.ram_sd = 0.01;

@@ -20,6 +20,7 @@ struct JackingRules {
   bool every_row = false;  ///< rows come at their rate, none is left out
   bool lock = false;       ///< always, not now and then
   bool visit = false;      ///< a second one, always
+  bool swings = false;     ///< the load goes down and up again, some of it within the swing before
   bool loop = false;       ///< a ramp and a release, and no more
   bool in_turns = false;   ///< one cable after the other, in one round or two
   bool together = false;   ///< the same with all cables at once, by one pump
@@ -35,8 +36,9 @@ struct JackingRules {
   double ripple = 0;           ///< of the pump, part of the force
 
   auto all() const {
-    return std::tie(stages, least_rate, every_row, lock, visit, loop, in_turns, together, any_pace, dead_load,
-                    warming, warming_locked, sized, year_rows, year_sd, relaxation, ram, ram_sd, ripple);
+    return std::tie(stages, least_rate, every_row, lock, visit, swings, loop, in_turns, together, any_pace,
+                    dead_load, warming, warming_locked, sized, year_rows, year_sd, relaxation, ram, ram_sd,
+                    ripple);
   }
 };
 
@@ -85,6 +87,7 @@ class Jacking {
     for (int i = 1; i <= increments; ++i) {
       move(Phase::ramp, double(i) / increments);
       wait(Phase::hold, i == increments ? warming(rules_.warming) : 0);
+      if (rules_.swings) swing(Phase::excursion);
     }
     if (rules_.loop) {
       move(Phase::excursion, random_.between(0.3, 0.6));
@@ -112,7 +115,17 @@ class Jacking {
     if (!unlock()) return;
     move(Phase::visit, std::fmax(random_.between(0.9, 1.1), level() + 0.03));
     wait(Phase::visit, 0);
+    if (rules_.swings) swing(Phase::visit);
     lock(Phase::visit, 0);
+  }
+  /// Down and up again a few times, not always as far as before: turns within turns, and beyond them.
+  void swing(Phase phase) {
+    for (int left = random_.below(4); left > 0; --left) {
+      move(phase, level() * random_.between(0.7, 0.98));
+      wait(phase, 0);
+      move(phase, std::fmin(level() * random_.between(1.01, 1.25), 1.07));
+      wait(phase, 0);
+    }
   }
   /// Round by round every cable is pulled and locked; now and then a jack keeps its load for the others.
   void run_in_rounds() {

@@ -258,6 +258,7 @@ void print_phases(const Outcome& outcome) {
                 cell("%.2f", far.sd_over_rms(), alone.sd_over_rms()).c_str(),
                 cell("%.2f", far.normalized(), alone.normalized()).c_str());
   };
+  print("all rows", outcome.far.all, outcome.alone.all);
   for (int p = 0; p < phases; ++p) {
     const auto i = static_cast<std::size_t>(p);
     print(name_of(static_cast<Phase>(p)), outcome.far.phase[i], outcome.alone.phase[i]);
