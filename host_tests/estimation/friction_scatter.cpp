@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
@@ -75,7 +76,7 @@ TEST_CASE("the variance is that of joints drawn one by one, given what all of th
       for (int i = 0; i <= chain.joints(); ++i) {
         CAPTURE(i);
         const double way = jacked_at_start ? before : whole - before, force = drawn.force(i),
-                     said = scatter.variance(i, chain.sensitivity(force, way));
+                     said = variance_of(scatter, i, chain.sensitivity(force, way));
         // Chance is 0.7 % of the variance, what is not of first order 1 %. All joints together do not stray.
         if (i > 0 && i < chain.joints())
           CHECK(are_close(said, force * force * drawn.variance(i), 0.03));
@@ -100,7 +101,7 @@ TEST_CASE("of two jacks the friction on the way from the nearer one counts") {
       const bool starts = before < whole - before;
       const Strays& drawn = starts ? from_start : from_end;
       const double way = starts ? before : whole - before, force = drawn.force(i);
-      const double said = scatter.variance(i, chain.sensitivity(force, way));
+      const double said = variance_of(scatter, i, chain.sensitivity(force, way));
       if (i == 0 || i == chain.joints())
         CHECK(said == 0);
       else
@@ -117,14 +118,53 @@ TEST_CASE_TEMPLATE("with equal joints the variance is that of a Brownian bridge"
   taut::FrictionScatter<Scalar, ChainCapacity> scatter;
   scatter.clear();
   scatter.find(
-      cable, 0, [](int) { return Scalar(2); }, [](int) { return Scalar(0.5); });
+      cable, 0, Scalar(1), [](int) { return Scalar(2); }, [](int) { return Scalar(0.5); });
   for (int i = 0; i <= n; ++i) {
     CAPTURE(i);
     const int way = i < n - i ? i : n - i;
     const double of_sum = 0.25 * i * (n - i) / n, by_unknown = 2.0 * way;
     // A derivative of the force of -3 by what is summed.
     const auto S = static_cast<Scalar>(-3 * by_unknown);
-    CHECK(are_close(static_cast<double>(scatter.variance(i, [S](int) { return S; })), 9 * of_sum, 1e-6));
+    CHECK(are_close(static_cast<double>(variance_of(scatter, i, [S](int) { return S; })), 9 * of_sum, 1e-6));
+  }
+}
+
+TEST_CASE("what scatters is a part of the friction that there is, as far as that is known") {
+  const ScatteredChain chain = ScatteredChain::random(41);
+  ChainScatter scatter;
+  scatter.clear();
+  chain.find_in(scatter, 0, 0, 0, 0.2);
+  for (int i = 1; i < chain.joints(); ++i) {
+    CHECK(scatter.variance(i, 0) > 0);
+    CHECK(are_close(scatter.variance(i, 0.1), 2.25 * scatter.variance(i, 0), 1e-9));
+    CHECK(are_close(scatter.variance(i, -0.1), 0.25 * scatter.variance(i, 0), 1e-9));
+  }
+}
+
+TEST_CASE("the mean of friction on the ways from an end strays as joints drawn one by one do") {
+  constexpr int n = 9;
+  constexpr double part = 0.2, mu = 0.15;
+  const ChainLayout cable{0, 0, n, {taut::End::anchored, taut::End::jacked}};
+  ChainScatter scatter;
+  scatter.clear();
+  scatter.find(
+      cable, 0, mu, [](int) { return 1.0; }, [](int) { return part * mu; });
+  support::Random random(6);
+  for (int m = 1; m <= n; ++m) {
+    CAPTURE(m);
+    double square = 0;
+    constexpr int draws = 40000;
+    for (int draw = 0; draw < draws; ++draw) {
+      std::array<double, n> s{};
+      double whole = 0;
+      for (double& each : s) whole += each = part * mu * support::gaussian(random);
+      // Given what all hold together; from the end, segment by segment.
+      double way = 0, ways = 0;
+      for (int j = 0; j < m; ++j) ways += way += s[static_cast<std::size_t>(j)] - whole / n;
+      square += std::pow(ways / (m * (m + 1) / 2.0), 2);
+    }
+    // Chance is 0.7 %.
+    CHECK(are_close(scatter.variance_of_mean(n - m, m, part, 0), square / draws, 0.03));
   }
 }
 
@@ -210,14 +250,14 @@ TEST_CASE("a joint that cannot slide is as if it were not there") {
   const auto one = [](int) { return 1.0; };
   for (int i = 0; i <= chain.joints(); ++i) {
     CAPTURE(i);
-    CHECK(are_close(scatter.variance(i, one), expected.variance(i > stuck ? i - 1 : i, one), 1e-9));
+    CHECK(are_close(variance_of(scatter, i, one), variance_of(expected, i > stuck ? i - 1 : i, one), 1e-9));
   }
   // Nor if none can, or none scatters.
   without.scatter = 0;
   for (double& contact_factor : chain.contact_factor) contact_factor = 0;
   for (const ScatteredChain* none : {&chain, &without}) {
     none->find(scatter, 0, 0, 0);
-    for (int i = 0; i <= none->joints(); ++i) CHECK(scatter.variance(i, one) == 0);
+    for (int i = 0; i <= none->joints(); ++i) CHECK(variance_of(scatter, i, one) == 0);
   }
 }
 
@@ -234,10 +274,10 @@ TEST_CASE("every cable has its own joints, segments and unknown; one that shares
   const auto one = [](int) { return 1.0; };
   const auto by_number = [](int p) { return p == 5 ? 2.0 : p == 7 ? 3.0 : 1e9; };
   for (int i = 0; i <= first.joints(); ++i)
-    CHECK(are_close(both.variance(i, by_number), 4 * alone[0].variance(i, one), 1e-9));
-  for (int i = 0; i < 3; ++i) CHECK(both.variance(first.joints() + 1 + i, by_number) == 0);
+    CHECK(are_close(variance_of(both, i, by_number), 4 * variance_of(alone[0], i, one), 1e-9));
+  for (int i = 0; i < 3; ++i) CHECK(variance_of(both, first.joints() + 1 + i, by_number) == 0);
   for (int i = 0; i <= second.joints(); ++i)
-    CHECK(are_close(both.variance(segment + i, by_number), 9 * alone[1].variance(i, one), 1e-9));
+    CHECK(are_close(variance_of(both, segment + i, by_number), 9 * variance_of(alone[1], i, one), 1e-9));
   both.clear();
-  for (int i = 0; i < ChainCapacity::segments; ++i) CHECK(both.variance(i, by_number) == 0);
+  for (int i = 0; i < ChainCapacity::segments; ++i) CHECK(variance_of(both, i, by_number) == 0);
 }

@@ -21,7 +21,9 @@ constexpr double mu = 0.25, likely = 0.3 * mu, jack_sd = 1e-5 * full;
 /// jack to the next every joint either sticks, or slides to the edge of its cone.
 class Chain {
  public:
-  explicit Chain(double friction) : mu_(friction), T_(segments, 0) {}
+  explicit Chain(double friction) : Chain(std::vector<double>(segments - 1, friction)) {}
+  /// Each joint has its own.
+  explicit Chain(const std::vector<double>& friction) : mu_(friction), T_(segments, 0) {}
   double operator[](int segment) const { return T_[static_cast<std::size_t>(segment)]; }
 
   void pull(double force) { T_ = pulled_by(force); }
@@ -40,7 +42,7 @@ class Chain {
     std::vector<double> T = T_;
     T.back() = force;
     for (std::size_t i = segments - 1; i-- > 0;) {
-      const double rho = std::exp(-mu_ * support::chain_turn[i]);
+      const double rho = std::exp(-mu_[i] * support::chain_turn[i]);
       T[i] = std::clamp(T[i], T[i + 1] * rho, T[i + 1] / rho);
     }
     return T;
@@ -53,8 +55,12 @@ class Chain {
     return sum;
   }
 
-  double mu_;
-  std::vector<double> T_;
+  std::vector<double> mu_, T_;
+};
+
+/// What is said of the cable beside its seating.
+struct Said {
+  double mu_sd = likely, jack_sd = ::jack_sd, far_sd = 0, scatter = 0, gain_sd = 0;
 };
 
 /// The estimator of the chain: a jack at its end, and friction that is known to some part.
@@ -63,12 +69,15 @@ class Jacked {
   using Model = taut::Condensed<double, PlaneCapacity>;
   using Estimator = taut::Estimator<Model, 4>;
 
-  Jacked(double seating, double mu_sd, double sd) {
+  Jacked(double seating, const Said& said) {
     auto cable = support::steel_cable(mu);
     cable.law = taut::FrictionLaw::capstan;
-    cable.mu_sd = mu_sd;
+    cable.mu_sd = said.mu_sd;
     cable.shared_mu = true;
-    cable.cell[1].sd = sd;
+    cable.scatter = said.scatter;
+    cable.cell[1].sd = said.jack_sd;
+    cable.cell[1].gain_sd = said.gain_sd;
+    cable.cell[0].sd = said.far_sd;
     cable.seating = seating;
     const auto scene = std::make_unique<Plane>();
     support::rigid_saddles(*scene, cable, support::chain_points(segments));
@@ -82,17 +91,21 @@ class Jacked {
   /// A load stage.
   void stage(double reading) { row(reading, false, 60); }
   void lock() { row(0, true); }
-  taut::ForceEstimate<double> operator[](int segment) const { return estimator_.estimate(segment); }
-
- private:
-  void row(double force, bool locked, double dt = 1) {
+  /// A row with the far end's reading.
+  void row(double force, bool locked, double dt, double far) {
     taut::Readings<double, PlaneCapacity> readings;
     readings.dt = dt;
     readings.sample.jack[0][1].locked = locked;
     readings.ends[0][1].has_force = !locked;
     readings.ends[0][1].force = force;
+    readings.ends[0][0].has_force = far >= 0;
+    readings.ends[0][0].force = far;
     REQUIRE(estimator_.advance(readings).status.ok());
   }
+  taut::ForceEstimate<double> operator[](int segment) const { return estimator_.estimate(segment); }
+
+ private:
+  void row(double force, bool locked, double dt = 1) { row(force, locked, dt, -1); }
 
   Model model_;
   taut::FrictionPrior<double, PlaneCapacity> prior_;
@@ -130,7 +143,7 @@ TEST_CASE(
     for (double seating = 1e-3; seating < 0.02; seating *= 1.15) {
       CAPTURE(overstressed);
       CAPTURE(seating);
-      const auto jacked = std::make_unique<Jacked>(seating, likely, jack_sd);
+      const auto jacked = std::make_unique<Jacked>(seating, Said{});
       auto chains = likely_chains();
       jacked->go(0, full, 60);
       jacked->go(full, full, 20);
@@ -168,7 +181,7 @@ TEST_CASE("what friction holds of turns within turns stays as uncertain as the l
   double square = 0, worst = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     support::Random random(seed);
-    const auto jacked = std::make_unique<Jacked>(0, 1e-6, sd);
+    const auto jacked = std::make_unique<Jacked>(0, Said{1e-6, sd});
     Chain chain(mu);
     for (const double part : stages) {
       chain.pull(part * full);
@@ -188,6 +201,109 @@ TEST_CASE("what friction holds of turns within turns stays as uncertain as the l
   CHECK(square < 1.2 * count);
 }
 
+namespace {
+
+/// How often error bars hold, and how far errors leave them.
+struct Score {
+  int held = 0, count = 0;
+  double square = 0, worst = 0;
+
+  void add(const Jacked& jacked, const Chain& chain) {
+    for (int i = 0; i < segments; ++i) {
+      const double z = std::fabs(jacked[i].force - chain[i]) / jacked[i].deviation;
+      held += z < 1.96 ? 1 : 0;
+      ++count;
+      square += std::min(z * z, 1e4);
+      worst = std::max(worst, z);
+    }
+  }
+  double share() const { return 1.0 * held / count; }
+  double rms() const { return std::sqrt(square / count); }
+};
+
+/// A ramp, a hold, half of the time a release, and lock-off, with a cell at the far end: what it shows of
+/// segments once the wedge is drawn in, after so many rows more, and when the jack has taken hold again.
+struct Locked {
+  Score at_once, later, again;
+};
+template <class Drawn>
+Locked lock_with_far_end(const Said& said, int rows, const Drawn& drawn) {
+  Locked scores;
+  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    support::Random random(seed);
+    const double seating = 1e-3 * std::pow(30, random.between(0, 1));
+    const auto jacked = std::make_unique<Jacked>(seating, said);
+    Chain chain(drawn(random));
+    const double gain = 1 + said.gain_sd * support::gaussian(random);
+    double at = 0;
+    const auto go = [&](double to, int steps) {
+      for (int i = 1; i <= steps; ++i) {
+        const double force = at + (to - at) * i / steps;
+        chain.pull(force);
+        jacked->row(gain * (force + said.jack_sd * support::gaussian(random)), false, 1,
+                    chain[0] + said.far_sd * support::gaussian(random));
+      }
+      at = to;
+    };
+    go(full, 80);
+    go(full, 40);
+    if (random.coin()) {
+      go(random.between(0.8, 0.97) * full, 30);
+      go(at, 40);
+    }
+    chain.lock(seating);
+    const auto stay = [&](int steps) {
+      for (int i = 0; i < steps; ++i)
+        jacked->row(0, true, 1, chain[0] + said.far_sd * support::gaussian(random));
+    };
+    stay(1);
+    scores.at_once.add(*jacked, chain);
+    stay(rows);
+    scores.later.add(*jacked, chain);
+    go(1.002 * chain[segments - 1], 1);
+    go(std::max(at, random.between(0.9, 1.05) * full), 40);
+    go(at, 40);
+    scores.again.add(*jacked, chain);
+  }
+  MESSAGE("seeds from 1: ", 100 * scores.at_once.share(), " % are held once locked, rms ",
+          scores.at_once.rms(), "; later ", 100 * scores.later.share(), " %, rms ", scores.later.rms(),
+          "; again ", 100 * scores.again.share(), " %, rms ", scores.again.rms(), "; worst ",
+          std::max({scores.at_once.worst, scores.later.worst, scores.again.worst}));
+  return scores;
+}
+
+}  // namespace
+
+TEST_CASE("behind a wedge error bars hold what joints have that are not alike, though the far end is known") {
+  constexpr double scatter = 0.2;
+  const auto scores =
+      lock_with_far_end({0.2 * mu, 2e-3 * full, 2e-3 * full, scatter}, 30, [](support::Random& random) {
+        const double common = mu * (1 + 0.2 * support::gaussian(random));
+        std::vector<double> each;
+        for (int j = 0; j + 1 < segments; ++j)
+          each.push_back(common * std::max(0.1, 1 + scatter * support::gaussian(random)));
+        return each;
+      });
+  for (const Score* score : {&scores.at_once, &scores.later, &scores.again}) {
+    CHECK(score->share() > 0.92);
+    CHECK(score->rms() < 1.15);
+  }
+}
+
+TEST_CASE("a far end that is read behind a wedge teaches no more than a straight line in friction holds") {
+  // Friction and the gain of the jack's cell are known together until then.
+  constexpr double uncertain = 0.4;
+  const auto scores =
+      lock_with_far_end({uncertain * mu, 2e-3 * full, 2e-4 * full, 0, 0.05}, 60, [](support::Random& random) {
+        return std::vector<double>(segments - 1,
+                                   mu * std::max(0.1, 1 + uncertain * support::gaussian(random)));
+      });
+  for (const Score* score : {&scores.at_once, &scores.later, &scores.again}) {
+    CHECK(score->share() > 0.92);
+    CHECK(score->rms() < 1.15);
+  }
+}
+
 TEST_CASE("a force since a turn is the lower of sticking and sliding if it fell, and the higher if it rose") {
   taut::TurnedForces<double, PlaneCapacity, 2> turned;
   turned.clear();
@@ -195,7 +311,7 @@ TEST_CASE("a force since a turn is the lower of sticking and sliding if it fell,
   CHECK(turned.leader_of(0) < 0);
   turned.set_move(1, 1, 1);
   // Sticking at 100 it would have 10 less with a standard deviation of friction more, which is 0.1.
-  turned.turn(0, 100, -100, 1);
+  turned.turn(0, 100, -100, 1, 0);
   CHECK(turned.leader_of(0) == 1);
   const auto deviation = [&](double force, double slides, double sd = 0.1) {
     return turned.deviation(0, force, slides, sd);
@@ -215,4 +331,12 @@ TEST_CASE("a force since a turn is the lower of sticking and sliding if it fell,
   turned.find(0, -20);
   CHECK(deviation(70, 30) == doctest::Approx(5));
   CHECK(deviation(70, -80) == doctest::Approx(-8));
+  // Of friction that is off by itself, too, it follows both: a kink two of those deviations away counts.
+  turned.turn(0, 100, -100, 1, 0.03);
+  CHECK(turned.of_friction(0, 0.1) == doctest::Approx(0.2));
+  CHECK(deviation(80, 30) == doctest::Approx(-10));
+  CHECK(deviation(40, 30) == doctest::Approx(6));
+  turned.follow(0, 0.02);
+  turned.follow(0, 0.08);
+  CHECK(turned.of_friction(0, 0.1) == doctest::Approx(0.3));
 }

@@ -19,6 +19,15 @@ struct ChainCapacity {
 };
 using ChainScatter = taut::FrictionScatter<double, ChainCapacity>;
 
+/// Variance of the force of a segment whose derivative by unknown p is sensitivity(p).
+template <class Scatter, class Sensitivity>
+auto variance_of(const Scatter& scatter, int segment, const Sensitivity& sensitivity) {
+  const int p = scatter.parameter(segment);
+  if (p < 0) return 0 * scatter.variance(0, 0);
+  const auto S = sensitivity(p);
+  return S * S * scatter.variance(segment, 0);
+}
+
 /// What FrictionScatter asks of a cable.
 struct ChainLayout {
   int first_segment, first_joint, number;
@@ -57,9 +66,10 @@ struct ScatteredChain {
     into.clear();
     find_in(into, segment, joint, parameter);
   }
-  void find_in(ChainScatter& into, int segment, int joint, int parameter) const {
+  void find_in(ChainScatter& into, int segment, int joint, int parameter, double nominal = 1) const {
     into.find(
-        ChainLayout{segment, joint, joints(), ends}, parameter, [&](int j) { return weight(j - joint); },
+        ChainLayout{segment, joint, joints(), ends}, parameter, nominal,
+        [&](int j) { return weight(j - joint); },
         [&](int j) { return scatter * mu_of(j - joint) * contact_factor_of(j - joint); });
   }
 };

@@ -32,6 +32,7 @@ class FarEnds {
     Gathered<Scalar> gathered;
     std::uint8_t learned = 0;                              ///< readings since something has happened
     FixedArray<CellWatch<Scalar>, 2 * Cap::cables> watch;  ///< over the cells in the order of ends()
+    FixedArray<Scalar, 2 * Cap::cables> bent;  ///< variance that forces there have beside a line [N^2]
   };
 
   /// Finds the ends; after FilterType::start() and Jacks::start().
@@ -45,6 +46,7 @@ class FarEnds {
     can_gather_ = ends_.size() == 1 && jacks.size() == 1;
     state_.gathered = {};
     state_.learned = 0;
+    state_.bent.fill(Scalar(0));
   }
   const State& save() const { return state_; }
   void restore(const State& state) { state_ = state; }
@@ -68,6 +70,12 @@ class FarEnds {
   /// The load of a jack has left the line that it was on.
   void bend() {
     for (int e = 0; e < ends_.size(); ++e) state_.watch[e].noise.bend();
+  }
+  /// From here on the force of a segment differs by this variance [N^2] from a straight line in friction: its
+  /// cell, if it has one, teaches no more than that leaves.
+  void bend(int segment, Scalar variance, const TrackerType& tracker) {
+    for (int e = 0; e < ends_.size(); ++e)
+      if (ends_[e].segment(tracker.model()) == segment) state_.bent[e] = variance;
   }
   CellWatch<Scalar>& watch(int e) { return state_.watch[e]; }
   const CellWatch<Scalar>& watch(int e) const { return state_.watch[e]; }
@@ -182,7 +190,7 @@ class FarEnds {
   /// in common from row to row, c of Eq. (54).
   Scalar variance_that_lasts(int e, const FilterType& filter, const Jacks& jacks) const {
     const Scalar own = state_.watch[e].lasts;
-    Scalar variance = own * own;
+    Scalar variance = own * own + state_.bent[e];
     for (int k = 0; k < jacks.size(); ++k) {
       const Scalar lasting = jacks[k].lasting(jacks.in(filter.prior().cell, k)), doubt = jacks[k].doubt(),
                    by = filter.prediction().by_jack[k];

@@ -68,8 +68,7 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
   if (HasDeviation) {
     const int leader = turned.leader_of(segment);
     Scalar by_friction = 0;
-    const Scalar of_scatter = filter.scatter().variance(segment, sensitivity);
-    Scalar of_unknowns = of_scatter + belief.variance_of([&](int p) {
+    Scalar of_unknowns = belief.variance_of([&](int p) {
       const Scalar S = sensitivity(p);
       T += S * (belief.mean(p) - belief.linearized_at(p));
       if (leader >= 0 && p < belief.friction() && turned.leader(p) == leader)
@@ -80,6 +79,9 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
       const Scalar sd = std::sqrt(larger(belief.variance(leader), Scalar(0))), straight = by_friction * sd,
                    kinked = turned.deviation(segment, T, by_friction, sd);
       of_unknowns += kinked * kinked - straight * straight;
+    } else if (const int common = filter.scatters_about(segment); common >= 0) {
+      const Scalar S = sensitivity(common);
+      of_unknowns += S * S * filter.scatter(segment);
     }
     // Forces are about exponential in mu: the longer side counts.
     const Scalar square = T * T;
@@ -106,7 +108,7 @@ ForceEstimate<typename TrackerType::Scalar> estimate_strut(const TrackerType& tr
   typename FilterType::PredictionType N;
   predict_strut(tracker, rows, strut, belief, jacks, N);
   auto [force, variance] = belief.expect(N, jacks.readings(prior), Scalar(0));
-  for (int p = 0; p < belief.carried(); ++p) variance += N.H[p] * N.H[p] * filter.scatter().most(p);
+  for (int p = 0; p < belief.carried(); ++p) variance += N.H[p] * N.H[p] * filter.most_scatter(p);
   return {force, std::sqrt(larger(variance, Scalar(0)))};
 }
 

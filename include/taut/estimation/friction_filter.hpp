@@ -85,7 +85,9 @@ class FrictionFilter {
         const Real weight = shared && sum > 0 ? prior.mu[j] * static_cast<Real>(free) / sum : Real(1);
         depend(c, j, p, static_cast<Scalar>(weight));
       }
-      if (shared && common >= 0 && prior_->scatter[c] > 0) scatters(c, cable, common);
+      if (shared && common >= 0 && prior_->scatter[c] > 0) {
+        scatters(c, cable, common, static_cast<Scalar>(sum) / static_cast<Scalar>(free));
+      }
     }
     belief_.end_friction();
     instruments_.clear();
@@ -130,7 +132,24 @@ class FrictionFilter {
   }
 
   const BeliefType& belief() const { return belief_; }
-  const FrictionScatter<Scalar, Cap>& scatter() const { return scatter_; }
+  /// What mu that differs from joint to joint adds to the variance of a segment's force, relative to the
+  /// square of its derivative by the unknown of its cable, Eq. (30); zero where no joints share one.
+  Scalar scatter(int segment) const {
+    const int p = scatter_.parameter(segment);
+    return p < 0 ? Scalar(0) : scatter_.variance(segment, belief_.mean(p));
+  }
+  /// The same of the mean of friction from an end of cable `c` to each segment as far as this one, with so
+  /// many joints between, Eq. (56).
+  Scalar mean_scatter(int c, int segment, int joints) const {
+    const int p = scatter_.parameter(segment);
+    return p < 0 || joints == 0
+               ? Scalar(0)
+               : scatter_.variance_of_mean(segment, joints, prior_->scatter[c], belief_.mean(p));
+  }
+  /// The largest of all segments that depend on unknown `p`. Cost: a pass over the segments.
+  Scalar most_scatter(int p) const { return scatter_.most(p, belief_.mean(p)); }
+  /// The unknown that the joints of a segment's cable share if it scatters, or -1.
+  int scatters_about(int segment) const { return scatter_.parameter(segment); }
   const Instruments<Scalar, Cap>& instruments() const { return instruments_; }
   const PriorType& prior() const { return *prior_; }
   /// Where the caller predicts a number before is_informative() and update(). A member, so that what is not
@@ -337,12 +356,12 @@ class FrictionFilter {
     return missing;
   }
   template <class CableLayout>
-  void scatters(int c, const CableLayout& cable, int parameter) {
+  void scatters(int c, const CableLayout& cable, int parameter, Scalar nominal) {
     const auto contact_factor = [&](int j) {
       return unknown_of_[j] < 0 ? Scalar(0) : static_cast<Scalar>(prior_->contact_factor[j]);
     };
     scatter_.find(
-        cable, parameter, [&](int j) { return contact_factor(j) * weight_[j]; },
+        cable, parameter, nominal, [&](int j) { return contact_factor(j) * weight_[j]; },
         [&](int j) { return contact_factor(j) * prior_->scatter[c] * static_cast<Scalar>(prior_->mu[j]); });
   }
   JointFriction<Real> friction_of(const Linear& model, int j, const Values& unknowns) const {

@@ -21,10 +21,11 @@ class FrictionScatter {
  public:
   /// Fills in the segments of a cable whose shared unknown is `parameter`; weight(j) is what mu of joint j
   /// varies by with the unknown, times its contact factor, and deviation(j) the standard deviation of its mu
-  /// about the shared one, times its contact factor. Joints that cannot slide have zero. Cost: four passes
-  /// over the joints.
+  /// about the shared one, times its contact factor, both where the unknown is zero and friction `nominal`.
+  /// Joints that cannot slide have zero. Cost: four passes over the joints.
   template <class CableLayout, class Weight, class Deviation>
-  void find(const CableLayout& cable, int parameter, const Weight& weight, const Deviation& deviation) {
+  void find(const CableLayout& cable, int parameter, Scalar nominal, const Weight& weight,
+            const Deviation& deviation) {
     Scalar all = 0, whole = 0;
     for (int j = 0; j < cable.joints(); ++j) {
       const Scalar d = deviation(cable.first_joint + j);
@@ -43,6 +44,7 @@ class FrictionScatter {
       variance_[cable.first_segment + i] =
           is_between ? larger(A * (all - A) / all, Scalar(0)) / (way * way) : Scalar(0);
       parameter_[cable.first_segment + i] = static_cast<std::int16_t>(parameter);
+      nominal_[cable.first_segment + i] = nominal;
       if (i == cable.joints()) break;
       const Scalar d = deviation(cable.first_joint + i);
       A += d * d;
@@ -50,25 +52,32 @@ class FrictionScatter {
     }
   }
   void clear() { parameter_.fill(-1); }
-  /// Variance of the force of a segment [N^2]; `sensitivity(p)` is its derivative by unknown `p`.
-  template <class Sensitivity>
-  Scalar variance(int segment, const Sensitivity& sensitivity) const {
-    if (parameter_[segment] < 0) return 0;
-    const Scalar S = sensitivity(parameter_[segment]);
-    return S * S * variance_[segment];
+  /// The shared unknown of a segment's cable, or -1.
+  int parameter(int segment) const { return parameter_[segment]; }
+  /// Variance of the force of a segment relative to the square of its derivative by that unknown, whose mean
+  /// this is: what scatters is a part of the friction that there is, Eq. (29).
+  Scalar variance(int segment, Scalar mean) const {
+    const Scalar nominal = nominal_[segment], part = nominal > 0 ? 1 + mean / nominal : Scalar(1);
+    return part * part * variance_[segment];
   }
-  /// The largest variance of all forces that depend on unknown `p`, relative to the square of the derivative.
-  /// Cost: a pass over the segments.
-  Scalar most(int p) const {
+  /// The same of the mean of friction on the ways from an end of the cable to each segment as far as this
+  /// one, with so many joints between, of which mu is off the shared one by this `part`, Eq. (56).
+  Scalar variance_of_mean(int segment, int joints, Scalar part, Scalar mean) const {
+    const Scalar one = part * (nominal_[segment] + mean), m = static_cast<Scalar>(joints);
+    return variance(segment, mean) + one * one * (m - 1) / (3 * m * (m + 1));
+  }
+  /// The largest of all forces that depend on unknown `p`. Cost: a pass over the segments.
+  Scalar most(int p, Scalar mean) const {
     Scalar most = 0;
     for (int i = 0; i < Cap::segments; ++i)
-      if (parameter_[i] == p) most = larger(most, variance_[i]);
+      if (parameter_[i] == p) most = larger(most, variance(i, mean));
     return most;
   }
 
  private:
   FixedArray<std::int16_t, Cap::segments> parameter_;  // the shared unknown, or -1
-  FixedArray<Scalar, Cap::segments> variance_;         // relative to the square of the derivative
+  FixedArray<Scalar, Cap::segments> variance_;  // relative to the square of the derivative, where it is zero
+  FixedArray<Scalar, Cap::segments> nominal_;   // what the unknown is added to
 };
 
 }  // namespace taut

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <type_traits>
 
 #include "taut/estimation/leg.hpp"
 #include "taut/numerics/larger.hpp"
@@ -50,6 +52,16 @@ typename Parts::Scalar best_tension(const Parts& parts, int segment) {
   return T;
 }
 
+/// What the tension of a segment changes by with the move of `leader`, where the tracker is [N].
+template <class Parts>
+typename Parts::Scalar by_move(const Parts& parts, int leader, int segment) {
+  typename Parts::Scalar change = 0;
+  for (int p = 0; p < parts.filter.belief().friction(); ++p)
+    if (parts.turned.leader(p) == leader)
+      change += parts.tracker.sensitivity(p, segment) * parts.turned.move(p);
+  return change;
+}
+
 /// Jack `k` turns here, or takes hold of a cable that was locked. Cost: a derivative a segment and unknown.
 template <class Parts>
 void turn_forces(Parts& parts, int k) {
@@ -62,11 +74,48 @@ void turn_forces(Parts& parts, int k) {
   const Scalar sd = std::sqrt(belief.variance(leader));
   for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i) {
     const Scalar force = best_tension(parts, i);
-    Scalar sticks = 0;
-    for (int p = 0; p < belief.friction(); ++p)
-      if (turned.leader(p) == leader) sticks += parts.tracker.sensitivity(p, i) * turned.move(p);
-    if (turned.leader_of(i) == leader) sticks = turned.deviation(i, force, sticks, sd) / sd;
-    turned.turn(i, force, sticks, leader);
+    Scalar sticks = by_move(parts, leader, i), apart = parts.filter.scatter(i);
+    if (turned.leader_of(i) == leader) {
+      sticks = turned.longest(i, force, sticks, turned.of_friction(i, sd));
+      turned.follow(i, apart);
+      apart = turned.apart(i);
+    }
+    turned.turn(i, force, sticks, leader, apart);
+    parts.far_ends.bend(i, 0, parts.tracker);
+  }
+}
+
+/// The segments of a cable from one end on.
+template <class Cable>
+struct FromEnd {
+  const Cable& cable;
+  std::size_t end;
+  int segment(int i) const { return cable.first_segment + (end == 0 ? i : cable.segments() - 1 - i); }
+};
+
+/// How many joints have slid back from where the wedge of an end was drawn in, with the one that holds if
+/// there is none: the segments from that end up to this one follow the wedge. Cost: a pass over the segments.
+template <class Parts, class Cable>
+int find_front(const Parts& parts, const FromEnd<Cable>& from) {
+  using Scalar = typename Parts::Scalar;
+  const int n = from.cable.segments();
+  int front = 0;
+  const auto has_slid = [&](int i) {
+    const Scalar before = parts.turned.force(from.segment(i));
+    return std::fabs(best_tension(parts, from.segment(i)) - before) > Scalar(1e-4) * before;
+  };
+  while (front + 1 < n && has_slid(front + 1)) ++front;
+  return front == 0 && n > 1 ? 1 : front;
+}
+
+/// Calls visit(segments from the end, front) for every end of cable `c` whose wedge is drawn in in this row.
+template <class Parts, class Visit>
+void for_each_lock(const Parts& parts, int c, const Visit& visit) {
+  for (int k = 0; k < parts.jacks.size(); ++k) {
+    const auto& at = parts.jacks.end(k);
+    if (at.cable() != c || !parts.jacks[k].locks_now) continue;
+    const FromEnd<std::decay_t<decltype(parts.model().cables[c])>> from = {parts.model().cables[c], at.end};
+    visit(from, find_front(parts, from));
   }
 }
 
@@ -82,7 +131,13 @@ void try_other_friction(Parts& parts, int c, const typename Parts::TrackerType::
   const int leader = find_common_friction(parts, c);
   if (leader < 0) return;
   const auto& cable = parts.model().cables[c];
-  const Scalar far = static_cast<Scalar>(turned.far) * std::sqrt(belief.variance(leader));
+  Scalar apart = 0;
+  for_each_lock(parts, c, [&](const auto& end, int front) {
+    const Scalar of_end = parts.filter.mean_scatter(c, end.segment(front), front);
+    for (int i = 0; i <= front; ++i) turned.follow(end.segment(i), of_end);
+    apart = larger(apart, of_end);
+  });
+  const Scalar far = static_cast<Scalar>(turned.far) * std::sqrt(belief.variance(leader) + apart);
   const auto here = belief.save().linearized_at;
   FixedArray<Scalar, Parts::Cap::segments> force;
   for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i)
@@ -96,6 +151,26 @@ void try_other_friction(Parts& parts, int c, const typename Parts::TrackerType::
       turned.find(i, (parts.tracker.tension(i) - force[i]) / x);
   }
   static_cast<void>(go_anew(parts, from, here, nullptr));
+  const Scalar sd = std::sqrt(belief.variance(leader));
+  for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i) {
+    const Scalar slides = by_move(parts, leader, i), straight = slides * sd,
+                 kinked = turned.deviation(i, force[i], slides, sd);
+    parts.far_ends.bend(i, larger(kinked * kinked - straight * straight, Scalar(0)), parts.tracker);
+  }
+  if (!(apart > 0)) return;
+  // Between the end and a segment friction is off by itself, beside what the end has.
+  for_each_lock(parts, c, [&](const auto& end, int front) {
+    const int first = end.segment(0);
+    const Scalar all = turned.of_friction(first, sd), slides = by_move(parts, leader, first),
+                 of_end = turned.farther(slides, turned.found(first));
+    for (int i = 1; i <= front; ++i) {
+      const int segment = end.segment(i);
+      const Scalar part = force[first] > 0 ? force[segment] / force[first] : Scalar(0),
+                   own = by_move(parts, leader, segment) - part * slides,
+                   square = parts.filter.scatter(segment) * own * own / (all * all);
+      turned.find(segment, std::sqrt(part * of_end * part * of_end + square));
+    }
+  });
 }
 
 }  // namespace taut

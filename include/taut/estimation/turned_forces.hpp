@@ -20,6 +20,8 @@ class TurnedForces {
   /// So many standard deviations away friction is still likely.
   static constexpr int far = 2;
 
+  static Scalar farther(Scalar a, Scalar b) { return std::fabs(b) > std::fabs(a) ? b : a; }
+
   void clear() {
     move_.fill(Scalar(0));
     leader_.fill(-1);
@@ -33,40 +35,58 @@ class TurnedForces {
   Scalar move(int p) const { return move_[p]; }
   int leader(int p) const { return leader_[p]; }
   /// The jack turns: a segment has this force [N], with this derivative by the move while its joint sticks.
-  void turn(int segment, Scalar force, Scalar derivative, int leader) {
+  /// Between it and the jack friction is off its move by itself, with the variance `apart`, in moves.
+  void turn(int segment, Scalar force, Scalar derivative, int leader, Scalar apart) {
     force_[segment] = force;
     sticks_[segment] = derivative;
     found_[segment] = 0;
     leader_of_[segment] = static_cast<std::int16_t>(leader);
+    apart_[segment] = apart;
   }
+  /// Its force follows friction that is off by itself with this variance, if that is more.
+  void follow(int segment, Scalar apart) { apart_[segment] = larger(apart_[segment], apart); }
+  Scalar found(int segment) const { return found_[segment]; }
+  Scalar apart(int segment) const { return apart_[segment]; }
+  /// Where it turned [N].
+  Scalar force(int segment) const { return force_[segment]; }
   /// After turn(): the force was found to change by so much with the move, `far` standard deviations away.
   void find(int segment, Scalar derivative) { found_[segment] = farther(found_[segment], derivative); }
 
-  /// What a force [N] changes with a standard deviation of friction, of a segment whose derivative by the
-  /// move is `slides` where the tracker is. As a function of friction the force is the lower of what the
-  /// segment has where its joint sticks and where it slides if it fell since the turn, the higher if it rose:
-  /// `far` standard deviations away, the longer side counts; so does what was found. `sd` is the standard
-  /// deviation of leader_of(segment). Cost: a few operations.
-  Scalar deviation(int segment, Scalar force, Scalar slides, Scalar sd) const {
+  /// The standard deviation of friction, in moves, that a segment follows; `sd` is that of
+  /// leader_of(segment).
+  Scalar of_friction(int segment, Scalar sd) const {
+    return apart_[segment] > 0 ? std::sqrt(sd * sd + apart_[segment]) : sd;
+  }
+  /// What a force [N] changes with the move, of a segment whose derivative by it is `slides` where the
+  /// tracker is. As a function of friction the force is the lower of what the segment has where its joint
+  /// sticks and where it slides if it fell since the turn, the higher if it rose: `far` times of_friction()
+  /// away, `sd`, the longer side counts; so does what was found. Cost: a few operations.
+  Scalar longest(int segment, Scalar force, Scalar slides, Scalar sd) const {
     const Scalar changed = force - force_[segment], way = changed < 0 ? Scalar(-1) : Scalar(1);
-    Scalar longest = farther(slides, found_[segment]) * sd;
-    for (const Scalar x : {Scalar(-far), Scalar(far)}) {
-      const Scalar further = way * larger(way * x * slides * sd, way * (x * sticks_[segment] * sd - changed));
+    Scalar longest = farther(slides, found_[segment]);
+    for (const Scalar x : {-far * sd, far * sd}) {
+      if (x == 0) continue;
+      const Scalar further = way * larger(way * x * slides, way * (x * sticks_[segment] - changed));
       longest = farther(longest, further / x);
     }
     return longest;
+  }
+  /// The standard deviation of a force by friction, with what scatters [N]; `sd` is that of
+  /// leader_of(segment). Cost: that of longest().
+  Scalar deviation(int segment, Scalar force, Scalar slides, Scalar sd) const {
+    const Scalar all = of_friction(segment, sd);
+    return longest(segment, force, slides, all) * all;
   }
   /// The unknown that stands for the friction of a segment's cable, or -1: its jack has not turned.
   int leader_of(int segment) const { return leader_of_[segment]; }
 
  private:
-  static Scalar farther(Scalar a, Scalar b) { return std::fabs(b) > std::fabs(a) ? b : a; }
-
   Values move_;                                        // of unknowns
   FixedArray<std::int16_t, Parameters> leader_;        // that they move with, or -1
   FixedArray<Scalar, Cap::segments> force_;            // at the turn [N]
   FixedArray<Scalar, Cap::segments> sticks_;           // its derivative there
   FixedArray<Scalar, Cap::segments> found_;            // the one that was found since
+  FixedArray<Scalar, Cap::segments> apart_;            // variance of friction that is off the move
   FixedArray<std::int16_t, Cap::segments> leader_of_;  // or -1: it has not turned
 };
 
