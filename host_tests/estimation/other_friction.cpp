@@ -60,7 +60,7 @@ class Chain {
 
 /// What is said of the cable beside its seating.
 struct Said {
-  double mu_sd = likely, jack_sd = ::jack_sd, far_sd = 0, scatter = 0, gain_sd = 0;
+  double mu_sd = likely, jack_sd = ::jack_sd, far_sd = 0, scatter = 0, gain_sd = 0, seating_sd = 0;
 };
 
 /// The estimator of the chain: a jack at its end, and friction that is known to some part.
@@ -79,6 +79,7 @@ class Jacked {
     cable.cell[1].gain_sd = said.gain_sd;
     cable.cell[0].sd = said.far_sd;
     cable.seating = seating;
+    cable.seating_sd = said.seating_sd;
     const auto scene = std::make_unique<Plane>();
     support::rigid_saddles(*scene, cable, support::chain_points(segments));
     taut::find_friction_prior(*scene, prior_);
@@ -170,6 +171,42 @@ TEST_CASE(
     }
   // They are no wider than friction makes them.
   CHECK(longest < 0.2);
+}
+
+TEST_CASE("behind a wedge that may be drawn in by half as much more, or less, error bars hold both") {
+  double said = 0, needed = 0;
+  for (const bool overstressed : {false, true})
+    for (double seating = 1e-3; seating < 0.02; seating *= 1.15) {
+      CAPTURE(overstressed);
+      CAPTURE(seating);
+      const double sd = seating / 2;
+      const auto jacked = std::make_unique<Jacked>(seating, Said{1e-6, jack_sd, 0, 0, 0, sd});
+      std::vector<Chain> chains;
+      std::vector<double> drawn;
+      for (double x = -2; x <= 2.001; x += 0.25) {
+        chains.emplace_back(mu);
+        drawn.push_back(std::max(seating + x * sd, 1e-9));
+      }
+      jacked->go(0, full, 60);
+      jacked->go(full, full, 20);
+      each(chains, [](Chain& chain) { chain.pull(full); });
+      if (overstressed) {
+        jacked->go(full, 0.92 * full, 8);
+        jacked->go(0.92 * full, 0.92 * full, 20);
+        each(chains, [](Chain& chain) { chain.pull(0.92 * full); });
+      }
+      jacked->lock();
+      for (std::size_t k = 0; k < chains.size(); ++k) chains[k].lock(drawn[k]);
+      CHECK(farthest(*jacked, chains) < 2.6);
+      for (int i = 0; i < segments; ++i) {
+        double most = 0;
+        for (const Chain& chain : chains) most = std::max(most, std::fabs((*jacked)[i].force - chain[i]));
+        said += (*jacked)[i].deviation;
+        needed += most / 2;
+      }
+    }
+  // As a whole they are as wide as the draw-in makes them, and 1.23 times: the longer side counts.
+  CHECK(said < 1.3 * needed);
 }
 
 TEST_CASE("what friction holds of turns within turns stays as uncertain as the loads were there") {

@@ -74,6 +74,8 @@ template <class Parts>
   if (!progress.status || progress.fraction < 1) return false;
   for (int c = 0; corners.locks && c < parts.model().cables.size(); ++c)
     if (parts.locks_now(c)) try_other_friction(parts, c, parts.confirmed.tracker);
+  for (int k = 0; corners.locks && k < jacks.size(); ++k)
+    if (jacks[k].locks_now) try_other_seating(parts, k);
   if (corners.locks && remember_seating(parts))
     progress = join(progress, tracker.advance(jacks.target(sample), event_budget));
   if (progress.status && corners.locks) progress.status = remember_drift(parts);

@@ -83,6 +83,11 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
       const Scalar S = sensitivity(common);
       of_unknowns += S * S * filter.scatter(segment);
     }
+    if (const int p = turned.drawn_by(segment); p >= 0) {
+      const Scalar sd = std::sqrt(larger(belief.variance(p), Scalar(0))), straight = sensitivity(p) * sd,
+                   kinked = turned.drawn_deviation(segment, T, sd);
+      of_unknowns += larger(kinked * kinked - straight * straight, Scalar(0));
+    }
     // Forces are about exponential in mu: the longer side counts.
     const Scalar square = T * T;
     variance +=

@@ -26,6 +26,7 @@ class TurnedForces {
     move_.fill(Scalar(0));
     leader_.fill(-1);
     leader_of_.fill(-1);
+    drawn_by_.fill(-1);
   }
   /// Unknown `p` moves by so much where `leader`, one unknown of its cable that stands for all, does by one.
   void set_move(int p, Scalar move, int leader) {
@@ -77,6 +78,21 @@ class TurnedForces {
     const Scalar all = of_friction(segment, sd);
     return longest(segment, force, slides, all) * all;
   }
+  /// A wedge was drawn in, by unknown `p` more than was said, and left this force [N], which changes with the
+  /// draw-in by at most so much where it was tried farther away [N/m].
+  void draw(int segment, Scalar force, Scalar derivative, int p) {
+    drawn_force_[segment] = force;
+    drawn_[segment] = derivative;
+    drawn_by_[segment] = static_cast<std::int16_t>(p);
+  }
+  /// That unknown, or -1.
+  int drawn_by(int segment) const { return drawn_by_[segment]; }
+  /// The standard deviation of a force by it, known to `sd` [m]: nothing where the segment has gone on since
+  /// by as much as `far` of them. Cost: a few operations.
+  Scalar drawn_deviation(int segment, Scalar force, Scalar sd) const {
+    const Scalar gone = std::fabs(force - drawn_force_[segment]) / far;
+    return larger(std::fabs(drawn_[segment]) * sd - gone, Scalar(0));
+  }
   /// The unknown that stands for the friction of a segment's cable, or -1: its jack has not turned.
   int leader_of(int segment) const { return leader_of_[segment]; }
 
@@ -86,6 +102,9 @@ class TurnedForces {
   FixedArray<Scalar, Cap::segments> force_;            // at the turn [N]
   FixedArray<Scalar, Cap::segments> sticks_;           // its derivative there
   FixedArray<Scalar, Cap::segments> found_;            // the one that was found since
+  FixedArray<Scalar, Cap::segments> drawn_force_;      // once a wedge was drawn in [N]
+  FixedArray<Scalar, Cap::segments> drawn_;            // its derivative by the draw-in, the longest [N/m]
+  FixedArray<std::int16_t, Cap::segments> drawn_by_;   // the unknown of that, or -1
   FixedArray<Scalar, Cap::segments> apart_;            // variance of friction that is off the move
   FixedArray<std::int16_t, Cap::segments> leader_of_;  // or -1: it has not turned
 };

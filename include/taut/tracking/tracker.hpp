@@ -170,6 +170,16 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     cables_.derivatives.draw_in(p, 2 * cable + static_cast<int>(end));
     drop_map();
   }
+  /// The wedge of an end that is locked is drawn in by so much more, `by` > 0 [m], under loads that stay.
+  /// Fails as advance() does. Cost: that of advance().
+  Progress<Scalar> draw_in_more(int cable, std::size_t end, Scalar by) {
+    freeze_here();
+    cables_.state.goal = cables_.state.now;
+    cables_.state.goal.jack[cable][end].extension -= static_cast<Real>(by);
+    cables_.drop_set();
+    samples_.forget(cables_);
+    return follow(default_budget);
+  }
   /// From here on unknown `p` is the strain [-] that a cable takes on by itself, whose end is locked now:
   /// by warming, or as it relaxes, Eq. (38). Nobody knows which way, so none of its joints slides until
   /// adjust() puts it on the edge. `length` are those of all segments [m]. Fails with `mechanism`; then only
