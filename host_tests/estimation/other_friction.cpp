@@ -134,6 +134,19 @@ void each(std::vector<Chain>& chains, const Deed& deed) {
   for (Chain& chain : chains) deed(chain);
 }
 
+/// As far as all pull alike, and the estimator to lock-off.
+void pull_and_lock(Jacked& jacked, std::vector<Chain>& chains, bool overstressed) {
+  jacked.go(0, full, 60);
+  jacked.go(full, full, 20);
+  each(chains, [](Chain& chain) { chain.pull(full); });
+  if (overstressed) {
+    jacked.go(full, 0.92 * full, 8);
+    jacked.go(0.92 * full, 0.92 * full, 20);
+    each(chains, [](Chain& chain) { chain.pull(0.92 * full); });
+  }
+  jacked.lock();
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -146,15 +159,7 @@ TEST_CASE(
       CAPTURE(seating);
       const auto jacked = std::make_unique<Jacked>(seating, Said{});
       auto chains = likely_chains();
-      jacked->go(0, full, 60);
-      jacked->go(full, full, 20);
-      each(chains, [](Chain& chain) { chain.pull(full); });
-      if (overstressed) {
-        jacked->go(full, 0.92 * full, 8);
-        jacked->go(0.92 * full, 0.92 * full, 20);
-        each(chains, [](Chain& chain) { chain.pull(0.92 * full); });
-      }
-      jacked->lock();
+      pull_and_lock(*jacked, chains, overstressed);
       each(chains, [&](Chain& chain) { chain.lock(seating); });
       // Where the jack came back before, the place where it locks is known to first order.
       CHECK(farthest(*jacked, chains) < (overstressed ? 5 : 2.2));
@@ -187,15 +192,7 @@ TEST_CASE("behind a wedge that may be drawn in by half as much more, or less, er
         chains.emplace_back(mu);
         drawn.push_back(std::max(seating + x * sd, 1e-9));
       }
-      jacked->go(0, full, 60);
-      jacked->go(full, full, 20);
-      each(chains, [](Chain& chain) { chain.pull(full); });
-      if (overstressed) {
-        jacked->go(full, 0.92 * full, 8);
-        jacked->go(0.92 * full, 0.92 * full, 20);
-        each(chains, [](Chain& chain) { chain.pull(0.92 * full); });
-      }
-      jacked->lock();
+      pull_and_lock(*jacked, chains, overstressed);
       for (std::size_t k = 0; k < chains.size(); ++k) chains[k].lock(drawn[k]);
       CHECK(farthest(*jacked, chains) < 2.6);
       for (int i = 0; i < segments; ++i) {

@@ -8,6 +8,7 @@
 #include "taut/estimation/load_memory.hpp"
 #include "taut/estimation/look_ahead.hpp"
 #include "taut/estimation/other_friction.hpp"
+#include "taut/estimation/other_seating.hpp"
 #include "taut/estimation/witness.hpp"
 
 namespace taut {
