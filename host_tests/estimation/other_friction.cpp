@@ -134,6 +134,24 @@ void each(std::vector<Chain>& chains, const Deed& deed) {
   for (Chain& chain : chains) deed(chain);
 }
 
+/// How often error bars hold, and how far errors leave them.
+struct Score {
+  int held = 0, count = 0;
+  double square = 0, worst = 0;
+
+  void add(const Jacked& jacked, const Chain& chain) {
+    for (int i = 0; i < segments; ++i) {
+      const double z = std::fabs(jacked[i].force - chain[i]) / jacked[i].deviation;
+      held += z < 1.96 ? 1 : 0;
+      ++count;
+      square += std::min(z * z, 1e4);
+      worst = std::max(worst, z);
+    }
+  }
+  double share() const { return 1.0 * held / count; }
+  double rms() const { return std::sqrt(square / count); }
+};
+
 /// As far as all pull alike, and the estimator to lock-off.
 void pull_and_lock(Jacked& jacked, std::vector<Chain>& chains, bool overstressed) {
   jacked.go(0, full, 60);
@@ -211,8 +229,7 @@ TEST_CASE("what friction holds of turns within turns stays as uncertain as the l
   // Each turn lies within the one before, and some last for one row.
   const std::vector<double> stages = {0.3,  0.6,  0.9, 1,    1,    0.96, 0.9,  0.84, 0.84, 0.88, 0.93,
                                       0.95, 0.93, 0.9, 0.87, 0.86, 0.86, 0.88, 0.91, 0.92, 0.91, 0.9};
-  int held = 0, count = 0;
-  double square = 0, worst = 0;
+  Score score;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     support::Random random(seed);
     const auto jacked = std::make_unique<Jacked>(0, Said{1e-6, sd});
@@ -220,40 +237,15 @@ TEST_CASE("what friction holds of turns within turns stays as uncertain as the l
     for (const double part : stages) {
       chain.pull(part * full);
       jacked->stage(part * full + sd * support::gaussian(random));
-      for (int i = 0; i < segments; ++i) {
-        const double z = std::fabs((*jacked)[i].force - chain[i]) / (*jacked)[i].deviation;
-        held += z < 1.96 ? 1 : 0;
-        ++count;
-        square += std::min(z * z, 1e4);
-        worst = std::max(worst, z);
-      }
+      score.add(*jacked, chain);
     }
   }
-  MESSAGE("seeds from 1: ", 100.0 * held / count, " % are held, rms ", std::sqrt(square / count), ", worst ",
-          worst);
-  CHECK(held > 0.93 * count);
-  CHECK(square < 1.2 * count);
+  MESSAGE("seeds from 1: ", 100 * score.share(), " % are held, rms ", score.rms(), ", worst ", score.worst);
+  CHECK(score.held > 0.93 * score.count);
+  CHECK(score.square < 1.2 * score.count);
 }
 
 namespace {
-
-/// How often error bars hold, and how far errors leave them.
-struct Score {
-  int held = 0, count = 0;
-  double square = 0, worst = 0;
-
-  void add(const Jacked& jacked, const Chain& chain) {
-    for (int i = 0; i < segments; ++i) {
-      const double z = std::fabs(jacked[i].force - chain[i]) / jacked[i].deviation;
-      held += z < 1.96 ? 1 : 0;
-      ++count;
-      square += std::min(z * z, 1e4);
-      worst = std::max(worst, z);
-    }
-  }
-  double share() const { return 1.0 * held / count; }
-  double rms() const { return std::sqrt(square / count); }
-};
 
 /// A ramp, a hold, half of the time a release, and lock-off, with a cell at the far end: what it shows of
 /// segments once the wedge is drawn in, after so many rows more, and when the jack has taken hold again.

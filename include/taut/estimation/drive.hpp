@@ -83,6 +83,19 @@ Progress<typename TrackerType::Scalar> drive_straight(TrackerType& tracker, cons
   return progress;
 }
 
+/// Notes where a path to `to` has ended. Returns whether that is there. Cost: a few operations a jack.
+template <class TrackerType, class Jacks, class SampleType>
+bool arrive(const TrackerType& tracker, Jacks& jacks, const SampleType& to,
+            const Progress<typename TrackerType::Scalar>& progress) {
+  const int patterns = load_patterns(tracker.model());
+  const bool is_there = progress.status.ok() && !(progress.fraction < 1);
+  if (is_there)
+    jacks.arrive(to, patterns);
+  else
+    jacks.arrive(tracker.loads(), patterns);
+  return is_there;
+}
+
 /// Where the path to `to` has ended without an answer: a jack may pull more than it is taken to, and a
 /// structure that leans on its cable may have an answer then. Drives the tracker on from there with every
 /// unlocked jack one, two and three standard deviations above its best estimate, until there is one; `to` is
@@ -166,12 +179,7 @@ template <class TrackerType, class Jacks, class SampleType, class Remember, clas
   SampleType to = target;
   if (progress.status) progress = join(progress, drive_straight(tracker, jacks, to, event_budget, mu_sd));
   if (!progress.status) progress = pull_more(tracker, jacks, to, event_budget, mu_sd, progress);
-  if (progress.status.code == Code::not_started) return progress;
-  const int patterns = load_patterns(tracker.model());
-  if (!progress.status || progress.fraction < 1)
-    jacks.arrive(tracker.loads(), patterns);
-  else
-    jacks.arrive(to, patterns);
+  if (progress.status.code != Code::not_started) arrive(tracker, jacks, to, progress);
   return progress;
 }
 

@@ -71,11 +71,12 @@ class FarEnds {
   void bend() {
     for (int e = 0; e < ends_.size(); ++e) state_.watch[e].noise.bend();
   }
-  /// From here on the force of a segment differs by this variance [N^2] from a straight line in friction: its
-  /// cell, if it has one, teaches no more than that leaves.
-  void bend(int segment, Scalar variance, const TrackerType& tracker) {
+  /// From here on forces at the ends of a cable differ by variance(segment) [N^2] from a straight line in
+  /// friction: their cells teach no more than that leaves.
+  template <class ModelType, class Variance>
+  void set_bent(const ModelType& model, int cable, const Variance& variance) {
     for (int e = 0; e < ends_.size(); ++e)
-      if (ends_[e].segment(tracker.model()) == segment) state_.bent[e] = variance;
+      if (ends_[e].cable() == cable) state_.bent[e] = variance(ends_[e].segment(model));
   }
   CellWatch<Scalar>& watch(int e) { return state_.watch[e]; }
   const CellWatch<Scalar>& watch(int e) const { return state_.watch[e]; }
@@ -187,7 +188,7 @@ class FarEnds {
 
  private:
   /// After predict_at(): the variance of what readings of cell `e`, and of the jacks at the same time, have
-  /// in common from row to row, c of Eq. (54).
+  /// in common from row to row, c of Eq. (54), and what its force is off a straight line by.
   Scalar variance_that_lasts(int e, const FilterType& filter, const Jacks& jacks) const {
     const Scalar own = state_.watch[e].lasts;
     Scalar variance = own * own + state_.bent[e];

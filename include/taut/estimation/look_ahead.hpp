@@ -67,12 +67,7 @@ bool go_straight(Parts& parts, typename Parts::SampleType to) {
   const auto progress =
       drive_straight(parts.tracker, parts.jacks, to, Parts::TrackerType::default_budget,
                      [&](int c) { return parts.filter.relative_deviation(parts.tracker, c); });
-  const bool is_there = progress.status.ok() && !(progress.fraction < 1);
-  if (is_there)
-    parts.jacks.arrive(to, parts.patterns());
-  else
-    parts.jacks.arrive(parts.tracker.loads(), parts.patterns());
-  return is_there;
+  return arrive(parts.tracker, parts.jacks, to, progress);
 }
 
 /// Goes back, and on to where the loads of this row are confirmed to have come: while it was ahead they may

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <type_traits>
 
 #include "taut/estimation/leg.hpp"
 #include "taut/numerics/larger.hpp"
@@ -77,27 +76,25 @@ void turn_forces(Parts& parts, int k) {
     Scalar sticks = by_move(parts, leader, i), apart = parts.filter.scatter(i);
     if (turned.leader_of(i) == leader) {
       sticks = turned.longest(i, force, sticks, turned.of_friction(i, sd));
-      turned.follow(i, apart);
-      apart = turned.apart(i);
+      apart = larger(apart, turned.apart(i));
     }
     turned.turn(i, force, sticks, leader, apart);
-    parts.far_ends.bend(i, 0, parts.tracker);
   }
+  parts.far_ends.set_bent(parts.model(), c, [](int) { return Scalar(0); });
 }
 
 /// The segments of a cable from one end on.
-template <class Cable>
+template <class Scalar>
 struct FromEnd {
-  const Cable& cable;
+  const CableLayout<Scalar>& cable;
   std::size_t end;
   int segment(int i) const { return cable.first_segment + (end == 0 ? i : cable.segments() - 1 - i); }
 };
 
 /// How many joints have slid back from where the wedge of an end was drawn in, with the one that holds if
 /// there is none: the segments from that end up to this one follow the wedge. Cost: a pass over the segments.
-template <class Parts, class Cable>
-int find_front(const Parts& parts, const FromEnd<Cable>& from) {
-  using Scalar = typename Parts::Scalar;
+template <class Parts, class Scalar>
+int find_front(const Parts& parts, const FromEnd<Scalar>& from) {
   const int n = from.cable.segments();
   int front = 0;
   const auto has_slid = [&](int i) {
@@ -114,7 +111,7 @@ void for_each_lock(const Parts& parts, int c, const Visit& visit) {
   for (int k = 0; k < parts.jacks.size(); ++k) {
     const auto& at = parts.jacks.end(k);
     if (at.cable() != c || !parts.jacks[k].locks_now) continue;
-    const FromEnd<std::decay_t<decltype(parts.model().cables[c])>> from = {parts.model().cables[c], at.end};
+    const FromEnd<typename Parts::Scalar> from = {parts.model().cables[c], at.end};
     visit(from, find_front(parts, from));
   }
 }
@@ -152,11 +149,11 @@ void try_other_friction(Parts& parts, int c, const typename Parts::TrackerType::
   }
   static_cast<void>(go_anew(parts, from, here, nullptr));
   const Scalar sd = std::sqrt(belief.variance(leader));
-  for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i) {
+  parts.far_ends.set_bent(parts.model(), c, [&](int i) {
     const Scalar slides = by_move(parts, leader, i), straight = slides * sd,
                  kinked = turned.deviation(i, force[i], slides, sd);
-    parts.far_ends.bend(i, larger(kinked * kinked - straight * straight, Scalar(0)), parts.tracker);
-  }
+    return larger(kinked * kinked - straight * straight, Scalar(0));
+  });
   if (!(apart > 0)) return;
   // Between the end and a segment friction is off by itself, beside what the end has.
   for_each_lock(parts, c, [&](const auto& end, int front) {
