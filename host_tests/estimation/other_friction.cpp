@@ -7,111 +7,12 @@
 #include <memory>
 #include <vector>
 
-#include "estimation/ramp.hpp"
+#include "estimation/jacked_chain.hpp"
 #include "taut/estimation/turned_forces.hpp"
 
 using namespace estimation;
 
 namespace {
-
-constexpr int segments = 8;
-constexpr double mu = 0.25, likely = 0.3 * mu, jack_sd = 1e-5 * full;
-
-/// The forces of the chain, from the anchored end to the jack, with capstan friction: from each step of the
-/// jack to the next every joint either sticks, or slides to the edge of its cone.
-class Chain {
- public:
-  explicit Chain(double friction) : Chain(std::vector<double>(segments - 1, friction)) {}
-  /// Each joint has its own.
-  explicit Chain(const std::vector<double>& friction) : mu_(friction), T_(segments, 0) {}
-  double operator[](int segment) const { return T_[static_cast<std::size_t>(segment)]; }
-
-  void pull(double force) { T_ = pulled_by(force); }
-  /// The wedge is drawn in by so much [m].
-  void lock(double seating) {
-    double least = 0, most = T_.back();
-    for (int i = 0; i < 200; ++i) {
-      const double force = (least + most) / 2;
-      (shortened_by(pulled_by(force)) < seating ? most : least) = force;
-    }
-    T_ = pulled_by(most);
-  }
-
- private:
-  std::vector<double> pulled_by(double force) const {
-    std::vector<double> T = T_;
-    T.back() = force;
-    for (std::size_t i = segments - 1; i-- > 0;) {
-      const double rho = std::exp(-mu_[i] * support::chain_turn[i]);
-      T[i] = std::clamp(T[i], T[i + 1] * rho, T[i + 1] / rho);
-    }
-    return T;
-  }
-  double shortened_by(const std::vector<double>& T) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < segments; ++i)
-      sum +=
-          (T_[i] - T[i]) * support::chain_length(static_cast<int>(i)) / (support::cable_E * support::cable_A);
-    return sum;
-  }
-
-  std::vector<double> mu_, T_;
-};
-
-/// What is said of the cable beside its seating.
-struct Said {
-  double mu_sd = likely, jack_sd = ::jack_sd, far_sd = 0, scatter = 0, gain_sd = 0, seating_sd = 0;
-};
-
-/// The estimator of the chain: a jack at its end, and friction that is known to some part.
-class Jacked {
- public:
-  using Model = taut::Condensed<double, PlaneCapacity>;
-  using Estimator = taut::Estimator<Model, 4>;
-
-  Jacked(double seating, const Said& said) {
-    auto cable = support::steel_cable(mu);
-    cable.law = taut::FrictionLaw::capstan;
-    cable.mu_sd = said.mu_sd;
-    cable.shared_mu = true;
-    cable.scatter = said.scatter;
-    cable.cell[1].sd = said.jack_sd;
-    cable.cell[1].gain_sd = said.gain_sd;
-    cable.cell[0].sd = said.far_sd;
-    cable.seating = seating;
-    cable.seating_sd = said.seating_sd;
-    const auto scene = std::make_unique<Plane>();
-    support::rigid_saddles(*scene, cable, support::chain_points(segments));
-    taut::find_friction_prior(*scene, prior_);
-    REQUIRE(support::condense(*scene, model_).ok());
-    REQUIRE(estimator_.start(model_, prior_).status.ok());
-  }
-  void go(double from, double to, int rows) {
-    for (int i = 1; i <= rows; ++i) row(from + (to - from) * i / rows, false);
-  }
-  /// A load stage.
-  void stage(double reading) { row(reading, false, 60); }
-  void lock() { row(0, true); }
-  /// A row with the far end's reading.
-  void row(double force, bool locked, double dt, double far) {
-    taut::Readings<double, PlaneCapacity> readings;
-    readings.dt = dt;
-    readings.sample.jack[0][1].locked = locked;
-    readings.ends[0][1].has_force = !locked;
-    readings.ends[0][1].force = force;
-    readings.ends[0][0].has_force = far >= 0;
-    readings.ends[0][0].force = far;
-    REQUIRE(estimator_.advance(readings).status.ok());
-  }
-  taut::ForceEstimate<double> operator[](int segment) const { return estimator_.estimate(segment); }
-
- private:
-  void row(double force, bool locked, double dt = 1) { row(force, locked, dt, -1); }
-
-  Model model_;
-  taut::FrictionPrior<double, PlaneCapacity> prior_;
-  Estimator estimator_;
-};
 
 /// Of all frictions within two standard deviations: how far their forces leave the error bars of the same
 /// width at most, in standard deviations, beyond what the jack's readings leave open.
@@ -133,24 +34,6 @@ template <class Deed>
 void each(std::vector<Chain>& chains, const Deed& deed) {
   for (Chain& chain : chains) deed(chain);
 }
-
-/// How often error bars hold, and how far errors leave them.
-struct Score {
-  int held = 0, count = 0;
-  double square = 0, worst = 0;
-
-  void add(const Jacked& jacked, const Chain& chain) {
-    for (int i = 0; i < segments; ++i) {
-      const double z = std::fabs(jacked[i].force - chain[i]) / jacked[i].deviation;
-      held += z < 1.96 ? 1 : 0;
-      ++count;
-      square += std::min(z * z, 1e4);
-      worst = std::max(worst, z);
-    }
-  }
-  double share() const { return 1.0 * held / count; }
-  double rms() const { return std::sqrt(square / count); }
-};
 
 /// As far as all pull alike, and the estimator to lock-off.
 void pull_and_lock(Jacked& jacked, std::vector<Chain>& chains, bool overstressed) {
@@ -203,7 +86,7 @@ TEST_CASE("behind a wedge that may be drawn in by half as much more, or less, er
       CAPTURE(overstressed);
       CAPTURE(seating);
       const double sd = seating / 2;
-      const auto jacked = std::make_unique<Jacked>(seating, Said{1e-6, jack_sd, 0, 0, 0, sd});
+      const auto jacked = std::make_unique<Jacked>(seating, Said{1e-6, jack_sd, 0, 0, 0, 0.5});
       std::vector<Chain> chains;
       std::vector<double> drawn;
       for (double x = -2; x <= 2.001; x += 0.25) {
@@ -245,65 +128,10 @@ TEST_CASE("what friction holds of turns within turns stays as uncertain as the l
   CHECK(score.square < 1.2 * score.count);
 }
 
-namespace {
-
-/// A ramp, a hold, half of the time a release, and lock-off, with a cell at the far end: what it shows of
-/// segments once the wedge is drawn in, after so many rows more, and when the jack has taken hold again.
-struct Locked {
-  Score at_once, later, again;
-};
-template <class Drawn>
-Locked lock_with_far_end(const Said& said, int rows, const Drawn& drawn) {
-  Locked scores;
-  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
-    support::Random random(seed);
-    const double seating = 1e-3 * std::pow(30, random.between(0, 1));
-    const auto jacked = std::make_unique<Jacked>(seating, said);
-    Chain chain(drawn(random));
-    const double gain = 1 + said.gain_sd * support::gaussian(random);
-    double at = 0;
-    const auto go = [&](double to, int steps) {
-      for (int i = 1; i <= steps; ++i) {
-        const double force = at + (to - at) * i / steps;
-        chain.pull(force);
-        jacked->row(gain * (force + said.jack_sd * support::gaussian(random)), false, 1,
-                    chain[0] + said.far_sd * support::gaussian(random));
-      }
-      at = to;
-    };
-    go(full, 80);
-    go(full, 40);
-    if (random.coin()) {
-      go(random.between(0.8, 0.97) * full, 30);
-      go(at, 40);
-    }
-    chain.lock(seating);
-    const auto stay = [&](int steps) {
-      for (int i = 0; i < steps; ++i)
-        jacked->row(0, true, 1, chain[0] + said.far_sd * support::gaussian(random));
-    };
-    stay(1);
-    scores.at_once.add(*jacked, chain);
-    stay(rows);
-    scores.later.add(*jacked, chain);
-    go(1.002 * chain[segments - 1], 1);
-    go(std::max(at, random.between(0.9, 1.05) * full), 40);
-    go(at, 40);
-    scores.again.add(*jacked, chain);
-  }
-  MESSAGE("seeds from 1: ", 100 * scores.at_once.share(), " % are held once locked, rms ",
-          scores.at_once.rms(), "; later ", 100 * scores.later.share(), " %, rms ", scores.later.rms(),
-          "; again ", 100 * scores.again.share(), " %, rms ", scores.again.rms(), "; worst ",
-          std::max({scores.at_once.worst, scores.later.worst, scores.again.worst}));
-  return scores;
-}
-
-}  // namespace
-
 TEST_CASE("behind a wedge error bars hold what joints have that are not alike, though the far end is known") {
   constexpr double scatter = 0.2;
   const auto scores =
-      lock_with_far_end({0.2 * mu, 2e-3 * full, 2e-3 * full, scatter}, 30, [](support::Random& random) {
+      lock_off({0.2 * mu, 2e-3 * full, 2e-3 * full, scatter}, 30, [](support::Random& random) {
         const double common = mu * (1 + 0.2 * support::gaussian(random));
         std::vector<double> each;
         for (int j = 0; j + 1 < segments; ++j)
@@ -320,7 +148,7 @@ TEST_CASE("a far end that is read behind a wedge teaches no more than a straight
   // Friction and the gain of the jack's cell are known together until then.
   constexpr double uncertain = 0.4;
   const auto scores =
-      lock_with_far_end({uncertain * mu, 2e-3 * full, 2e-4 * full, 0, 0.05}, 60, [](support::Random& random) {
+      lock_off({uncertain * mu, 2e-3 * full, 2e-4 * full, 0, 0.05}, 60, [](support::Random& random) {
         return std::vector<double>(segments - 1,
                                    mu * std::max(0.1, 1 + uncertain * support::gaussian(random)));
       });

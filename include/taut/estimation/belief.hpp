@@ -81,6 +81,8 @@ class Belief {
     least_[p] = larger(least_[p], least);
     most_[p] = -larger(-most_[p], -most);
   }
+  /// A value of unknown `p`, or the nearest that it can have.
+  Scalar bounded(int p, Scalar value) const { return larger(least_[p], -larger(-most_[p], -value)); }
   /// What is added from here on is not friction.
   void end_friction() { friction_ = loads_ = carried_ = in_use_ = size_; }
   /// What is added from here on are no constants of jacks' instruments.
@@ -94,7 +96,12 @@ class Belief {
   /// Something new takes the place of unknown `p`, independent of all others.
   void renew(int p, Scalar sd) {
     in_use_ = larger(in_use_, p + 1);
-    state_.mean[p] = state_.linearized_at[p] = 0;
+    state_.linearized_at[p] = 0;
+    know(p, 0, sd);
+  }
+  /// Unknown `p` is known to be this, independent of all others.
+  void know(int p, Scalar mean, Scalar sd) {
+    state_.mean[p] = mean;
     for (int q = 0; q < size_; ++q) state_.covariance[p][q] = state_.covariance[q][p] = 0;
     state_.covariance[p][p] = sd * sd;
   }
@@ -258,8 +265,7 @@ class Belief {
     const Scalar pull = innovation.value * innovation.precision;
     Scalar shift = 0;
     for (int p = 0; p < in_use_; ++p) {
-      const Scalar mean = state_.mean[p] + innovation.with_unknown[p] * pull;
-      innovation.updated_mean[p] = larger(least_[p], -larger(-most_[p], -mean));
+      innovation.updated_mean[p] = bounded(p, state_.mean[p] + innovation.with_unknown[p] * pull);
       if (p < friction_) shift += std::fabs(H[p] * (innovation.updated_mean[p] - state_.linearized_at[p]));
     }
     // A force is about exponential in mu: by shift^2 / 2T it is off the line.

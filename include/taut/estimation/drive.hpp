@@ -88,7 +88,7 @@ template <class TrackerType, class Jacks, class SampleType>
 bool arrive(const TrackerType& tracker, Jacks& jacks, const SampleType& to,
             const Progress<typename TrackerType::Scalar>& progress) {
   const int patterns = load_patterns(tracker.model());
-  const bool is_there = progress.status.ok() && !(progress.fraction < 1);
+  const bool is_there = progress.is_complete();
   if (is_there)
     jacks.arrive(to, patterns);
   else

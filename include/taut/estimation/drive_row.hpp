@@ -2,13 +2,13 @@
 // them.
 #pragma once
 
+#include "taut/estimation/draw_in.hpp"
 #include "taut/estimation/drive.hpp"
 #include "taut/estimation/learning.hpp"
 #include "taut/estimation/leg.hpp"
 #include "taut/estimation/load_memory.hpp"
 #include "taut/estimation/look_ahead.hpp"
 #include "taut/estimation/other_friction.hpp"
-#include "taut/estimation/other_seating.hpp"
 #include "taut/estimation/witness.hpp"
 
 namespace taut {
@@ -45,6 +45,7 @@ template <class Parts>
                                              Progress<typename Parts::Scalar>& progress) {
   auto& jacks = parts.jacks;
   auto& tracker = parts.tracker;
+  if (parts.lock_off.is_known) parts.lock_off.is_known = !has_gone_on(parts, jacks.target(sample));
   if (parts.is_ahead)
     follow_ahead(parts, corners, sample);
   else
@@ -63,8 +64,7 @@ template <class Parts>
         if (turns) turn_forces(parts, k);
         remember_reversal(parts, k, sd);
         begin_leg(parts, k);
-        // Not in use while the tracker is not ahead.
-        if (jacks[k].locks_now) parts.confirmed.tracker = tracker.save();
+        if (jacks[k].locks_now) begin_lock_off(parts);
       },
       [&](int k) {
         remember_load(parts, k);
@@ -72,14 +72,11 @@ template <class Parts>
       },
       [&](int c) { return parts.filter.relative_deviation(tracker, c); });
   if (corners.any() || progress.events > 0) parts.far_ends.restart();
-  if (!progress.status || progress.fraction < 1) return false;
-  for (int c = 0; corners.locks && c < parts.model().cables.size(); ++c)
-    if (parts.locks_now(c)) try_other_friction(parts, c, parts.confirmed.tracker);
-  for (int k = 0; corners.locks && k < jacks.size(); ++k)
-    if (jacks[k].locks_now) try_other_seating(parts, k);
-  if (corners.locks && remember_seating(parts))
-    progress = join(progress, tracker.advance(jacks.target(sample), event_budget));
-  if (progress.status && corners.locks) progress.status = remember_drift(parts);
+  if (!progress.is_complete()) return false;
+  if (!corners.locks) return true;
+  if (remember_seating(parts)) progress = join(progress, tracker.advance(jacks.target(sample), event_budget));
+  if (progress.status) progress.status = remember_drift(parts);
+  if (progress.status && parts.lock_off.is_known) try_others(parts);
   return progress.status.ok();
 }
 

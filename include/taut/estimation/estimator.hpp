@@ -69,6 +69,7 @@ class Estimator {
     Confirmed confirmed;
     bool is_ahead = false;  ///< of what is confirmed; else that has no meaning
     FixedArray<typename Parts::Leg, Parts::legs> leg;
+    typename Parts::LockOff lock_off;
     typename ForceWatchType::State forces;
     typename Parts::TurnedForcesType turned;
   };
@@ -97,9 +98,9 @@ class Estimator {
   Progress<Scalar> come_down(const ReadingsType& first);
   /// The state between two rows. Cost: a copy of it.
   State save() const {
-    return {parts_.tracker.save(), parts_.jacks.save(), parts_.filter.save(), parts_.far_ends.save(),
-            parts_.gauges.save(),  parts_.confirmed,    parts_.is_ahead,      parts_.leg,
-            parts_.forces.save(),  parts_.turned};
+    return {parts_.tracker.save(), parts_.jacks.save(),  parts_.filter.save(), parts_.far_ends.save(),
+            parts_.gauges.save(),  parts_.confirmed,     parts_.is_ahead,      parts_.leg,
+            parts_.lock_off,       parts_.forces.save(), parts_.turned};
   }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `capacity_exceeded` if and
   /// only if start() would, and with `bad_sample` if the state is none of this scene or was saved before
@@ -123,6 +124,7 @@ class Estimator {
     parts_.is_ahead = state.is_ahead;
     parts_.is_beyond.fill(state.is_ahead);
     parts_.leg = state.leg;
+    parts_.lock_off = state.lock_off;
     return parts_.tracker.restore(condensed, parts_.filter.friction(linear_part(condensed)), state.tracker,
                                   load_errors(parts_));
   }
@@ -219,6 +221,7 @@ class Estimator {
     parts_.is_beyond.fill(false);
     parts_.slides_ahead.fill(false);
     forget_leg(parts_);
+    parts_.lock_off.is_known = false;
     parts_.forces.start();
     parts_.turned.clear();
     return number_unknowns(parts_, condensed, prior, gauges);

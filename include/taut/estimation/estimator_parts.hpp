@@ -57,6 +57,15 @@ struct EstimatorParts : CondensedType::Capacity::Account {
     Values linearized_at;  ///< where the model was linearized there
     bool is_known = false;
   };
+  /// Where wedges were about to be drawn in, see begin_lock_off(): confirmed.tracker is there.
+  struct LockOff {
+    Values linearized_at;  ///< where the model was linearized there
+    FixedArray<Scalar, JacksType::capacity>
+        still_in;    ///< how much of an earlier draw-in a jack's unknown has
+    Scalar sum = 0;  ///< of what the cell at the far end has read since [N]
+    std::int16_t readings = 0;
+    bool is_known = false;
+  };
   static constexpr bool has_several = Cap::cables > 1;
   /// Only strokes are compared all along it.
   static constexpr int legs = Cap::strokes && Further > 0 ? 1 : 0;
@@ -75,6 +84,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   Alarms alarms;
   Confirmed confirmed;
   FixedArray<Leg, legs> leg;
+  LockOff lock_off;
   bool is_ahead = false;  ///< of what is confirmed
   /// Where the loads are confirmed to have come: whether the best estimate of a jack of the cable lies behind
   /// an event that may be one of its own joints.
@@ -114,14 +124,14 @@ struct EstimatorParts : CondensedType::Capacity::Account {
       if (jacks.end(k).cable() == c && !jacks[k].locked) return false;
     return true;
   }
-  /// Whether the wedge of one of its ends is drawn in in this row.
-  bool locks_now(int c) const {
-    for (int k = 0; k < jacks.size(); ++k)
-      if (jacks.end(k).cable() == c && jacks[k].locks_now) return true;
-    return false;
-  }
   /// Whether it drifts: its strain does where wedges hold it.
   bool drifts(int c) const { return drift[c] >= 0 && is_held(c); }
+  /// Whether a cell at its far end tells how far wedges were drawn in that hold it, or how it drifts.
+  bool is_corrected(int c) const {
+    bool is_uncertain = drift[c] >= 0;
+    for (int k = 0; k < jacks.size(); ++k) is_uncertain |= jacks.end(k).cable() == c && jacks[k].seating >= 0;
+    return is_uncertain && is_held(c);
+  }
 
   // What is read.
 

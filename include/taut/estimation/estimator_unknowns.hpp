@@ -27,8 +27,12 @@ Status number_unknowns(Parts& parts, const typename Parts::Condensed& condensed,
   for (std::size_t m = 0; m < corners; ++m)
     for (int k = 0; k < jacks.size(); ++k) jacks[k].memory[m] = number(jacks.in(prior.cell, k).sd > 0);
   for (int c = 0; c < linear.cables.size(); ++c) parts.drift[c] = number(prior.drift_sd[c] > 0);
-  for (int k = 0; k < jacks.size(); ++k)
-    jacks[k].seating = number(prior.seating_sd[jacks.end(k).cable()] > 0);
+  for (int k = 0; k < jacks.size(); ++k) {
+    const int c = jacks.end(k).cable();
+    const bool is_uncertain = prior.seating_sd[c] > 0;
+    const auto seating = static_cast<typename Parts::Scalar>(linear.cables[c].seating);
+    jacks[k].seating = static_cast<std::int16_t>(is_uncertain ? filter.add_draw_in(seating) : -1);
+  }
   if (known) known = filter.end(linear, [&](const auto& add) { return parts.gauges.start(gauges, add); });
   parts.far_ends.start(linear, filter, jacks);
   return known;

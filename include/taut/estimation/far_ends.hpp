@@ -143,6 +143,18 @@ class FarEnds {
     note(e, reading, lasting, filter);
     return update;
   }
+  /// What the mean of so many readings of cell `e` is expected to be, with its variance, were unknown `p`
+  /// where the tracker is linearized. Cost: that of Belief::expect().
+  Expected<Scalar> expect_without(int p, int e, int readings, const TrackerType& tracker, FilterType& filter,
+                                  const Jacks& jacks) {
+    auto& prediction = filter.prediction();
+    predict_at(ends_[e], tracker, filter, jacks, prediction);
+    prediction.H[p] = 0;
+    auto mean = filter.belief().expect(prediction, jacks.readings(filter.prior()), Scalar(0));
+    const Scalar sd = state_.watch[e].sd;
+    mean.variance += sd * sd / static_cast<Scalar>(readings) + variance_that_lasts(e, filter, jacks);
+    return mean;
+  }
   /// Where gathers(): gathers a reading [N] of the only cell. Cost: a few operations; that of update() with
   /// the last one for which there is room.
   [[nodiscard]] Update gather(Scalar reading, TrackerType& tracker, FilterType& filter, const Jacks& jacks) {

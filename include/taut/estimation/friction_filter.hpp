@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "taut/estimation/belief.hpp"
 #include "taut/estimation/friction_prior.hpp"
@@ -99,6 +100,12 @@ class FrictionFilter {
   /// After start(): room for the error of a load that friction will remember. Returns its number, or -1 if
   /// there is none: then such loads are taken for exact.
   int add_load_error() { return belief_.size() < Parameters ? belief_.add(Scalar(0)) : -1; }
+  /// The same for how much further than `seating` [m] a wedge will be drawn in: none comes out.
+  int add_draw_in(Scalar seating) {
+    const int p = add_load_error();
+    if (p >= 0) belief_.bound(p, -seating, (std::numeric_limits<Scalar>::max)());
+    return p;
+  }
 
   /// After the last of them: the unknowns of cells at anchored ends, on which no force depends, and those
   /// that add_gauges(add) adds, which returns how many found no room. Fails with `capacity_exceeded` if and
@@ -174,6 +181,8 @@ class FrictionFilter {
     return p < 0 ? Scalar(0) : weight_[joint] * std::sqrt(belief_.variance(p));
   }
 
+  /// Unknown `p` is known to be this, independent of all others.
+  void know(int p, Scalar mean, Scalar sd) { belief_.know(p, mean, sd); }
   /// What is known of unknown `p` gives way to what is new, with this standard deviation.
   void renew(int p, Scalar sd) { belief_.renew(p, sd); }
   /// Readings scatter more than they were taken to, see Belief::inflate().
@@ -234,7 +243,7 @@ class FrictionFilter {
   /// than the model has it, with the standard deviation `sd` [m]. Cost: that of remember_reversal().
   void remember_seating(TrackerType& tracker, int p, int cable, std::size_t end, Scalar sd) {
     keep_what_is_known(tracker, p);
-    tracker.draw_in(p, cable, end);
+    tracker.draw_in(p, cable, end, still_in(p, sd));
     belief_.renew(p, sd);
   }
   /// A cable is held from this end on now: from here on unknown `p` is the strain that it takes on by itself,
@@ -321,6 +330,15 @@ class FrictionFilter {
   /// For who brings the tracker there in another way: the model is linearized at these values from here on.
   /// Returns by how much each unknown moves, for Tracker::adjust().
   Values linearize_at(const Values& values) { return belief_.linearize_at(values); }
+  /// Unknown `p` will have this standard deviation and mean something else; what friction remembers of it
+  /// elsewhere stays as uncertain as it is if it goes on with this part.
+  Scalar still_in(int p, Scalar sd) const {
+    return sd > 0 ? std::sqrt(larger(belief_.variance(p), Scalar(0))) / sd : Scalar(0);
+  }
+  /// Unknown `p` will mean something else: what is known of it goes into the tracker.
+  void keep_what_is_known(TrackerType& tracker, int p) {
+    if (belief_.mean(p) != belief_.linearized_at(p)) static_cast<void>(relinearize(tracker, belief_.mean()));
+  }
 
  private:
   /// Whether a joint that sticks would with every mu that is likely. Struts that the cable alone holds hardly
@@ -373,15 +391,6 @@ class FrictionFilter {
     const auto weight = static_cast<Real>(weight_[j]);
     const auto limit = prior_->limit(c, j, prior_->mu[j] + weight * static_cast<Real>(at));
     return {at == 0 ? model.rho[j] : limit.rho, p, weight * limit.slope};
-  }
-  /// Unknown `p` will have this standard deviation and mean something else; what friction remembers of it
-  /// elsewhere stays as uncertain as it is if it goes on with this part.
-  Scalar still_in(int p, Scalar sd) const {
-    return sd > 0 ? std::sqrt(larger(belief_.variance(p), Scalar(0))) / sd : Scalar(0);
-  }
-  /// Unknown `p` will mean something else: what is known of it goes into the tracker.
-  void keep_what_is_known(TrackerType& tracker, int p) {
-    if (belief_.mean(p) != belief_.linearized_at(p)) static_cast<void>(relinearize(tracker, belief_.mean()));
   }
   /// Whether friction of cable `c` matters to the predicted number.
   template <class CableLayout>

@@ -44,34 +44,34 @@ bool is_on_leg(const Parts& parts) {
   return moved < 2;
 }
 
-/// Goes from a state that the tracker had with the model linearized at `there` to the loads that it has now,
-/// first to friction at other values of the unknowns if there are any. False if that cannot be: then the
-/// tracker is elsewhere. Cost: those of Tracker::restore(), adjust() and a path.
+/// Brings the tracker to a state that it had with the model linearized at `there`, but with the unknowns at
+/// other values. False if there is none; then the tracker is elsewhere. Cost: those of Tracker::restore() and
+/// adjust().
 template <class Parts>
-bool go_anew(Parts& parts, const typename Parts::TrackerType::State& from,
-             const typename Parts::Values& there, const typename Parts::Values* values) {
-  auto& tracker = parts.tracker;
-  auto& filter = parts.filter;
-  const auto to = parts.jacks.driven(parts.patterns());
-  static_cast<void>(filter.linearize_at(there));
-  bool is_there = put_back(parts, from).ok();
-  if (values != nullptr) {
-    const auto change = filter.linearize_at(*values);
-    is_there = is_there && tracker.adjust(filter.friction(parts.linear()), change).ok();
-  }
-  if (!is_there) return false;
-  const auto progress = tracker.advance(to);
-  return progress.status.ok() && !(progress.fraction < 1);
+bool go_back_to(Parts& parts, const typename Parts::TrackerType::State& from,
+                const typename Parts::Values& there, const typename Parts::Values& values) {
+  static_cast<void>(parts.filter.linearize_at(there));
+  const bool is_there = put_back(parts, from).ok();
+  const auto change = parts.filter.linearize_at(values);
+  // Where joints slide still, adjust() has what friction remembers of a load follow it.
+  bool changes = false;
+  for (int p = 0; p < parts.filter.belief().carried(); ++p) changes |= change[p] != 0;
+  if (!changes) return is_there;
+  return is_there && parts.tracker.adjust(parts.filter.friction(parts.linear()), change).ok();
 }
 
 /// Goes the leg anew with friction at these values of the unknowns; the tracker is not ahead. False if that
-/// cannot be: then all is as it was. Cost: that of go_anew(), and of Tracker::restore().
+/// cannot be: then all is as it was. Cost: that of go_back_to(), of a path, and of Tracker::restore().
 template <class Parts>
 bool go_leg_anew(Parts& parts, const typename Parts::Values& values) {
   const auto before = parts.filter.belief().save().linearized_at;
   // Not in use while the tracker is not ahead.
   auto& here = parts.confirmed.tracker = parts.tracker.save();
-  if (go_anew(parts, parts.leg[0].from, parts.leg[0].linearized_at, &values)) return true;
+  parts.lock_off.is_known = false;
+  const auto to = parts.jacks.driven(parts.patterns());
+  if (go_back_to(parts, parts.leg[0].from, parts.leg[0].linearized_at, values) &&
+      parts.tracker.advance(to).is_complete())
+    return true;
   static_cast<void>(parts.filter.linearize_at(before));
   static_cast<void>(put_back(parts, here).ok());
   return false;

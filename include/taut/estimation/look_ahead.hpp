@@ -91,6 +91,7 @@ void look_ahead(Parts& parts) {
   if (!parts.is_ahead) {
     learn_waiting(parts);
     parts.confirmed.tracker = parts.tracker.save();
+    parts.lock_off.is_known = false;
     for (int k = 0; k < jacks.size(); ++k) parts.confirmed.jack[k] = jacks[k].driven;
     parts.is_ahead = true;
     leave_turns(parts, [&](int k) { return jacks[k].best(); });

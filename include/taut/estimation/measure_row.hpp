@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "taut/estimation/draw_in.hpp"
 #include "taut/estimation/learning.hpp"
 #include "taut/estimation/look_ahead.hpp"
 
@@ -24,19 +25,28 @@ template <class Parts>
   if (corners.times_noise > 1) parts.filter.inflate(corners.times_noise);
 }
 
-/// The cell at the far end of a cable that is locked tells how far its wedge was drawn in, and what has
-/// strained it since. Cost: that of FarEnds::correct(), and at worst of FrictionFilter::follow_drift().
+/// The cell at the far end of a cable that is locked tells how far its wedge was drawn in, as long as nothing
+/// else happens, and what has strained it since. Cost: that of learn_draw_in(), of FarEnds::correct(), and at
+/// worst of FrictionFilter::follow_drift().
 template <class Parts>
-Update correct_drift(Parts& parts, int e, typename Parts::Scalar reading) {
-  const int c = parts.far_ends.ends()[e].cable();
+Update correct_held(Parts& parts, int e, typename Parts::Scalar reading) {
+  auto& far_ends = parts.far_ends;
+  const int c = far_ends.ends()[e].cable(), drift = parts.drift[c];
   int k = 0;
   while (parts.jacks.end(k).cable() != c) ++k;
-  const auto is_corrected = [&](int p) { return p == parts.drift[c] || p == parts.jacks[k].seating; };
-  const Update update =
-      parts.far_ends.correct(e, reading, parts.tracker, parts.filter, parts.jacks, is_corrected);
+  Update update = Update::no_information;
+  if (parts.lock_off.is_known && parts.jacks[k].seating >= 0 && is_of_lock_off(parts, k))
+    update = learn_draw_in(parts, k, e, reading);
+  if (drift < 0) {
+    static_cast<void>(far_ends.compare(e, reading, parts.tracker, parts.filter, parts.jacks));
+    return update;
+  }
+  if (update == Update::contradiction) return update;
+  const auto is_corrected = [&](int p) { return p == drift; };
+  update = far_ends.correct(e, reading, parts.tracker, parts.filter, parts.jacks, is_corrected);
   // A failure shows in the next row.
-  if (update == Update::updated && parts.filter.moved(is_corrected) > parts.far_ends.watch(e).sd)
-    static_cast<void>(parts.filter.follow_drift(parts.tracker, parts.drift[c], c, parts.jacks.end(k).end));
+  if (update == Update::updated && parts.filter.moved(is_corrected) > far_ends.watch(e).sd)
+    static_cast<void>(parts.filter.follow_drift(parts.tracker, drift, c, parts.jacks.end(k).end));
   return update;
 }
 
@@ -54,9 +64,9 @@ bool measure_far_end(Parts& parts, int e, typename Parts::Scalar reading, bool g
   }
   const int readings = gathers ? far_ends.waiting() + 1 : 1;
   const Update update =
-      parts.drifts(end.cable()) ? correct_drift(parts, e, reading)
-      : parts.is_ahead          ? far_ends.compare(e, reading, parts.tracker, parts.filter, parts.jacks)
-      : gathers                 ? far_ends.gather(reading, parts.tracker, parts.filter, parts.jacks)
+      parts.is_corrected(end.cable()) ? correct_held(parts, e, reading)
+      : parts.is_ahead                ? far_ends.compare(e, reading, parts.tracker, parts.filter, parts.jacks)
+      : gathers                       ? far_ends.gather(reading, parts.tracker, parts.filter, parts.jacks)
                 : far_ends.measure(e, reading, parts.tracker, parts.filter, parts.jacks, parts.is_beyond);
   // Once, as long as it lasts.
   const bool is_told = update == Update::no_information && watch.is_told;

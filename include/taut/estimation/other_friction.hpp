@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "taut/estimation/leg.hpp"
+#include "taut/estimation/lock_off.hpp"
 #include "taut/numerics/larger.hpp"
 
 namespace taut {
@@ -105,23 +105,22 @@ int find_front(const Parts& parts, const FromEnd<Scalar>& from) {
   return front == 0 && n > 1 ? 1 : front;
 }
 
-/// Calls visit(segments from the end, front) for every end of cable `c` whose wedge is drawn in in this row.
+/// Calls visit(segments from the end, front) for every end of cable `c` that the last lock-off is of.
 template <class Parts, class Visit>
-void for_each_lock(const Parts& parts, int c, const Visit& visit) {
-  for (int k = 0; k < parts.jacks.size(); ++k) {
+void for_each_front(const Parts& parts, int c, const Visit& visit) {
+  for_each_of_lock_off(parts, [&](int k) {
     const auto& at = parts.jacks.end(k);
-    if (at.cable() != c || !parts.jacks[k].locks_now) continue;
+    if (at.cable() != c) return;
     const FromEnd<typename Parts::Scalar> from = {parts.model().cables[c], at.end};
     visit(from, find_front(parts, from));
-  }
+  });
 }
 
-/// After the wedges of cable `c` were drawn in, from where the tracker was when `from` was saved: goes that
-/// way with friction two standard deviations less, and more, and comes back. How far joints slide back there
-/// depends on friction, and not in proportion. Cost: three times those of Tracker::restore(), and of a path;
-/// two of Tracker::adjust().
+/// After wedges of cable `c` were drawn in, in the last lock-off, which is known: draws them in with friction
+/// two standard deviations less, and more, and comes back. How far joints slide back there depends on
+/// friction, and not in proportion. Cost: three times that of lock_anew().
 template <class Parts>
-void try_other_friction(Parts& parts, int c, const typename Parts::TrackerType::State& from) {
+void try_other_friction(Parts& parts, int c) {
   using Scalar = typename Parts::Scalar;
   const auto& belief = parts.filter.belief();
   auto& turned = parts.turned;
@@ -129,7 +128,7 @@ void try_other_friction(Parts& parts, int c, const typename Parts::TrackerType::
   if (leader < 0) return;
   const auto& cable = parts.model().cables[c];
   Scalar apart = 0;
-  for_each_lock(parts, c, [&](const auto& end, int front) {
+  for_each_front(parts, c, [&](const auto& end, int front) {
     const Scalar of_end = parts.filter.mean_scatter(c, end.segment(front), front);
     for (int i = 0; i <= front; ++i) turned.follow(end.segment(i), of_end);
     apart = larger(apart, of_end);
@@ -143,11 +142,12 @@ void try_other_friction(Parts& parts, int c, const typename Parts::TrackerType::
     auto values = belief.mean();
     for (int p = 0; p < belief.friction(); ++p)
       if (turned.leader(p) == leader) values[p] += x * turned.move(p);
-    if (!go_anew(parts, from, here, &values)) continue;
+    if (!lock_anew(parts, values)) continue;
+    // By how much jacks' cells are off is counted along a straight line: half of that is in doubt here.
     for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i)
       turned.find(i, (parts.tracker.tension(i) - force[i]) / x);
   }
-  static_cast<void>(go_anew(parts, from, here, nullptr));
+  static_cast<void>(lock_anew(parts, here));
   const Scalar sd = std::sqrt(belief.variance(leader));
   parts.far_ends.set_bent(parts.model(), c, [&](int i) {
     const Scalar slides = by_move(parts, leader, i), straight = slides * sd,
@@ -156,7 +156,7 @@ void try_other_friction(Parts& parts, int c, const typename Parts::TrackerType::
   });
   if (!(apart > 0)) return;
   // Between the end and a segment friction is off by itself, beside what the end has.
-  for_each_lock(parts, c, [&](const auto& end, int front) {
+  for_each_front(parts, c, [&](const auto& end, int front) {
     const int first = end.segment(0);
     const Scalar all = turned.of_friction(first, sd), slides = by_move(parts, leader, first),
                  of_end = turned.farther(slides, turned.found(first));

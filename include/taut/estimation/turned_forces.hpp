@@ -79,31 +79,47 @@ class TurnedForces {
     return longest(segment, force, slides, all) * all;
   }
   /// A wedge was drawn in, by unknown `p` more than was said, and left this force [N], which changes with the
-  /// draw-in by at most so much where it was tried farther away [N/m].
+  /// draw-in by so much [N/m].
   void draw(int segment, Scalar force, Scalar derivative, int p) {
+    if (drawn_by_[segment] < 0) kept_[segment] = 0;
+    kept_[segment] = left(kept_[segment], segment, force);
     drawn_force_[segment] = force;
     drawn_[segment] = derivative;
     drawn_by_[segment] = static_cast<std::int16_t>(p);
   }
+  /// Unknown `p`, known to `sd` [m], will be another one; with it the force of a segment [N] is as uncertain
+  /// as before.
+  void keep_drawn(int segment, Scalar force, int p, Scalar sd) {
+    if (drawn_by_[segment] != p) return;
+    kept_[segment] = drawn_deviation(segment, force, sd);
+    drawn_[segment] = 0;
+    drawn_force_[segment] = force;
+  }
   /// That unknown, or -1.
   int drawn_by(int segment) const { return drawn_by_[segment]; }
-  /// The standard deviation of a force by it, known to `sd` [m]: nothing where the segment has gone on since
-  /// by as much as `far` of them. Cost: a few operations.
+  /// The standard deviation of a force by it, known to `sd` [m], and by how far wedges were drawn in before:
+  /// nothing where the segment has gone on since by as much as `far` of them. Cost: a few operations.
   Scalar drawn_deviation(int segment, Scalar force, Scalar sd) const {
-    const Scalar gone = std::fabs(force - drawn_force_[segment]) / far;
-    return larger(std::fabs(drawn_[segment]) * sd - gone, Scalar(0));
+    const Scalar drawn = drawn_[segment] * sd, kept = kept_[segment];
+    return left(std::sqrt(drawn * drawn + kept * kept), segment, force);
   }
   /// The unknown that stands for the friction of a segment's cable, or -1: its jack has not turned.
   int leader_of(int segment) const { return leader_of_[segment]; }
 
  private:
+  /// Of a deviation, once the segment has gone on to this force.
+  Scalar left(Scalar deviation, int segment, Scalar force) const {
+    return larger(deviation - std::fabs(force - drawn_force_[segment]) / far, Scalar(0));
+  }
+
   Values move_;                                        // of unknowns
   FixedArray<std::int16_t, Parameters> leader_;        // that they move with, or -1
   FixedArray<Scalar, Cap::segments> force_;            // at the turn [N]
   FixedArray<Scalar, Cap::segments> sticks_;           // its derivative there
   FixedArray<Scalar, Cap::segments> found_;            // the one that was found since
   FixedArray<Scalar, Cap::segments> drawn_force_;      // once a wedge was drawn in [N]
-  FixedArray<Scalar, Cap::segments> drawn_;            // its derivative by the draw-in, the longest [N/m]
+  FixedArray<Scalar, Cap::segments> drawn_;            // its derivative by the draw-in [N/m]
+  FixedArray<Scalar, Cap::segments> kept_;             // its deviation by earlier draw-ins [N]
   FixedArray<std::int16_t, Cap::segments> drawn_by_;   // the unknown of that, or -1
   FixedArray<Scalar, Cap::segments> apart_;            // variance of friction that is off the move
   FixedArray<std::int16_t, Cap::segments> leader_of_;  // or -1: it has not turned

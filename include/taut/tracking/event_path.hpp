@@ -15,6 +15,9 @@ struct [[nodiscard]] Progress {
   Status status;
   Scalar fraction = 1;  ///< of the path that was followed; below 1 the state is the equilibrium there
   int events = 0;       ///< places where the state of a joint or a span was decided anew
+
+  /// Whether the path has come to its end.
+  bool is_complete() const { return status.ok() && !(fraction < 1); }
 };
 
 /// From the present state to the goal that the state has: decides, goes along the affine piece to its end,

@@ -147,11 +147,11 @@ class Sensitivity {
       of_variable(map.variable(i), p) += static_cast<Scalar>(map.column_value(k, i));
   }
   /// From here on parameter `p` is by how much less cable an end holds that is locked; `jack` is
-  /// 2 x cable + end.
-  void draw_in(int p, int jack) {
+  /// 2 x cable + end. It is also so many times what it meant before.
+  void draw_in(int p, int jack, Scalar before) {
     use(p);
-    frozen_.derivative[p] = {};
-    frozen_.derivative[p].extension[jack / 2][static_cast<std::size_t>(jack % 2)] = -1;
+    frozen_.derivative[p].scale(before);
+    frozen_.derivative[p].extension[jack / 2][static_cast<std::size_t>(jack % 2)] -= 1;
   }
   /// From here on parameter `p` is the strain that a cable takes on by itself while the end `jack` of it,
   /// 2 x cable + end, is locked: to forces it is what slips and an extension would be that take as much of
@@ -277,7 +277,7 @@ class Sensitivity<CondensedType, Laws, 0> {
   static void for_each(const Change&) {}
   static void depend_on_load(const JackError<Scalar>&) {}
   static void turn(const Map&, int, int, Scalar) {}
-  static void draw_in(int, int) {}
+  static void draw_in(int, int, Scalar) {}
   template <class Values>
   static Scalar tension(const Map&, int, int, const Values&, const Values&) {
     return 0;

@@ -164,20 +164,22 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     drop_map();
   }
   /// From here on unknown `p` is by how much further [m] the wedge of a locked end was drawn in than the
-  /// model has it, now that it is seated. Cost: that of turn().
-  void draw_in(int p, int cable, std::size_t end) {
+  /// model has it, now that it is seated; and also `before` times what it was until now. Cost: that of
+  /// turn().
+  void draw_in(int p, int cable, std::size_t end, Scalar before = 0) {
     freeze_here();
-    cables_.derivatives.draw_in(p, 2 * cable + static_cast<int>(end));
+    cables_.derivatives.draw_in(p, 2 * cable + static_cast<int>(end), before);
     drop_map();
   }
-  /// The wedge of an end that is locked is drawn in by so much more, `by` > 0 [m], under loads that stay.
-  /// Fails as advance() does. Cost: that of advance().
-  Progress<Scalar> draw_in_more(int cable, std::size_t end, Scalar by) {
-    freeze_here();
-    cables_.state.goal = cables_.state.now;
-    cables_.state.goal.jack[cable][end].extension -= static_cast<Real>(by);
-    cables_.drop_set();
-    samples_.forget(cables_);
+  /// Follows a sample as advance() does, and draws the wedges of all ends that are locked there in by
+  /// further(cable, end) [m] more on the way. Fails as advance() does. Cost: that of advance().
+  template <class Further>
+  Progress<Scalar> seat(const Sample<Scalar, Cap>& sample, const Further& further) {
+    const Status turned = aim(sample);
+    if (!turned) return {turned, Scalar(0), 0};
+    for (const auto& jack : cables_.jacks)
+      if (auto& goal = cables_.state.goal.jack[jack.cable][jack.end]; goal.locked)
+        goal.extension -= static_cast<Real>(further(jack.cable, jack.end));
     return follow(default_budget);
   }
   /// From here on unknown `p` is the strain [-] that a cable takes on by itself, whose end is locked now:
@@ -234,6 +236,7 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   Progress<Scalar> bring_prestrain_on(int event_budget);
   Status take_over(const State& saved);
   Progress<Scalar> drive(const Sample<Scalar, Cap>& sample, int event_budget);
+  Status aim(const Sample<Scalar, Cap>& sample);
   Progress<Scalar> follow(int event_budget);
   bool has_or_makes_map();
   Status make_map_anew();
@@ -289,12 +292,17 @@ template <class CondensedType, int Parameters>
 [[gnu::noinline]] auto Tracker<CondensedType, Parameters>::drive(const Sample<Scalar, Cap>& sample,
                                                                  int event_budget) -> Progress<Scalar> {
   if (samples_.follow(cables_, sample)) return {};
-  if (cables_.model == nullptr) return {Status::at(Code::not_started, Place::none, -1), Scalar(0), 0};
-  const Status usable = check_sample(*cables_.model, sample);
-  if (!usable) return {usable, Scalar(0), 0};
-  samples_.forget(cables_);
-  const Status turned = turn_to(cables_, sample);
+  const Status turned = aim(sample);
   return turned ? follow(event_budget) : Progress<Scalar>{turned, Scalar(0), 0};
+}
+
+template <class CondensedType, int Parameters>
+Status Tracker<CondensedType, Parameters>::aim(const Sample<Scalar, Cap>& sample) {
+  if (cables_.model == nullptr) return Status::at(Code::not_started, Place::none, -1);
+  const Status usable = check_sample(*cables_.model, sample);
+  if (!usable) return usable;
+  samples_.forget(cables_);
+  return turn_to(cables_, sample);
 }
 
 template <class CondensedType, int Parameters>
