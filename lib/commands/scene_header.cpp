@@ -455,20 +455,26 @@ std::string head(const std::vector<ExportedScene>& scenes, const CondensedCounts
          "#endif\n";
 }
 
+// What only an estimator needs to know.
+struct EstimatedParts {
+  bool strokes = false, seating = false;
+};
+
 // What none of the scenes has.
-std::string has_not(const CondensedCounts& counts, bool has_strokes) {
+std::string has_not(const CondensedCounts& counts, const EstimatedParts& has) {
   std::string names;
-  const auto add = [&](const char* name, bool has) {
-    if (!has) names += (names.empty() ? "" : ", ") + std::string(name) + " = false";
+  const auto add = [&](const char* name, bool any) {
+    if (!any) names += (names.empty() ? "" : ", ") + std::string(name) + " = false";
   };
   add("hoops", counts.hoops);
   add("prestrain", counts.prestrain);
   add("smooth", counts.smooth);
-  add("strokes", has_strokes);
+  add("strokes", has.strokes);
+  add("seating", has.seating);
   return names.empty() ? "" : "  static constexpr bool " + names + ";\n";
 }
 
-std::string capacity_of(const CondensedCounts& counts, bool has_strokes) {
+std::string capacity_of(const CondensedCounts& counts, const EstimatedParts& has) {
   const auto is = [](const char* name, int count) {
     return std::string(name) + " = " + std::to_string(count);
   };
@@ -479,8 +485,8 @@ std::string capacity_of(const CondensedCounts& counts, bool has_strokes) {
          is("segments", counts.segments) + ", " + is("joints", counts.joints) + ", " +
          is("substructures", counts.substructures) + ", " + is("loads", counts.loads) +
          (counts.leans() ? ", " + is("beams", counts.beams) + ", " + is("normals", counts.normals) : "") +
-         ";\n" + (counts.saddles ? "  static constexpr bool saddles = true;\n" : "") +
-         has_not(counts, has_strokes) + "};\n";
+         ";\n" + (counts.saddles ? "  static constexpr bool saddles = true;\n" : "") + has_not(counts, has) +
+         "};\n";
 }
 
 // A list of names that costs nothing unless it is used.
@@ -522,7 +528,8 @@ struct Shared {
         most_unknowns.carried = std::max(most_unknowns.carried, count.carried);
         most_unknowns.further = std::max(most_unknowns.further, count.further);
       }
-      has_strokes = has_strokes || !scene.in_double.prior.stroke.empty();
+      has.strokes |= !scene.in_double.prior.stroke.empty();
+      for (const double sd : scene.in_double.prior.seating_sd) has.seating |= sd > 0;
     }
     capacity = most.value_or(CondensedCounts{});
   }
@@ -531,14 +538,14 @@ struct Shared {
   std::string space;  // of the first scene, where the capacity is
   CondensedCounts capacity;
   UnknownCounts most_unknowns = {1, 0};
-  bool has_strokes = false;
+  EstimatedParts has;
 };
 
 std::string capacity(const ExportedScene& scene, const Shared& shared) {
   if (shared.is_one)
-    return "/// Fits the condensed scene exactly.\n" + capacity_of(shared.capacity, shared.has_strokes);
+    return "/// Fits the condensed scene exactly.\n" + capacity_of(shared.capacity, shared.has);
   if (space_of(scene) == shared.space)
-    return "/// Holds every scene of this header.\n" + capacity_of(shared.capacity, shared.has_strokes);
+    return "/// Holds every scene of this header.\n" + capacity_of(shared.capacity, shared.has);
   return "/// The same for every scene of this header.\nusing Capacity = ::" + shared.space + "::Capacity;\n";
 }
 
@@ -574,7 +581,7 @@ std::string objects(const Shared& shared) {
          "constexpr int unknowns = " +
          std::to_string(shared.most_unknowns.carried) + ";\n" +
          "/// And its Further: unknowns of load cells at anchored ends" +
-         (shared.has_strokes ? ", and strokes" : "") +
+         (shared.has.strokes ? ", and strokes" : "") +
          ".\n"
          "constexpr int reading_unknowns = " +
          std::to_string(shared.most_unknowns.further) + ";\n\n";
@@ -633,7 +640,7 @@ std::string identifier(const std::string& name) {
 
 std::string scene_header(const std::vector<ExportedScene>& scenes) {
   const Shared shared(scenes);
-  std::string text = head(scenes, shared.capacity, shared.has_strokes);
+  std::string text = head(scenes, shared.capacity, shared.has.strokes);
   for (const ExportedScene& scene : scenes) text += "\n" + namespace_of(scene, shared);
   return text;
 }

@@ -10,16 +10,16 @@
 
 namespace taut {
 
-/// Draw-ins that are tried [m], evenly apart, and how likely each is.
-template <class Scalar>
+/// Draw-ins that are tried [m], evenly apart, with the forces that each leaves, and how likely each is.
+template <class Scalar, int Segments>
 struct DrawIns {
   static constexpr int size = 9;
   /// Beyond so many standard deviations none is tried.
   static constexpr Scalar far = 3;
   Scalar least = 0, step = 0;
-  FixedArray<Scalar, size> far_end;  ///< force of the far end with each [N]
-  FixedArray<Scalar, size> weight;   ///< their sum is one
-  FixedArray<Scalar, size> away;     ///< how many standard deviations each is from the likeliest
+  FixedArray<FixedArray<Scalar, Segments>, size> force;  ///< of segments [N]
+  FixedArray<Scalar, size> weight;                       ///< their sum is one
+  FixedArray<Scalar, size> away;  ///< how many standard deviations each is from the likeliest
 
   Scalar at(int i) const { return least + static_cast<Scalar>(i) * step; }
   Scalar most() const { return at(size - 1); }
@@ -38,17 +38,18 @@ struct DrawIns {
     for (int i = 0; i < size; ++i) variance += weight[i] * (at(i) - mean) * (at(i) - mean);
     return larger(variance, step * step / 12);
   }
-  /// Weighs them with their prior, of standard deviation `sd`, and a reading of the far end, if there is one
-  /// (variance > 0), Eq. (57). Returns the smallest square of the reading's deviation from what one of them
-  /// makes of it, in variances. Cost: an exponential each.
-  Scalar weigh(Scalar sd, Scalar reading, Scalar variance) {
+  /// Weighs them with their prior, of standard deviation `sd`, and a reading of the far end's `segment`, if
+  /// there is one (variance > 0), Eq. (57). Returns the smallest square of the reading's deviation from what
+  /// one of them makes of it, in variances. Cost: an exponential each.
+  Scalar weigh(Scalar sd, int segment, Scalar reading, Scalar variance) {
     Scalar nearest = -1, best = 0;
     FixedArray<Scalar, size> score, spread;
     for (int i = 0; i < size; ++i) {
       const int before = i > 0 ? i - 1 : i, after = i + 1 < size ? i + 1 : i;
       // Between two of them the force goes over to that of the next.
-      const Scalar wide = (far_end[after] - far_end[before]) / static_cast<Scalar>(after - before),
-                   off = reading - far_end[i], x = at(i) / sd;
+      const Scalar wide =
+                       (force[after][segment] - force[before][segment]) / static_cast<Scalar>(after - before),
+                   off = reading - force[i][segment], x = at(i) / sd;
       spread[i] = variance + wide * wide / 12;
       const Scalar square = variance > 0 ? off * off / spread[i] : Scalar(0);
       if (nearest < 0 || square < nearest) nearest = square;
@@ -65,6 +66,16 @@ struct DrawIns {
     for (int i = 0; i < size; ++i) weight[i] /= sum;
     return nearest;
   }
+  /// The standard deviation of a segment's force about the one that is shown [N], Eq. (58).
+  Scalar deviation(int segment, Scalar shown) const {
+    Scalar square = 0, farthest = 0;
+    for (int i = 0; i < size; ++i) {
+      const Scalar off = std::fabs(force[i][segment] - shown);
+      square += weight[i] * off * off;
+      if (away[i] >= 1 && away[i] <= far) farthest = larger(farthest, off / away[i]);
+    }
+    return larger(std::sqrt(square), farthest);
+  }
   /// Spreads them over those that are likely. Returns whether that is much less.
   bool narrow() {
     Scalar likely = 0;
@@ -79,24 +90,23 @@ struct DrawIns {
   }
 };
 
-/// Draws the wedge of jack `k` in by one of `all` after the other, and calls visit(number) at each; friction
-/// is where it is linearized. False if there is no state at one. Cost: that of go_before_lock_off(), and of
-/// Tracker::seat() for each.
-template <class Parts, class Visit>
-bool try_draw_ins(Parts& parts, int k, const DrawIns<typename Parts::Scalar>& all, const Visit& visit) {
-  using Scalar = typename Parts::Scalar;
-  const auto to = parts.jacks.driven(parts.patterns());
+/// Draws the wedge of jack `k` in by one of `all` after the other, and notes the forces of its cable;
+/// friction is where it is linearized. False if there is no state at one. Cost: that of go_before_lock_off(),
+/// and of seat() for each.
+template <class Parts, class All>
+bool try_draw_ins(Parts& parts, int k, All& all) {
+  const auto& cable = parts.model().cables[parts.jacks.end(k).cable()];
   const auto values = parts.filter.belief().save().linearized_at;
   auto before = values;
   if (!go_before_lock_off(parts, before)) return false;
+  auto further = drawn_further(parts, values);
+  further[k] = all.least;
   for (int i = 0; i < all.size; ++i) {
-    const auto progress = parts.tracker.seat(to, [&](int c, std::size_t end) {
-      const int other = parts.jacks.find(c, end), p = parts.jacks[other].seating;
-      if (other == k) return i == 0 ? all.at(i) : all.step;
-      return i > 0 || p < 0 || !is_of_lock_off(parts, other) ? Scalar(0) : values[p];
-    });
-    if (!progress.is_complete()) return false;
-    visit(i);
+    if (!seat(parts, further)) return false;
+    for (int j = cable.first_segment; j < cable.first_segment + cable.segments(); ++j)
+      all.force[i][j] = parts.tracker.tension(j);
+    further = {};
+    further[k] = all.step;
   }
   static_cast<void>(parts.filter.linearize_at(values));
   return true;
@@ -113,16 +123,16 @@ struct FarEndForce {
 /// draw-ins that are likely, and takes their mean and variance, and those of all forces. How far joints slide
 /// back is not in proportion to a draw-in, and a far end may tell only that it is less than what would reach
 /// it, Eqs. (57) and (58). Contradiction if and only if no draw-in makes that of the far end which was read;
-/// then nothing is learned of it. Cost: at worst six times that of try_draw_ins(), and of lock_anew().
+/// then nothing is learned of it. Cost: at worst four times that of try_draw_ins(), and that of lock_anew().
 template <class Parts>
-Update weigh_draw_in(Parts& parts, int k, const FarEndForce<typename Parts::Scalar>& read) {
+[[gnu::noinline]] Update weigh_draw_in(Parts& parts, int k, const FarEndForce<typename Parts::Scalar>& read) {
   using Scalar = typename Parts::Scalar;
   const auto& belief = parts.filter.belief();
   const int p = parts.jacks[k].seating, c = parts.jacks.end(k).cable();
   const Scalar sd = parts.filter.prior().seating_sd[c];
   const auto& cable = parts.model().cables[c];
   const auto here = belief.save().linearized_at;
-  DrawIns<Scalar> all;
+  DrawIns<Scalar, Parts::Cap::segments> all;
   Update update = Update::updated;
   const auto fail = [&] {
     static_cast<void>(lock_anew(parts, here));
@@ -132,45 +142,30 @@ Update weigh_draw_in(Parts& parts, int k, const FarEndForce<typename Parts::Scal
     all.spread(belief.bounded(p, -all.far * sd), belief.bounded(p, all.far * sd));
   };
   spread_all();
+  Scalar variance = read.variance;
   constexpr int most_passes = 4;
   for (int pass = 1;; ++pass) {
-    if (!try_draw_ins(parts, k, all, [&](int i) { all.far_end[i] = parts.tracker.tension(read.segment); }))
-      return fail();
-    if (all.weigh(sd, read.force, read.variance) > belief.gate) {
+    if (!try_draw_ins(parts, k, all)) return fail();
+    if (all.weigh(sd, read.segment, read.force, variance) > belief.gate) {
       update = Update::contradiction;
+      variance = 0;
       spread_all();
-      static_cast<void>(all.weigh(sd, Scalar(0), Scalar(0)));
+    } else if (pass >= most_passes || !all.narrow()) {
       break;
     }
-    if (pass == most_passes || !all.narrow()) break;
   }
-  const auto for_each_segment = [&](const auto& visit) {
-    for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i) visit(i);
-  };
   auto values = here;
   values[p] = belief.bounded(p, all.mean());
   const Scalar deviation = std::sqrt(all.variance());
   if (!lock_anew(parts, values)) return fail();
-  FixedArray<Scalar, Parts::Cap::segments> force, square, farthest;
-  for_each_segment([&](int i) { force[i] = parts.tracker.tension(i); });
-  const bool are_there = try_draw_ins(parts, k, all, [&](int tried) {
-    const bool is_likely = all.away[tried] >= 1 && all.away[tried] <= all.far;
-    for_each_segment([&](int i) {
-      const Scalar off = std::fabs(parts.tracker.tension(i) - force[i]);
-      square[i] += all.weight[tried] * off * off;
-      if (is_likely) farthest[i] = larger(farthest[i], off / all.away[tried]);
-    });
-  });
-  if (!lock_anew(parts, values) || !are_there) return fail();
   parts.filter.know(p, values[p], deviation);
-  for_each_segment([&](int i) {
-    const Scalar by_draw_in = larger(std::sqrt(square[i]), farthest[i]);
+  for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i) {
+    const Scalar force = parts.tracker.tension(i), by_draw_in = all.deviation(i, force);
     const int other = parts.turned.drawn_by(i);
-    if (other >= 0 && other != p &&
-        parts.turned.drawn_deviation(i, force[i], std::sqrt(belief.variance(other))) > by_draw_in)
-      return;
-    parts.turned.draw(i, force[i], by_draw_in / deviation, p);
-  });
+    if (other < 0 || other == p ||
+        parts.turned.drawn_deviation(i, force, std::sqrt(belief.variance(other))) <= by_draw_in)
+      parts.turned.draw(i, force, by_draw_in / deviation, p);
+  }
   return update;
 }
 
@@ -178,7 +173,7 @@ Update weigh_draw_in(Parts& parts, int k, const FarEndForce<typename Parts::Scal
 /// known: once there are one, two, four and so on, they tell how far its wedge was drawn in. Cost: a few
 /// operations, or those of weigh_draw_in() and try_other_friction().
 template <class Parts>
-Update learn_draw_in(Parts& parts, int k, int e, typename Parts::Scalar reading) {
+[[gnu::noinline]] Update learn_draw_in(Parts& parts, int k, int e, typename Parts::Scalar reading) {
   using Scalar = typename Parts::Scalar;
   constexpr int most = 64;
   auto& lock_off = parts.lock_off;
@@ -208,17 +203,18 @@ Update learn_draw_in(Parts& parts, int k, int e, typename Parts::Scalar reading)
 /// What derivatives do not tell of the last lock-off, which is known. Cost: that of try_other_friction() a
 /// cable, and of weigh_draw_in() a jack.
 template <class Parts>
-void try_others(Parts& parts) {
+[[gnu::noinline]] void try_others(Parts& parts) {
   for (int c = 0; c < parts.model().cables.size(); ++c) {
     bool is_locked = false;
     for_each_of_lock_off(parts, [&](int k) { is_locked |= parts.jacks.end(k).cable() == c; });
     if (is_locked) try_other_friction(parts, c);
   }
-  for_each_of_lock_off(parts, [&](int k) {
-    if (parts.jacks[k].seating >= 0)
-      static_cast<void>(
-          weigh_draw_in(parts, k, FarEndForce<typename Parts::Scalar>{parts.end_segment(k), 0, 0}));
-  });
+  if constexpr (Parts::has_seating)
+    for_each_of_lock_off(parts, [&](int k) {
+      if (parts.jacks[k].seating >= 0)
+        static_cast<void>(
+            weigh_draw_in(parts, k, FarEndForce<typename Parts::Scalar>{parts.end_segment(k), 0, 0}));
+    });
 }
 
 }  // namespace taut

@@ -57,16 +57,19 @@ struct EstimatorParts : CondensedType::Capacity::Account {
     Values linearized_at;  ///< where the model was linearized there
     bool is_known = false;
   };
+  /// By how much further a jack's wedge is drawn in than the model has it [m].
+  using DrawnFurther = FixedArray<Scalar, JacksType::capacity>;
   /// Where wedges were about to be drawn in, see begin_lock_off(): confirmed.tracker is there.
   struct LockOff {
-    Values linearized_at;  ///< where the model was linearized there
-    FixedArray<Scalar, JacksType::capacity>
-        still_in;    ///< how much of an earlier draw-in a jack's unknown has
-    Scalar sum = 0;  ///< of what the cell at the far end has read since [N]
+    Values linearized_at;   ///< where the model was linearized there
+    DrawnFurther still_in;  ///< how much of an earlier draw-in a jack's unknown has [-]
+    Scalar sum = 0;         ///< of what the cell at the far end has read since [N]
     std::int16_t readings = 0;
     bool is_known = false;
   };
   static constexpr bool has_several = Cap::cables > 1;
+  /// Whether it may be unknown how far a wedge is drawn in.
+  static constexpr bool has_seating = Cap::seating;
   /// Only strokes are compared all along it.
   static constexpr int legs = Cap::strokes && Further > 0 ? 1 : 0;
 
@@ -129,7 +132,8 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   /// Whether a cell at its far end tells how far wedges were drawn in that hold it, or how it drifts.
   bool is_corrected(int c) const {
     bool is_uncertain = drift[c] >= 0;
-    for (int k = 0; k < jacks.size(); ++k) is_uncertain |= jacks.end(k).cable() == c && jacks[k].seating >= 0;
+    for (int k = 0; has_seating && k < jacks.size(); ++k)
+      is_uncertain |= jacks.end(k).cable() == c && jacks[k].seating >= 0;
     return is_uncertain && is_held(c);
   }
 

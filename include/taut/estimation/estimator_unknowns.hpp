@@ -29,9 +29,13 @@ Status number_unknowns(Parts& parts, const typename Parts::Condensed& condensed,
   for (int c = 0; c < linear.cables.size(); ++c) parts.drift[c] = number(prior.drift_sd[c] > 0);
   for (int k = 0; k < jacks.size(); ++k) {
     const int c = jacks.end(k).cable();
-    const bool is_uncertain = prior.seating_sd[c] > 0;
-    const auto seating = static_cast<typename Parts::Scalar>(linear.cables[c].seating);
-    jacks[k].seating = static_cast<std::int16_t>(is_uncertain ? filter.add_draw_in(seating) : -1);
+    jacks[k].seating = -1;
+    if (!(prior.seating_sd[c] > 0)) continue;
+    if (!Parts::has_seating) known = Status::at(Code::capacity_exceeded, Place::cable, c, 1);
+    if constexpr (Parts::has_seating) {
+      const auto seating = static_cast<typename Parts::Scalar>(linear.cables[c].seating);
+      jacks[k].seating = static_cast<std::int16_t>(filter.add_draw_in(seating));
+    }
   }
   if (known) known = filter.end(linear, [&](const auto& add) { return parts.gauges.start(gauges, add); });
   parts.far_ends.start(linear, filter, jacks);

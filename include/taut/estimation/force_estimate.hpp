@@ -83,7 +83,7 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
       const Scalar S = sensitivity(common);
       of_unknowns += S * S * filter.scatter(segment);
     }
-    if (const int p = turned.drawn_by(segment); p >= 0) {
+    if (const int p = turned.drawn_by(segment); Turned::drawn_segments > 0 && p >= 0) {
       const Scalar sd = std::sqrt(larger(belief.variance(p), Scalar(0))), straight = sensitivity(p) * sd,
                    kinked = turned.drawn_deviation(segment, T, sd);
       of_unknowns += larger(kinked * kinked - straight * straight, Scalar(0));

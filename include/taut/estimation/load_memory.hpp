@@ -130,6 +130,7 @@ void remember_load(Parts& parts, int k) {
 /// any. Cost: that of FrictionFilter::remember_seating() for each.
 template <class Parts>
 bool remember_seating(Parts& parts) {
+  if constexpr (!Parts::has_seating) return false;
   bool any = false;
   for (int k = 0; k < parts.jacks.size(); ++k) {
     const auto& jack = parts.jacks[k];

@@ -25,7 +25,7 @@ void for_each_of_lock_off(const Parts& parts, const Visit& visit) {
 template <class Parts, class Visit>
 void for_each_of_lock(const Parts& parts, int k, const Visit& visit) {
   const int seating = parts.jacks[k].seating, drift = parts.drift[parts.jacks.end(k).cable()];
-  if (seating >= 0) visit(seating);
+  if (Parts::has_seating && seating >= 0) visit(seating);
   if (drift >= 0) visit(drift);
 }
 
@@ -49,7 +49,7 @@ void begin_lock_off(Parts& parts) {
   for (int k = 0; k < parts.jacks.size(); ++k) {
     if (!parts.jacks[k].locks_now) continue;
     for_each_of_lock(parts, k, [&](int p) { parts.filter.keep_what_is_known(parts.tracker, p); });
-    keep_draw_in(parts, k);
+    if constexpr (Parts::has_seating) keep_draw_in(parts, k);
   }
   // Not in use while the tracker is not ahead.
   parts.confirmed.tracker = parts.tracker.save();
@@ -83,28 +83,45 @@ bool go_before_lock_off(Parts& parts, typename Parts::Values& values) {
   return go_back_to(parts, parts.confirmed.tracker, parts.lock_off.linearized_at, values);
 }
 
+/// Draws the wedges of the jacks in, by so much [m] more than the model has it or, if they are locked
+/// already, on. False if that has no answer. Cost: that of Tracker::seat().
+template <class Parts>
+[[gnu::noinline]] bool seat(Parts& parts, const typename Parts::DrawnFurther& further) {
+  const auto to = parts.jacks.driven(parts.patterns());
+  return parts.tracker.seat(to, [&](int c, std::size_t end) { return further[parts.jacks.find(c, end)]; })
+      .is_complete();
+}
+
+/// By how much further [m] wedges were drawn in in the last lock-off, with these values of the unknowns.
+template <class Parts>
+typename Parts::DrawnFurther drawn_further(const Parts& parts, const typename Parts::Values& values) {
+  typename Parts::DrawnFurther further;
+  if constexpr (Parts::has_seating)
+    for_each_of_lock_off(parts, [&](int k) {
+      if (const int p = parts.jacks[k].seating; p >= 0) further[k] = values[p];
+    });
+  return further;
+}
+
 /// Draws the wedges of the last lock-off, which is known, in anew, with these values of the unknowns: with
 /// that friction, and by what they say. False if there is no state there; then the tracker is elsewhere.
 /// Cost: those of Tracker::restore(), and of two adjust(), seat() and strain().
 template <class Parts>
-bool lock_anew(Parts& parts, const typename Parts::Values& values) {
+[[gnu::noinline]] bool lock_anew(Parts& parts, const typename Parts::Values& values) {
   auto& tracker = parts.tracker;
   auto& filter = parts.filter;
-  const auto to = parts.jacks.driven(parts.patterns());
   auto before = values;
   if (!go_before_lock_off(parts, before)) return false;
-  const auto progress = tracker.seat(to, [&](int c, std::size_t end) {
-    const int k = parts.jacks.find(c, end), p = parts.jacks[k].seating;
-    return p < 0 || !is_of_lock_off(parts, k) ? typename Parts::Scalar(0) : values[p];
-  });
-  bool is_there = progress.is_complete(), drifts = false;
-  for_each_of_lock_off(parts, [&](int k) {
-    const int p = parts.jacks[k].seating;
-    if (p < 0) return;
-    before[p] = values[p];
-    tracker.draw_in(p, parts.jacks.end(k).cable(), parts.jacks.end(k).end, parts.lock_off.still_in[k]);
-    is_there = is_there && tracker.advance(to).is_complete();
-  });
+  bool is_there = seat(parts, drawn_further(parts, values)), drifts = false;
+  if constexpr (Parts::has_seating)
+    for_each_of_lock_off(parts, [&](int k) {
+      const int p = parts.jacks[k].seating;
+      if (p < 0) return;
+      const auto& at = parts.jacks.end(k);
+      before[p] = values[p];
+      tracker.draw_in(p, at.cable(), at.end, parts.lock_off.still_in[k]);
+      is_there = is_there && tracker.advance(parts.jacks.driven(parts.patterns())).is_complete();
+    });
   for_each_of_lock_off(parts, [&](int k) {
     const auto& at = parts.jacks.end(k);
     const int p = parts.drift[at.cable()];

@@ -35,8 +35,9 @@ Update correct_held(Parts& parts, int e, typename Parts::Scalar reading) {
   int k = 0;
   while (parts.jacks.end(k).cable() != c) ++k;
   Update update = Update::no_information;
-  if (parts.lock_off.is_known && parts.jacks[k].seating >= 0 && is_of_lock_off(parts, k))
-    update = learn_draw_in(parts, k, e, reading);
+  if constexpr (Parts::has_seating)
+    if (parts.lock_off.is_known && parts.jacks[k].seating >= 0 && is_of_lock_off(parts, k))
+      update = learn_draw_in(parts, k, e, reading);
   if (drift < 0) {
     static_cast<void>(far_ends.compare(e, reading, parts.tracker, parts.filter, parts.jacks));
     return update;

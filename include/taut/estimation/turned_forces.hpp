@@ -17,6 +17,8 @@ template <class Scalar, class Cap, int Parameters>
 class TurnedForces {
  public:
   using Values = FixedArray<Scalar, Parameters>;
+  /// Segments beside a wedge of which it may be unknown how far it is drawn in.
+  static constexpr int drawn_segments = Cap::seating ? Cap::segments : 0;
   /// So many standard deviations away friction is still likely.
   static constexpr int far = 2;
 
@@ -96,7 +98,12 @@ class TurnedForces {
     drawn_force_[segment] = force;
   }
   /// That unknown, or -1.
-  int drawn_by(int segment) const { return drawn_by_[segment]; }
+  int drawn_by(int segment) const {
+    if constexpr (drawn_segments == 0)
+      return -1;
+    else
+      return drawn_by_[segment];
+  }
   /// The standard deviation of a force by it, known to `sd` [m], and by how far wedges were drawn in before:
   /// nothing where the segment has gone on since by as much as `far` of them. Cost: a few operations.
   Scalar drawn_deviation(int segment, Scalar force, Scalar sd) const {
@@ -117,10 +124,10 @@ class TurnedForces {
   FixedArray<Scalar, Cap::segments> force_;            // at the turn [N]
   FixedArray<Scalar, Cap::segments> sticks_;           // its derivative there
   FixedArray<Scalar, Cap::segments> found_;            // the one that was found since
-  FixedArray<Scalar, Cap::segments> drawn_force_;      // once a wedge was drawn in [N]
-  FixedArray<Scalar, Cap::segments> drawn_;            // its derivative by the draw-in [N/m]
-  FixedArray<Scalar, Cap::segments> kept_;             // its deviation by earlier draw-ins [N]
-  FixedArray<std::int16_t, Cap::segments> drawn_by_;   // the unknown of that, or -1
+  FixedArray<Scalar, drawn_segments> drawn_force_;     // once a wedge was drawn in [N]
+  FixedArray<Scalar, drawn_segments> drawn_;           // its derivative by the draw-in [N/m]
+  FixedArray<Scalar, drawn_segments> kept_;            // its deviation by earlier draw-ins [N]
+  FixedArray<std::int16_t, drawn_segments> drawn_by_;  // the unknown of that, or -1
   FixedArray<Scalar, Cap::segments> apart_;            // variance of friction that is off the move
   FixedArray<std::int16_t, Cap::segments> leader_of_;  // or -1: it has not turned
 };

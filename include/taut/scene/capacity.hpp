@@ -47,12 +47,14 @@ struct Capacity {
   static constexpr int normals = 2;
   static constexpr int profile = 0;  ///< entries of the structure's factor; 0: enough for any structure
   /// What no scene of this capacity has costs nothing. Who does not know leaves these as they are; a scene
-  /// that has it all the same is refused by Condensation. `taut export` knows, and says so.
+  /// that has it all the same is refused by Condensation, or by Estimator::start(). `taut export` knows, and
+  /// says so.
   static constexpr int spans = -1;         ///< sliding spans of all cables together; -1: as many as segments
   static constexpr bool hoops = true;      ///< closed cables
   static constexpr bool prestrain = true;  ///< segments with a prestrain
   static constexpr bool smooth = true;     ///< joints without friction
   static constexpr bool strokes = true;    ///< strokes of jacks that teach an Estimator
+  static constexpr bool seating = true;    ///< wedges that are drawn in by an unknown length, to an Estimator
   using Watch = Unwatched;  ///< another type with a static took(Route) is called at every event
   /// An object of another type is in every Estimator: begin(FrictionFilter) is called where it begins, and
   /// learned(Alarm of what was read, number of readings, FrictionFilter) after every update.
