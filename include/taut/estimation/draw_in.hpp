@@ -22,7 +22,6 @@ struct DrawIns {
   FixedArray<Scalar, size> away;  ///< how many standard deviations each is from the likeliest
 
   Scalar at(int i) const { return least + static_cast<Scalar>(i) * step; }
-  Scalar most() const { return at(size - 1); }
   void spread(Scalar from, Scalar to) {
     least = from;
     step = (to - from) / (size - 1);
