@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lib/kinds/condensed_kind.hpp"
-#include "lib/kinds/zeroed.hpp"
+#include "lib/kinds/large_objects.hpp"
 
 namespace {
 

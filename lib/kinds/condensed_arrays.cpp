@@ -6,9 +6,9 @@
 
 #include "lib/files/number_range.hpp"
 #include "lib/kinds/condensed_kind.hpp"
+#include "lib/kinds/large_objects.hpp"
 #include "lib/kinds/scene_gauges.hpp"
 #include "lib/kinds/valid_scene.hpp"
-#include "lib/kinds/zeroed.hpp"
 
 namespace taut::host {
 namespace {

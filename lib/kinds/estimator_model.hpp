@@ -9,11 +9,11 @@
 
 #include "lib/kinds/capacities.hpp"
 #include "lib/kinds/condense_scene.hpp"
+#include "lib/kinds/large_objects.hpp"
 #include "lib/kinds/learned_mu.hpp"
 #include "lib/kinds/model.hpp"
 #include "lib/kinds/scene_gauges.hpp"
 #include "lib/kinds/solver_values.hpp"
-#include "lib/kinds/zeroed.hpp"
 #include "taut/estimation/estimator.hpp"
 #include "taut/estimation/unknown_past.hpp"
 
@@ -74,8 +74,7 @@ class EstimatorModel : public Model {
     doubt_past();
     past_->forget();
   }
-  // make_unique() would clear all of it, and what is not written takes no memory.
-  void doubt_past() override { past_.reset(new PastType); }
+  void doubt_past() override { past_ = make_default<PastType>(); }
   void deny_past() override { past_.reset(); }
   bool has_unknown_past() const override { return past_ != nullptr; }
   std::vector<LearnedFriction> learned() const override {

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "lib/kinds/condense_scene.hpp"
+#include "lib/kinds/large_objects.hpp"
 #include "lib/kinds/leg_model.hpp"
 #include "lib/kinds/solver_values.hpp"
-#include "lib/kinds/zeroed.hpp"
 #include "taut/tracking/tracker.hpp"
 
 namespace taut::host {

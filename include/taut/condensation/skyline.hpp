@@ -1,6 +1,7 @@
 // L D L^T factorization of a symmetric positive definite matrix within its skyline, in fixed storage.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -27,7 +28,7 @@ class Skyline {
       diagonal_[i] = used - 1;
     }
     if (used > Entries) return used - Entries;
-    for (int k = 0; k < used; ++k) entries_[k] = 0;
+    for (int k = 0; k < used; ++k) entry(k) = 0;
     return 0;
   }
 
@@ -81,8 +82,10 @@ class Skyline {
   static constexpr Scalar lost_below = 32 * std::numeric_limits<Scalar>::epsilon();
 
   static int larger(int a, int b) { return a > b ? a : b; }
-  Scalar& at(int i, int j) { return entries_[diagonal_[i] - (i - j)]; }
-  const Scalar& at(int i, int j) const { return entries_[diagonal_[i] - (i - j)]; }
+  Scalar& entry(int k) { return entries_[static_cast<std::size_t>(k)]; }
+  const Scalar& entry(int k) const { return entries_[static_cast<std::size_t>(k)]; }
+  Scalar& at(int i, int j) { return entry(diagonal_[i] - (i - j)); }
+  const Scalar& at(int i, int j) const { return entry(diagonal_[i] - (i - j)); }
 
   /// L^T x = b for the leading n unknowns.
   template <class Vector>
@@ -91,7 +94,8 @@ class Skyline {
       for (int j = first_[i]; j < i; ++j) x[j] -= at(i, j) * x[i];
   }
 
-  FixedArray<Scalar, Entries> entries_;
+  // Only those of a matrix are cleared, by reset(), and most are never touched.
+  std::array<Scalar, static_cast<std::size_t>(Entries)> entries_;
   FixedArray<int, Max> first_;
   FixedArray<int, Max> diagonal_;
   int n_ = 0;

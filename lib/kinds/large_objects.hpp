@@ -27,4 +27,10 @@ Zeroed<T> make_zeroed() {
   return Zeroed<T>(static_cast<T*>(memory));
 }
 
+/// An object as its default constructor leaves it: std::make_unique() would write zeros to all of it before.
+template <class T>
+std::unique_ptr<T> make_default() {
+  return std::unique_ptr<T>(new T);
+}
+
 }  // namespace taut::host
