@@ -1,5 +1,6 @@
 // Plays a log to a device and writes what it answers, as `taut estimate --scalar float` would.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -36,8 +37,9 @@ using monitor::host::Reading;
 
 enum ExitStatus : int { done = 0, no_answer = 1, unusable_input = 2 };
 
+/// How one log is played.
 struct Options {
-  std::string device, scene, log, output;
+  std::string scene, log, output;
   std::uint32_t number = 0;
   bool hex = false, restart = false, stack = false;
 };
@@ -211,7 +213,7 @@ class Player {
   Verdict verdict_;  // the device has none
 };
 
-int play(const Options& options) {
+int play(const Options& options, Device& device) {
   const SceneDescription scene = read_scene_file(options.scene);
   LogRules rules;
   rules.are_readings = true;
@@ -220,32 +222,65 @@ int play(const Options& options) {
   keep_inputs(options.output, {options.scene, options.log});
   std::ifstream stream = open_log(options.log);
   LogReader log(stream, options.log, scene, rules);
-  monitor::host::ProcessLink link(options.device);
-  Device device(link);
   OutputFile output(options.output);
   return Player(options, scene, device).play(log, output);
 }
 
-int run(int argc, char** argv) {
-  CLI::App app{"Plays a log to a device and writes its answers."};
-  Options options;
-  app.add_option("SCENE", options.scene, "Scene file (JSON) that the device holds")->required();
-  app.add_option("LOG", options.log, "Log of readings (CSV)")->required();
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("SCENE", options.scene, "Scene file (JSON) that the device holds");
+  app.add_option("LOG", options.log, "Log of readings (CSV)");
   app.add_option("-o", options.output, "Result file (CSV); standard output if absent");
-  app.add_option("--device", options.device, "Command whose standard input and output are the serial line")
-      ->required();
   app.add_option("--scene", options.number,
                  "Number of the scene on the device: those in flash from 0 on, then the one condensed there");
   app.add_flag("--hex", options.hex, "Write numbers as the bits of their IEEE values");
   app.add_flag("--restart", options.restart, "Restart the device after every row");
   app.add_flag("--stack", options.stack, "Say at the end how much stack the device has used [bytes]");
+}
+
+/// One after the other on the same device; the exit status of each is a line of standard output.
+int play_list(const std::string& list, Device& device) {
+  std::ifstream lines(list);
+  if (!lines) throw InputError(list, "", "this list cannot be read", "give the name of a text file");
+  int worst = done;
+  for (std::string line; std::getline(lines, line);) {
+    int status = unusable_input;
+    try {
+      Options options;
+      CLI::App app;
+      add_options(app, options);
+      app.parse(line);
+      status = play(options, device);
+    } catch (const CLI::ParseError& error) {
+      std::cerr << list << ": " << line << ": " << error.what() << '\n';
+    } catch (const InputError& error) {
+      std::cerr << error.what() << '\n';
+    }
+    std::cout << status << std::endl;
+    worst = std::max(worst, status);
+  }
+  return worst;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Plays a log to a device and writes its answers."};
+  Options options;
+  std::string command, list;
+  add_options(app, options);
+  app.add_option("--device", command, "Command whose standard input and output are the serial line")
+      ->required();
+  app.add_option("--list", list,
+                 "File with what else is on this command line for one log a line: all are played to the same "
+                 "device, and their exit statuses written to standard output");
   app.footer("Exit status: 0 done; 1 no answer somewhere, or no device; 2 unusable input.");
   try {
     app.parse(argc, argv);
+    if (list.empty() == options.log.empty()) throw CLI::RequiredError("SCENE and LOG, or --list,");
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? done : unusable_input;
   }
-  return play(options);
+  monitor::host::ProcessLink link(command);
+  Device device(link);
+  return list.empty() ? play(options, device) : play_list(list, device);
 }
 
 }  // namespace

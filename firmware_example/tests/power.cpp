@@ -45,11 +45,14 @@ void cut_at_every_byte(std::uint32_t scene, Begin begin, int torn) {
   constexpr std::uint32_t rows = 6, cut_row = 4;
   const auto [expected, records] = undisturbed(scene, begin, rows);
   const long record = records[cut_row];
+  Plain device;
+  settle(device, scene);
+  for (std::uint32_t number = 1; number < cut_row; ++number)
+    device.ask(sample(number, row_of(scene, begin, number)));
+  const auto memory = device.board.memory;
   for (long cut = 0; cut == 0 || cut <= record; ++cut) {
-    Plain device;
-    settle(device, scene);
-    for (std::uint32_t number = 1; number < cut_row; ++number)
-      device.ask(sample(number, row_of(scene, begin, number)));
+    device.board.memory = memory;
+    device.boot();
     const long before = device.board.written;
     device.board.torn = torn;
     device.board.bytes_until_cut = cut;
