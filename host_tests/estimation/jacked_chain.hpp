@@ -17,8 +17,11 @@ namespace estimation {
 constexpr int segments = 8;
 constexpr double mu = 0.25, likely = 0.3 * mu, jack_sd = 1e-5 * full;
 
-/// The forces of the chain, from the anchored end to the jack, with capstan friction: from each step of the
-/// jack to the next every joint either sticks, or slides to the edge of its cone.
+/// Where a jack pulls.
+enum class Side { start, end };
+
+/// The forces of the chain from start to end, with capstan friction: from each step of a jack to the next
+/// every joint either sticks, or slides to the edge of its cone.
 class Chain {
  public:
   explicit Chain(double friction) : Chain(std::vector<double>(segments - 1, friction)) {}
@@ -26,24 +29,30 @@ class Chain {
   explicit Chain(const std::vector<double>& friction) : mu_(friction), T_(segments, 0) {}
   double operator[](int segment) const { return T_[static_cast<std::size_t>(segment)]; }
 
-  void pull(double force) { T_ = pulled_by(force); }
+  void pull(double force, Side side = Side::end) { T_ = pulled_by(force, side); }
   /// The wedge is drawn in by so much [m].
-  void lock(double seating) {
-    double least = 0, most = T_.back();
+  void lock(double seating, Side side = Side::end) {
+    double least = 0, most = side == Side::end ? T_.back() : T_.front();
     for (int i = 0; i < 200; ++i) {
       const double force = (least + most) / 2;
-      (shortened_by(pulled_by(force)) < seating ? most : least) = force;
+      (shortened_by(pulled_by(force, side)) < seating ? most : least) = force;
     }
-    T_ = pulled_by(most);
+    T_ = pulled_by(most, side);
   }
 
  private:
-  std::vector<double> pulled_by(double force) const {
+  double rho(std::size_t joint) const { return std::exp(-mu_[joint] * support::chain_turn[joint]); }
+  std::vector<double> pulled_by(double force, Side side) const {
     std::vector<double> T = T_;
-    T.back() = force;
-    for (std::size_t i = segments - 1; i-- > 0;) {
-      const double rho = std::exp(-mu_[i] * support::chain_turn[i]);
-      T[i] = std::clamp(T[i], T[i + 1] * rho, T[i + 1] / rho);
+    const auto follow = [&](std::size_t i, std::size_t pulled, double rho) {
+      T[i] = std::clamp(T[i], T[pulled] * rho, T[pulled] / rho);
+    };
+    if (side == Side::end) {
+      T.back() = force;
+      for (std::size_t i = segments - 1; i-- > 0;) follow(i, i + 1, rho(i));
+    } else {
+      T.front() = force;
+      for (std::size_t i = 1; i < segments; ++i) follow(i, i - 1, rho(i - 1));
     }
     return T;
   }
@@ -61,23 +70,26 @@ class Chain {
 /// What is said of the cable beside its seating; `seating_sd` is that of a part of it.
 struct Said {
   double mu_sd = likely, jack_sd = estimation::jack_sd, far_sd = 0, scatter = 0, gain_sd = 0, seating_sd = 0;
+  bool has_two_jacks = false;
 };
 
-/// The estimator of the chain: a jack at its end, and friction that is known to some part.
+/// The estimator of the chain: a jack at its end, perhaps one at its start, and friction that is known to
+/// some part.
 class Jacked {
  public:
   using Model = taut::Condensed<double, PlaneCapacity>;
-  using Estimator = taut::Estimator<Model, 4>;
+  // Friction, and of each of two jacks the draw-in and what friction remembers of its loads.
+  using Estimator = taut::Estimator<Model, 9>;
 
   Jacked(double seating, const Said& said) {
-    auto cable = support::steel_cable(mu);
+    auto cable = support::steel_cable(mu, said.has_two_jacks ? support::two_jacks : support::jacked_end);
     cable.law = taut::FrictionLaw::capstan;
     cable.mu_sd = said.mu_sd;
     cable.shared_mu = true;
     cable.scatter = said.scatter;
     cable.cell[1].sd = said.jack_sd;
     cable.cell[1].gain_sd = said.gain_sd;
-    cable.cell[0].sd = said.far_sd;
+    cable.cell[0].sd = said.has_two_jacks ? said.jack_sd : said.far_sd;
     cable.seating = seating;
     cable.seating_sd = said.seating_sd * seating;
     const auto scene = std::make_unique<Plane>();
@@ -101,6 +113,15 @@ class Jacked {
     readings.ends[0][1].force = force;
     readings.ends[0][0].has_force = far >= 0;
     readings.ends[0][0].force = far;
+    REQUIRE(estimator_.advance(readings).status.ok());
+  }
+  /// A row of two jacks.
+  void row_of_both(double start, double end, bool locked) {
+    taut::Readings<double, PlaneCapacity> readings;
+    readings.dt = 1;
+    readings.sample.jack[0][0].locked = readings.sample.jack[0][1].locked = locked;
+    readings.ends[0][0] = {!locked, false, start, 0};
+    readings.ends[0][1] = {!locked, false, end, 0};
     REQUIRE(estimator_.advance(readings).status.ok());
   }
   taut::ForceEstimate<double> operator[](int segment) const { return estimator_.estimate(segment); }
@@ -132,10 +153,10 @@ struct Score {
 };
 
 /// A ramp, a hold, half of the time a release, and lock-off, perhaps with a cell at the far end: what is
-/// shown of segments once the wedge is drawn in, after so many rows more, and when the jack has taken hold
-/// again.
+/// shown of segments once the wedge is drawn in, after so many rows more, when the jack has taken hold again,
+/// and once the wedge is drawn in a second time.
 struct Locked {
-  Score at_once, later, again;
+  Score at_once, later, again, second;
 };
 template <class Drawn>
 Locked lock_off(const Said& said, int rows, const Drawn& drawn) {
@@ -164,8 +185,11 @@ Locked lock_off(const Said& said, int rows, const Drawn& drawn) {
       go(random.between(0.8, 0.97) * full, 30);
       go(at, 40);
     }
-    const double part = said.seating_sd > 0 ? 1 + said.seating_sd * support::gaussian(random) : 1;
-    chain.lock(seating * std::max(0.0, part));
+    const auto draw_in = [&] {
+      const double part = said.seating_sd > 0 ? 1 + said.seating_sd * support::gaussian(random) : 1;
+      chain.lock(seating * std::max(0.0, part));
+    };
+    draw_in();
     const auto stay = [&](int steps) {
       for (int i = 0; i < steps; ++i) jacked->row(0, true, 1, far_end());
     };
@@ -177,11 +201,15 @@ Locked lock_off(const Said& said, int rows, const Drawn& drawn) {
     go(std::max(at, random.between(0.9, 1.05) * full), 40);
     go(at, 40);
     scores.again.add(*jacked, chain);
+    draw_in();
+    stay(1);
+    scores.second.add(*jacked, chain);
   }
   MESSAGE("seeds from 1: ", 100 * scores.at_once.share(), " % are held once locked, rms ",
           scores.at_once.rms(), "; later ", 100 * scores.later.share(), " %, rms ", scores.later.rms(),
-          "; again ", 100 * scores.again.share(), " %, rms ", scores.again.rms(), "; worst ",
-          std::max({scores.at_once.worst, scores.later.worst, scores.again.worst}));
+          "; again ", 100 * scores.again.share(), " %, rms ", scores.again.rms(), "; locked again ",
+          100 * scores.second.share(), " %, rms ", scores.second.rms(), "; worst ",
+          std::max({scores.at_once.worst, scores.later.worst, scores.again.worst, scores.second.worst}));
   return scores;
 }
 

@@ -31,8 +31,8 @@ namespace taut {
 ///
 /// `Parameters` bounds the number of unknowns that forces depend on: one a cable with a shared mu, one a
 /// joint otherwise; gain, zero and hysteresis of a jack's load cell where they are not known;
-/// remembered_corners() of every jack whose load cell has noise; the draw-in of its wedge; and the strain
-/// that a locked cable takes on by itself. If there is no room for the last three, they are taken for exact.
+/// the draw-in of its wedge; the strain that a locked cable takes on by itself; and remembered_corners() of
+/// every jack whose load cell has noise: if there is no room for these, such loads are taken for exact.
 /// `Further` bounds those that readings alone depend on: gain and zero of cells at anchored ends, and of
 /// gauges. See count_unknowns().
 ///
@@ -80,8 +80,9 @@ class Estimator {
   /// the estimator; `gauges`, a range of LoadCell, are the instruments whose readings take_segment(),
   /// take_strut() and take_stroke() are given. Fails with `capacity_exceeded` if and only if there are more
   /// unknown mu than Parameters, or more gauges, or unknowns of them, than Further (the amount is what is
-  /// missing), or an unknown draw-in of a wedge without Capacity::seating (names the cable), else as
-  /// Tracker::start() does. Cost: that of the prestrain.
+  /// missing), or no room for the unknown draw-in of a wedge, or none without Capacity::seating, or for the
+  /// strain that a locked cable takes on (names the cable), else as Tracker::start() does. Cost: that of the
+  /// prestrain.
   Progress<Scalar> start(const CondensedType& condensed, const PriorType& prior,
                          const AlarmLimits<Scalar>& limits = {});
   template <class Cells>
