@@ -29,6 +29,13 @@ void check_score(const Score& score, double least_rms = 0.6) {
   CHECK(score.rms() < 1.15);
 }
 
+void check_scores(const Locked& scores) {
+  check_score(scores.at_once);
+  check_score(scores.later);
+  // Of what the first wedge was drawn in by, more is taken to be left than is.
+  check_score(scores.second, 0.5);
+}
+
 /// Two jacks pull and are locked in one row, each with a draw-in of its own.
 Score lock_both(const Said& said) {
   Score score;
@@ -45,8 +52,7 @@ Score lock_both(const Said& said) {
       jacked->row_of_both(read(force), read(force), false);
     }
     const double middle = chain[4];
-    for (const Side side : {Side::start, Side::end})
-      chain.lock(seating * std::max(0.0, 1 + said.seating_sd * support::gaussian(random)), side);
+    for (const Side side : {Side::start, Side::end}) chain.lock(said.drawn_in(seating, random), side);
     // What both reach has no closed form.
     REQUIRE(chain[4] == middle);
     for (int i = 0; i < 3; ++i) jacked->row_of_both(0, 0, true);
@@ -59,19 +65,11 @@ Score lock_both(const Said& said) {
 }  // namespace
 
 TEST_CASE("what a wedge leaves is as uncertain as its draw-in, whichever joint it reaches") {
-  const auto scores = lock_off(said(0, 0.5), 3, alike);
-  check_score(scores.at_once);
-  check_score(scores.later);
-  // Of what the first wedge was drawn in by, more is taken to be left than is.
-  check_score(scores.second, 0.5);
+  check_scores(lock_off(said(0, 0.5), 3, alike));
 }
 
 TEST_CASE("a far end that a wedge did not reach tells that its draw-in is less, and not by how much") {
-  const auto scores = lock_off(said(2e-3 * full, 0.5), 40, alike);
-  check_score(scores.at_once);
-  check_score(scores.later);
-  // Of what the first wedge was drawn in by, more is taken to be left than is.
-  check_score(scores.second, 0.5);
+  check_scores(lock_off(said(2e-3 * full, 0.5), 40, alike));
 }
 
 TEST_CASE("two wedges that are drawn in in the same row leave what each of them may leave") {
@@ -104,5 +102,10 @@ TEST_CASE("a draw-in, or a strain while locked, that finds no room is refused wi
     CHECK(refused.code == taut::Code::capacity_exceeded);
     CHECK(refused.place == taut::Place::cable);
     CHECK(refused.index == 0);
+    // A mu a joint comes first: what it lacks is said.
+    prior.shared[0] = false;
+    const auto of_friction = taut::Estimator<Model, 3>().start(model, prior).status;
+    CHECK(of_friction.place == taut::Place::none);
+    CHECK(of_friction.amount == segments - 1 - 3);
   }
 }

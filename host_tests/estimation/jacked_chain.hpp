@@ -71,6 +71,11 @@ class Chain {
 struct Said {
   double mu_sd = likely, jack_sd = estimation::jack_sd, far_sd = 0, scatter = 0, gain_sd = 0, seating_sd = 0;
   bool has_two_jacks = false;
+
+  /// What a wedge is really drawn in by [m].
+  double drawn_in(double seating, support::Random& random) const {
+    return seating * (seating_sd > 0 ? std::max(0.0, 1 + seating_sd * support::gaussian(random)) : 1);
+  }
 };
 
 /// The estimator of the chain: a jack at its end, perhaps one at its start, and friction that is known to
@@ -185,11 +190,7 @@ Locked lock_off(const Said& said, int rows, const Drawn& drawn) {
       go(random.between(0.8, 0.97) * full, 30);
       go(at, 40);
     }
-    const auto draw_in = [&] {
-      const double part = said.seating_sd > 0 ? 1 + said.seating_sd * support::gaussian(random) : 1;
-      chain.lock(seating * std::max(0.0, part));
-    };
-    draw_in();
+    chain.lock(said.drawn_in(seating, random));
     const auto stay = [&](int steps) {
       for (int i = 0; i < steps; ++i) jacked->row(0, true, 1, far_end());
     };
@@ -201,7 +202,7 @@ Locked lock_off(const Said& said, int rows, const Drawn& drawn) {
     go(std::max(at, random.between(0.9, 1.05) * full), 40);
     go(at, 40);
     scores.again.add(*jacked, chain);
-    draw_in();
+    chain.lock(said.drawn_in(seating, random));
     stay(1);
     scores.second.add(*jacked, chain);
   }

@@ -80,9 +80,9 @@ class Estimator {
   /// the estimator; `gauges`, a range of LoadCell, are the instruments whose readings take_segment(),
   /// take_strut() and take_stroke() are given. Fails with `capacity_exceeded` if and only if there are more
   /// unknown mu than Parameters, or more gauges, or unknowns of them, than Further (the amount is what is
-  /// missing), or no room for the unknown draw-in of a wedge, or none without Capacity::seating, or for the
-  /// strain that a locked cable takes on (names the cable), else as Tracker::start() does. Cost: that of the
-  /// prestrain.
+  /// missing), or no room for the unknown draw-in of a wedge, as is the case without Capacity::seating, or
+  /// for the strain that a locked cable takes on (names the cable), else as Tracker::start() does. Cost: that
+  /// of the prestrain.
   Progress<Scalar> start(const CondensedType& condensed, const PriorType& prior,
                          const AlarmLimits<Scalar>& limits = {});
   template <class Cells>

@@ -26,21 +26,22 @@ Status number_unknowns(Parts& parts, const typename Parts::Condensed& condensed,
   const auto corners = static_cast<std::size_t>(remembered_corners(load_patterns(linear), jacks.size()));
   for (std::size_t m = 0; m < corners; ++m)
     for (int k = 0; k < jacks.size(); ++k) jacks[k].memory[m] = number(jacks.in(prior.cell, k).sd > 0);
-  const auto no_room = [](int c) { return Status::at(Code::capacity_exceeded, Place::cable, c, 1); };
+  const auto refuse = [&known](int c) {
+    if (known) known = Status::at(Code::capacity_exceeded, Place::cable, c, 1);
+  };
   for (int c = 0; c < linear.cables.size(); ++c) {
     parts.drift[c] = number(prior.drift_sd[c] > 0);
-    if (prior.drift_sd[c] > 0 && parts.drift[c] < 0) known = no_room(c);
+    if (prior.drift_sd[c] > 0 && parts.drift[c] < 0) refuse(c);
   }
   for (int k = 0; k < jacks.size(); ++k) {
     const int c = jacks.end(k).cable();
     jacks[k].seating = -1;
     if (!(prior.seating_sd[c] > 0)) continue;
-    if (!Parts::has_seating) known = no_room(c);
     if constexpr (Parts::has_seating) {
       const auto seating = static_cast<typename Parts::Scalar>(linear.cables[c].seating);
       jacks[k].seating = static_cast<std::int16_t>(filter.add_draw_in(seating));
-      if (jacks[k].seating < 0) known = no_room(c);
     }
+    if (jacks[k].seating < 0) refuse(c);
   }
   if (known) known = filter.end(linear, [&](const auto& add) { return parts.gauges.start(gauges, add); });
   parts.far_ends.start(linear, filter, jacks);

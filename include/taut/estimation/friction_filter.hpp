@@ -97,8 +97,8 @@ class FrictionFilter {
     if (missing > 0) return Status::at(Code::capacity_exceeded, Place::none, Parameters, missing);
     return Status::success();
   }
-  /// After start(): room for the error of a load that friction will remember. Returns its number, or -1 if
-  /// there is none: then such loads are taken for exact.
+  /// After start(): room for the error of a load that friction will remember, or for the strain of a locked
+  /// cable. Returns its number, or -1 if there is none.
   int add_load_error() { return belief_.size() < Parameters ? belief_.add(Scalar(0)) : -1; }
   /// The same for how much further than `seating` [m] a wedge will be drawn in: none comes out.
   int add_draw_in(Scalar seating) {
