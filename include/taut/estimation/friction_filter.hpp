@@ -389,7 +389,9 @@ class FrictionFilter {
     while (j >= model.cables[c].first_joint + model.cables[c].joints()) ++c;
     const Scalar at = unknowns[p];
     const auto weight = static_cast<Real>(weight_[j]);
-    const auto limit = prior_->limit(c, j, prior_->mu[j] + weight * static_cast<Real>(at));
+    // The bound of what is unknown is rounded: below zero friction would push, and no state obeys that.
+    const Real mu = larger(prior_->mu[j] + weight * static_cast<Real>(at), Real(0));
+    const auto limit = prior_->limit(c, j, mu);
     return {at == 0 ? model.rho[j] : limit.rho, p, weight * limit.slope};
   }
   /// Whether friction of cable `c` matters to the predicted number.
