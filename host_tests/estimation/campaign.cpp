@@ -49,7 +49,9 @@ std::vector<Row> random_log(Random& random) {
     const int samples = 20 + random.below(150);
     for (int i = 0; i < samples; ++i) rows.push_back({full * at, locked});
   };
-  ramp(random.between(0.3, 1), 50 + random.below(300));
+  // One draw a statement: compilers differ in which argument they evaluate first.
+  const int samples = 50 + random.below(300);
+  ramp(random.between(0.3, 1), samples);
   hold(false);
   const int pieces = random.below(4);
   for (int piece = 0; piece < pieces; ++piece) {

@@ -101,7 +101,7 @@ TEST_CASE("derivatives by the strain of a locked cable are those of trackers wit
           sample.factor[model.loads - 1] = warmed.kelvin + (warmed.is_warm ? kelvin * way : 0);
           REQUIRE((*trackers)[static_cast<std::size_t>(way + 1)].advance(sample).status.ok());
         }
-        auto& [colder, at, warmer] = *trackers;
+        Follower &colder = (*trackers)[0], &at = (*trackers)[1], &warmer = (*trackers)[2];
         if (warmed.begins) REQUIRE(at.strain(2, 0, end, known.length).ok());
         if (!warmed.is_warm) continue;
         for (int i = 0; i < model.segments; ++i) {

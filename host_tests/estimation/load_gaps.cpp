@@ -96,7 +96,7 @@ TEST_CASE("a reading that is refused leaves the load where it was, and less cert
       const ConditionedLoad<float> before = ramp.now();
       const ConditionedLoad<float> now = ramp.read(reading, 1);
       REQUIRE(now.refused);
-      const double moved = (now.load - before.load) / before.sd;
+      const double moved = static_cast<double>((now.load - before.load) / before.sd);
       square += moved * moved / 100;
       CHECK(now.confirmed == before.confirmed);
       CHECK(now.sd > before.sd);

@@ -637,8 +637,9 @@ TEST_CASE("two logs with a state between them have the bits of one") {
   const std::string log = loop_log(0.36), head = log.substr(0, log.find('\n') + 1);
   // Also where half of mu is taken for a deviation that the scene does not say.
   for (const std::string friction : {R"("mu": 0.3, "mu_sd": 0.09, "shared": true)", R"("mu": 0.3)"})
-    for (const auto& [scalar, rows] :
-         {std::pair("double", 2), std::pair("double", 130), std::pair("float", 70)}) {
+    for (const auto& way : {std::pair("double", 2), std::pair("double", 130), std::pair("float", 70)}) {
+      const char* const scalar = way.first;
+      const int rows = way.second;
       CAPTURE(friction);
       CAPTURE(rows);
       write(scratch, "scene.json", scene(friction, loop_sensors));

@@ -47,8 +47,8 @@ struct Outcome {
 /// Runs taut with the arguments, by a shell that has run `before`; TAUT_PROGRAM is its path.
 inline Outcome run_taut(const Scratch& scratch, const std::string& arguments,
                         const std::string& before = "true") {
-  const std::string command = before + " && '" TAUT_PROGRAM "' " + arguments + " > " + scratch.quoted("out") +
-                              " 2> " + scratch.quoted("err");
+  const std::string command = before + " && exec '" TAUT_PROGRAM "' " + arguments + " > " +
+                              scratch.quoted("out") + " 2> " + scratch.quoted("err");
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(scratch.path / "out"),
           text_of(scratch.path / "err")};

@@ -12,9 +12,8 @@
 namespace {
 
 struct Roof : taut::Capacity {
-  static constexpr int nodes = 9, struts = 6, beams = 5, cables = 2, segments = 7, joints = 5;
-  static constexpr int substructures = 1, substructure_nodes = 4, substructure_entries = 12;
-  static constexpr int loads = 2, forces = 3, temperatures = 2, displacements = 3;
+  static constexpr int struts = 6, beams = 5, cables = 2, segments = 7, joints = 5;
+  static constexpr int substructures = 1, loads = 2, displacements = 3;
 };
 
 // Stores that the compiler may not leave out, though the lifetime of an object begins after them.

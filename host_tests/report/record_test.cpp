@@ -361,7 +361,9 @@ TEST_CASE("a job that does not fit is refused with the place, and nothing is wri
       {R"({ "taut": 1, "stages": [ { "C.end": -1 } ] })", "/stages/0/C.end"},
       {R"({ "taut": 1, "tolerance": { "force": 5 } })", "/tolerance/force"},
       {R"({ "taut": 1, )", "job.json"}};
-  for (const auto& [job, place] : wrong) {
+  for (const auto& each : wrong) {
+    const auto& job = each.first;
+    const auto& place = each.second;
     CAPTURE(job);
     const Scratch scratch;
     const Outcome outcome = report_on(scratch, log_with_strokes(1.0), job_of(scratch, job));
@@ -376,8 +378,10 @@ TEST_CASE("a job that does not fit is refused with the place, and nothing is wri
 }
 
 TEST_CASE("a report speaks the language that it is asked for, names excepted") {
-  for (const auto& [code, title] :
+  for (const auto& each :
        {std::pair{"en", "Stressing record"}, {"zh", "张拉记录"}, {"de", "Spannprotokoll"}}) {
+    const char* const code = each.first;
+    const char* const title = each.second;
     CAPTURE(code);
     const Scratch scratch;
     REQUIRE(report_on(scratch, log_with_strokes(1.1), std::string(" --language ") + code).status == 0);
@@ -402,17 +406,20 @@ TEST_CASE(
     "cables": [ { "name": "C", "path": ["a", "b", "c"], "E": 2e11, "A": 1e-4, "start": "jacked", "end": "jacked",
                   "friction": { "law": "point", "mu": 0.1 } } ],
     "loads": { "dead": { "forces": { "b": [0, -1] } } } })";
-  for (const auto& [code, ends, remark] :
-       {std::tuple{"de", "das Seil wird durchgezogen", "Seil &quot;C&quot; hat kein &quot;mu_sd&quot;"},
-        {"zh", "索被整体拉过", "索 &quot;C&quot; 没有 &quot;mu_sd&quot;"}}) {
-    CAPTURE(code);
+  struct Words {
+    const char *code, *ends, *remark;
+  };
+  for (const auto& words :
+       {Words{"de", "das Seil wird durchgezogen", "Seil &quot;C&quot; hat kein &quot;mu_sd&quot;"},
+        Words{"zh", "索被整体拉过", "索 &quot;C&quot; 没有 &quot;mu_sd&quot;"}}) {
+    CAPTURE(words.code);
     const Scratch scratch;
     std::ofstream(scratch.path / "scene.json") << scene;
     std::ofstream(scratch.path / "log.csv")
         << "time,C.start,C.end\n1,10000,10000\n2,20000,20000\n3,20000,40000\n";
     const Outcome outcome =
         run_taut(scratch, "report " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv") +
-                              " -o " + scratch.quoted("page.html") + " --language " + code);
+                              " -o " + scratch.quoted("page.html") + " --language " + words.code);
     CHECK(has(outcome.err,
               "the cable is pulled through: the jack forces differ by more than all friction; "
               "bring the jack forces closer together, or anchor one end"));
@@ -420,8 +427,8 @@ TEST_CASE(
     CHECK(has(outcome.err, "remark: the log has no column \"dead\""));
     const std::string page = text_of(scratch.path / "page.html");
     CHECK(WellFormed(page)() == "");
-    CHECK(has(page, ends));
-    CHECK(has(page, remark));
+    CHECK(has(page, words.ends));
+    CHECK(has(page, words.remark));
     for (const char* english : {"pulled through", "closer together", "half of mu", "no column", "taken for",
                                 "row 3", "line 4", " time "}) {
       CAPTURE(english);

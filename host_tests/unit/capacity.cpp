@@ -111,7 +111,8 @@ void check_bits() {
       REQUIRE(whole.tracker.tension(i) == less.tracker.tension(i));
       REQUIRE(whole.tracker.sensitivity(0, i) == less.tracker.sensitivity(0, i));
     }
-    const auto moved = whole.tracker.slip_state(), other = less.tracker.slip_state();
+    const auto moved = whole.tracker.slip_state();
+    const auto other = less.tracker.slip_state();
     REQUIRE(moved.slip == other.slip);
     REQUIRE(moved.extension[0] == other.extension[0]);
     REQUIRE(moved.slack_length[0] == other.slack_length[0]);

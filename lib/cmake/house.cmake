@@ -5,13 +5,19 @@ if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYP
   set(CMAKE_BUILD_TYPE Release) # without optimisation Eigen is slower by a factor of ten or more
 endif()
 
+if(NOT DEFINED CMAKE_CXX_STANDARD)
+  set(CMAKE_CXX_STANDARD 17) # what does not link taut::taut would get the compiler's own
+endif()
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}) # build/host/taut, not build/host/lib/taut
 
-# The warnings of the house, for private use by every target.
+# The warnings of the house, for private use by every target. GCC leaves signs out of -Wconversion, Clang does not: there
+# taut's headers are compiled with them (package.headers_clang), its own programs and tests are not.
+set(TAUT_WARNINGS -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Werror)
 add_library(taut_warnings INTERFACE)
-target_compile_options(taut_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow
-                                               -Werror)
+target_compile_options(taut_warnings INTERFACE ${TAUT_WARNINGS}
+                                               $<$<CXX_COMPILER_ID:Clang,AppleClang>:-Wno-sign-conversion>)
 
 # GCC looks for memory that it no longer needs from 128 MB on, again and again, a tenth of its time; the largest files take
 # more than this in any case.

@@ -112,13 +112,14 @@ void add_plan(const LiveAnswer& live, std::size_t columns, std::vector<std::stri
 
 std::vector<std::string> screen_text(const SceneDescription& scene, const LiveAnswer& live, std::size_t rows,
                                      std::size_t columns) {
-  constexpr std::size_t label = 8, number = 12, half = 9;
+  constexpr std::size_t label = 8, number = 12, short_number = 9;
   const ForceUnit unit = unit_of(live);
   const Answer& answer = live.answer;
   double most = 0;
   for (std::size_t i = 0; i < answer.tension.size(); ++i)
     most = std::max(most, force_band(answer.tension[i], answer.deviation[i])[1]);
-  const std::size_t width = columns > label + number + half + 12 ? columns - label - number - half - 3 : 10;
+  const std::size_t width =
+      columns > label + number + short_number + 12 ? columns - label - number - short_number - 3 : 10;
 
   std::vector<std::string> lines = {scene.name + "   " + time_text(live.time) + "   row " +
                                     std::to_string(live.row)};
@@ -137,13 +138,13 @@ std::vector<std::string> screen_text(const SceneDescription& scene, const LiveAn
     for (std::size_t i = 0; i < cable.segments(); ++i) {
       const double force = answer.tension[first.segment + i], sd = answer.deviation[first.segment + i];
       lines.push_back(padded("  T" + std::to_string(i + 1), label) + right(unit.text(force), number) + " " +
-                      padded("\u00b1" + unit.deviation(band_width * sd), half) + " " +
+                      padded("\u00b1" + unit.deviation(band_width * sd), short_number) + " " +
                       bar(force, force_band(force, sd), most, width));
       // A closed cable has its joint 1 between the last segment and the first.
       const std::size_t j = cable.closed ? (i + 1) % cable.segments() : i;
       if (i >= cable.joints() && !cable.closed) continue;
       lines.push_back(padded("", label) + right("joint " + std::to_string(j + 1), number) + " " +
-                      padded(state_word(answer.state[first.joint + j]), half) + " mu " +
+                      padded(state_word(answer.state[first.joint + j]), short_number) + " mu " +
                       fixed(answer.mu[first.joint + j], 3) + " \u00b1" +
                       significant(band_width * answer.mu_deviation[first.joint + j], 2));
     }

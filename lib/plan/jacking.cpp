@@ -20,12 +20,12 @@ constexpr double most_slack = 0.01;
 std::vector<PlanJack> plan_jacks(const SceneDescription& scene, const PlanGoal& goal,
                                  const std::vector<double>& most_possible) {
   // A log may hold what is given as its limit, and a limit may not fail by a rounding.
-  constexpr double just_below = 1 - 1e-12;
+  constexpr double within_reach = 1 - 1e-12;
   std::vector<PlanJack> jacks;
   for (std::size_t c = 0; c < scene.cables.size(); ++c) {
     const CableDescription& cable = scene.cables[c];
-    double most = just_below * most_possible[c];
-    if (scene.plausible) most = std::min(most, just_below * largest_plausible_strain * cable.E * cable.A);
+    double most = within_reach * most_possible[c];
+    if (scene.plausible) most = std::min(most, within_reach * largest_plausible_strain * cable.E * cable.A);
     for (std::size_t end = 0; end < 2; ++end)
       if (cable.is_jacked(end))
         jacks.push_back({c, end, std::min(most, goal.most_force[c][end]), goal.most_stroke[c][end],

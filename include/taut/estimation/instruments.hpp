@@ -74,7 +74,8 @@ template <class Cables, class IsSelfLocking, class PriorType>
 constexpr UnknownCounts count_unknowns(const Cables& cables, const IsSelfLocking& is_self_locking,
                                        const PriorType& known, int load_patterns) {
   UnknownCounts count;
-  int jacks = 0, noisy_jacks = 0, c = 0;
+  int jacks = 0, noisy_jacks = 0;
+  decltype(cables.size()) c = 0;  // a vector counts without sign
   for (const auto& cable : cables) {
     int free = 0;
     for (int j = 0; j < cable.joints(); ++j) free += is_self_locking(cable.first_joint + j) ? 0 : 1;
