@@ -127,7 +127,7 @@ TEST_CASE("an event budget that is spent is said, and the same sample goes on fr
     CHECK(alarms(answer).bits() == 0);
     const Fields expected = free.ask(sample(number, row));
     for (std::size_t i = 0; i < 4; ++i)
-      CHECK(tension(answer, i) == doctest::Approx(double{tension(expected, i)}).epsilon(1e-5));
+      CHECK(tension(answer, i) == doctest::Approx(static_cast<double>(tension(expected, i))).epsilon(1e-5));
   }
   CHECK(behind > 0);
 }

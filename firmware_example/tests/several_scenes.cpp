@@ -48,7 +48,7 @@ TEST_CASE("scenes of one source have numbers one after the other, and answers of
   CHECK(quality(with_rough) == 'g');
   // Segment 1 is at the jack, segment 0 behind the joint.
   CHECK(tension(with_rough, 1) == tension(with_smooth, 1));
-  CHECK(tension(with_rough, 0) == doctest::Approx(double{tension(with_smooth, 0)} / 2));
+  CHECK(tension(with_rough, 0) == doctest::Approx(static_cast<double>(tension(with_smooth, 0)) / 2));
   device.ask(choose(smooth));
   CHECK(state(pull(device)) == state(with_smooth));
   CHECK(device.ask(choose(2)) == Fields{"E", "scene"});
