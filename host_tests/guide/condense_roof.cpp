@@ -99,7 +99,7 @@ class Roof {
       const auto& chain = beam.at("nodes");
       for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
         const auto &from = scene.at("nodes").at(chain[i]), &to = scene.at("nodes").at(chain[i + 1]);
-        const auto step = [&](std::size_t axis) { return to[axis].get<double>() - from[axis].get<double>(); };
+        const auto step = [&](int axis) { return to[axis].get<double>() - from[axis].get<double>(); };
         const Member member(step(0), step(1), beam.at("E"), beam.at("A"), beam.at("I"), thrust);
         for (int r = 0; r < 6; ++r)
           for (int c = 0; c < 6; ++c) {
