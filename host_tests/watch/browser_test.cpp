@@ -58,10 +58,13 @@ class Browser {
   Browser& operator=(const Browser&) = delete;
 
   bool is_there() const { return !session_.empty(); }
+  /// Ends when the page is there as a whole: one that is still coming in shows its time before its tables.
   void visit(const std::string& url) {
     call("Emulation.setDeviceMetricsOverride",
          {{"width", 390}, {"height", 844}, {"deviceScaleFactor", 1}, {"mobile", true}});
     call("Page.navigate", {{"url", url}});
+    REQUIRE(
+        comes_true([&] { return value("document.readyState === 'complete' ? location.href : ''") == url; }));
   }
   void use_dark(bool is_dark) {
     call("Emulation.setEmulatedMedia",
