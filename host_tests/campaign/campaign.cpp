@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -14,6 +13,7 @@
 
 #include "campaign/world.hpp"
 #include "reference/reference.hpp"
+#include "support/campaign_options.hpp"
 #include "support/equilibrium.hpp"
 #include "support/run.hpp"
 #include "taut/stepwise/stepwise.hpp"
@@ -370,14 +370,14 @@ bool report(Tally& tally) {
 int main(int argc, char** argv) {
   long count = 2000, seed = 1;
   int threads = 1;
-  for (int i = 1; i < argc; ++i) {
-    const char* value = i + 1 < argc ? argv[i + 1] : "0";
-    if (std::strcmp(argv[i], "--count") == 0) count = std::atol(value);
-    if (std::strcmp(argv[i], "--seed") == 0) seed = std::atol(value);
-    if (std::strcmp(argv[i], "--threads") == 0) threads = std::atoi(value);
-    if (std::strcmp(argv[i], "--no-float") == 0) campaign::in_float = false;
-    if (std::strcmp(argv[i], "--one") == 0) campaign::talkative = true;
-  }
+  bool no_float = false;
+  support::read_options(argc, argv,
+                        {{"--count", &count},
+                         {"--seed", &seed},
+                         {"--threads", &threads},
+                         {"--no-float", &no_float},
+                         {"--one", &campaign::talkative}});
+  campaign::in_float = !no_float;
   if (campaign::talkative) count = 1;
   campaign::Tally tally = campaign::try_all(std::uint64_t(seed), count, threads);
   return campaign::report(tally) ? 0 : 1;

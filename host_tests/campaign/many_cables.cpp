@@ -10,7 +10,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -19,6 +18,7 @@
 #include "campaign/many_cables_run.hpp"
 #include "campaign/many_cables_stepwise.hpp"
 #include "reference/reference.hpp"
+#include "support/campaign_options.hpp"
 
 namespace campaign {
 namespace {
@@ -386,16 +386,16 @@ int main(int argc, char** argv) {
   long count = 200, seed = 1;
   int threads = 1, slow = 20;
   std::string only;
-  for (int i = 1; i < argc; ++i) {
-    const char* value = i + 1 < argc ? argv[i + 1] : "0";
-    if (std::strcmp(argv[i], "--count") == 0) count = std::atol(value);
-    if (std::strcmp(argv[i], "--seed") == 0) seed = std::atol(value);
-    if (std::strcmp(argv[i], "--threads") == 0) threads = std::atoi(value);
-    if (std::strcmp(argv[i], "--kind") == 0) only = value;
-    if (std::strcmp(argv[i], "--judge") == 0) slow = std::atoi(value);
-    if (std::strcmp(argv[i], "--no-float") == 0) campaign::in_float = false;
-    if (std::strcmp(argv[i], "--one") == 0) campaign::talkative = true;
-  }
+  bool no_float = false;
+  support::read_options(argc, argv,
+                        {{"--count", &count},
+                         {"--seed", &seed},
+                         {"--threads", &threads},
+                         {"--kind", &only},
+                         {"--judge", &slow},
+                         {"--no-float", &no_float},
+                         {"--one", &campaign::talkative}});
+  campaign::in_float = !no_float;
   if (campaign::talkative) count = 1;
   bool known = only.empty(), good = true;
   for (int k = 0; k < static_cast<int>(ManyKind::count); ++k) {

@@ -234,8 +234,8 @@ class WebMaker {
     const double width = random_.between(2, 5), sag = random_.between(-2, 2), off = random_.between(0, 0.8);
     const auto at = [&](int i, int j) {
       const double u = 2.0 * i / (nx + 1) - 1, v = 2.0 * j / (ny + 1) - 1;
-      return point(width * i + random_.between(-off, off), width * j + random_.between(-off, off),
-                   sag * (u * u - v * v) + 3);
+      const double y = width * j + random_.between(-off, off), x = width * i + random_.between(-off, off);
+      return point(x, y, sag * (u * u - v * v) + 3);
     };
     std::vector<std::vector<int>> node(std::size_t(nx + 2), std::vector<int>(std::size_t(ny + 2), -1));
     for (int i = 0; i < nx + 2; ++i)
@@ -271,9 +271,9 @@ class WebMaker {
     for (int i = 0; i < side; ++i)
       for (int j = 0; j < side; ++j) {
         const bool corner = (i == 0 || i == side - 1) && (j == 0 || j == side - 1);
-        node.push_back(scene_.add_node(point(4 * i + random_.between(-0.7, 0.7),
-                                             4 * j + random_.between(-0.7, 0.7), random_.between(-1.5, 2.5)),
-                                       corner ? all_held() : std::uint8_t(taut::held_none)));
+        const double z = random_.between(-1.5, 2.5), y = 4 * j + random_.between(-0.7, 0.7),
+                     x = 4 * i + random_.between(-0.7, 0.7);
+        node.push_back(scene_.add_node(point(x, y, z), corner ? all_held() : std::uint8_t(taut::held_none)));
         if (!corner) spring(node.back(), 3e4, 5e7);
       }
     for (int k = 0; k < side; ++k) {
@@ -500,7 +500,8 @@ class WebMaker {
   void lock_slack() {
     const int way = random_.below(3);
     if (way == 0) {
-      curve(2 + random_.below(7), random_.coin());
+      const bool capstan = random_.coin();
+      curve(2 + random_.below(7), capstan);
       force_ = 2e5;
       loads(2, 3e4);
     } else if (way == 1) {

@@ -49,7 +49,8 @@ Score lock_both(const Said& said) {
       const double force = full * std::min(1.0, i / 80.0);
       chain.pull(force, Side::start);
       chain.pull(force, Side::end);
-      jacked->row_of_both(read(force), read(force), false);
+      const double end = read(force);
+      jacked->row_of_both(read(force), end, false);
     }
     const double middle = chain[4];
     for (const Side side : {Side::start, Side::end}) chain.lock(said.drawn_in(seating, random), side);

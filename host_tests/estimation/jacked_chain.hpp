@@ -180,7 +180,8 @@ Locked lock_off(const Said& said, int rows, const Drawn& drawn) {
       for (int i = 1; i <= steps; ++i) {
         const double force = at + (to - at) * i / steps;
         chain.pull(force);
-        jacked->row(gain * (force + said.jack_sd * support::gaussian(random)), false, 1, far_end());
+        const double far = far_end();
+        jacked->row(gain * (force + said.jack_sd * support::gaussian(random)), false, 1, far);
       }
       at = to;
     };

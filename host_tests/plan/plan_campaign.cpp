@@ -19,9 +19,9 @@
 #include "lib/plan/objective.hpp"
 #include "lib/plan/plan_log.hpp"
 #include "lib/plan/prior.hpp"
-#include "plan/campaign_options.hpp"
 #include "plan/core_jack.hpp"
 #include "plan/random_scene.hpp"
+#include "support/campaign_options.hpp"
 
 namespace {
 
@@ -126,8 +126,8 @@ double best_of_random(const Site& site, Rows& rows, Random& random, int count) {
     const double start = target * random.between(0.7, 1.8), end = target * random.between(0.7, 1.8);
     if (!rows.go(start, end)) continue;
     best = std::min(best, rows.error());
-    if (rows.go(start * random.between(0.5, 1.05), end * random.between(0.5, 1.05)))
-      best = std::min(best, rows.error());
+    const double then_end = end * random.between(0.5, 1.05), then_start = start * random.between(0.5, 1.05);
+    if (rows.go(then_start, then_end)) best = std::min(best, rows.error());
   }
   return best;
 }
@@ -423,14 +423,14 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  read_options(argc, argv,
-               {{"--one", &options.one},
-                {"--grid", &options.grid},
-                {"--three", &options.three},
-                {"--coarse", &options.coarse},
-                {"--two", &options.two},
-                {"--random", &options.random},
-                {"--first", &options.first},
-                {"--seed", &options.seed}});
+  support::read_options(argc, argv,
+                        {{"--one", &options.one},
+                         {"--grid", &options.grid},
+                         {"--three", &options.three},
+                         {"--coarse", &options.coarse},
+                         {"--two", &options.two},
+                         {"--random", &options.random},
+                         {"--first", &options.first},
+                         {"--seed", &options.seed}});
   return run(options);
 }

@@ -13,8 +13,8 @@
 
 #include "lib/plan/objective.hpp"
 #include "lib/plan/robust_plan.hpp"
-#include "plan/campaign_options.hpp"
 #include "plan/random_scene.hpp"
+#include "support/campaign_options.hpp"
 
 namespace {
 
@@ -133,10 +133,10 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  read_options(argc, argv,
-               {{"--scenes", &options.scenes},
-                {"--grid", &options.grid},
-                {"--first", &options.first},
-                {"--seed", &options.seed}});
+  support::read_options(argc, argv,
+                        {{"--scenes", &options.scenes},
+                         {"--grid", &options.grid},
+                         {"--first", &options.first},
+                         {"--seed", &options.seed}});
   return run(options);
 }
