@@ -259,8 +259,8 @@ TEST_CASE("a jack that is put back on a locked end is read on the upper branch")
   REQUIRE_FALSE(jack.take(true, {}, 1, cell, huge, {}, corners));
   CHECK(corners.locks);
   CHECK(jack.locked);
-  taut::ForceEstimate<double> held;
-  held.force = 780;
+  taut::HeldByWedge<double> held;
+  held.driven = held.load = 780;
   taut::EndReading<double> given;
   given.has_force = true;
   for (const double force : {850.0, 1100.0, 1200.0}) {
@@ -288,8 +288,8 @@ TEST_CASE("the load that a ram pulls after its end was locked is that of its rea
     taut::Corners<double> corners;
     REQUIRE_FALSE(jack.take(true, {}, 1, cell, huge, {}, corners));
     CHECK(corners.locks);
-    taut::ForceEstimate<double> held;
-    held.force = 1000;
+    taut::HeldByWedge<double> held;
+    held.driven = held.load = 1000;
     held.deviation = sd;
     for (int i = 0; i <= 100; ++i) {
       CAPTURE(i);

@@ -2,10 +2,13 @@
 // teaches nothing of it.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "estimation/jacked_chain.hpp"
 #include "estimation/ramp.hpp"
 
 using namespace estimation;
@@ -43,4 +46,46 @@ TEST_CASE("forces that friction keeps stay as uncertain as they were when a jack
   }
   CHECK(held > 0.9 * all);
   CHECK(narrower < 0.02 * all);
+}
+
+TEST_CASE("a jack that takes over from a wedge moves nothing, by whatever its cell is off") {
+  Said said;
+  said.mu_sd = 0.3 * mu;
+  said.jack_sd = said.far_sd = 1e-3 * full;
+  said.gain_sd = 0.03;
+  double farthest = 0;
+  int held = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    support::Random random(seed);
+    const auto jacked = std::make_unique<Jacked>(0.004, said);
+    Chain chain(mu * std::max(0.1, 1 + 0.3 * support::gaussian(random)));
+    const double gain = 1 + said.gain_sd * support::gaussian(random);
+    const auto pull = [&](double from, double to, int rows) {
+      for (int i = 1; i <= rows; ++i) {
+        const double force = from + (to - from) * i / rows;
+        chain.pull(force);
+        const double far = chain[0] + said.far_sd * support::gaussian(random);
+        jacked->row(gain * (force + said.jack_sd * support::gaussian(random)), false, 1, far);
+      }
+    };
+    pull(0, full, 60);
+    pull(full, full, 30);
+    chain.lock(0.004);
+    for (int i = 0; i < 5; ++i) jacked->row(0, true, 1, chain[0] + said.far_sd * support::gaussian(random));
+    const double by_wedge = chain[segments - 1];
+    std::vector<taut::ForceEstimate<double>> before;
+    for (int i = 0; i < segments; ++i) before.push_back((*jacked)[i]);
+    pull(1.001 * by_wedge, 1.001 * by_wedge, 1);
+    // Those beside the jack may go on with it.
+    for (int i = 0; i + 2 < segments; ++i) {
+      const auto& then = before[static_cast<std::size_t>(i)];
+      farthest = std::max(farthest, std::fabs((*jacked)[i].force - then.force) / then.deviation);
+    }
+    pull(1.001 * by_wedge, 1.02 * by_wedge, 20);
+    for (int i = 0; i < segments; ++i, ++all)
+      held += std::fabs((*jacked)[i].force - chain[i]) < 1.96 * (*jacked)[i].deviation ? 1 : 0;
+  }
+  MESSAGE("forces move by at most ", farthest, " deviations; ", 100.0 * held / all, " % are held");
+  CHECK(farthest < 1e-6);
+  CHECK(held > 0.93 * all);
 }

@@ -2,6 +2,8 @@
 // them.
 #pragma once
 
+#include <cmath>
+
 #include "taut/estimation/draw_in.hpp"
 #include "taut/estimation/drive.hpp"
 #include "taut/estimation/learning.hpp"
@@ -10,8 +12,36 @@
 #include "taut/estimation/look_ahead.hpp"
 #include "taut/estimation/other_friction.hpp"
 #include "taut/estimation/witness.hpp"
+#include "taut/numerics/larger.hpp"
 
 namespace taut {
+
+/// What the wedge of jack `k`, whose end is locked, holds, as the cell of the jack will read it once it
+/// pulls: less what its readings are off by, which the force of the segment has not. Cost: that of
+/// Estimator::estimate(), and the square of the unknowns for each one of the cell.
+template <class Parts>
+HeldByWedge<typename Parts::Scalar> held_by_wedge(const Parts& parts, int k) {
+  using Scalar = typename Parts::Scalar;
+  const auto& belief = parts.filter.belief();
+  const auto& at = parts.jacks.end(k);
+  const int segment = parts.end_segment(k);
+  const auto held = parts.estimate(segment);
+  typename Parts::Values by_load;
+  parts.filter.instruments()
+      .at(at.cable(), at.end)
+      .for_each_error(parts.cell(k), k, true, [&](const auto& error) {
+        by_load[error.parameter] = error.constant + error.proportional * held.force;
+      });
+  Scalar load = held.force, variance = held.deviation * held.deviation;
+  for (int p = 0; p < belief.carried(); ++p) {
+    if (by_load[p] == 0) continue;
+    load -= by_load[p] * belief.mean(p);
+    for (int q = 0; q < belief.carried(); ++q)
+      variance +=
+          by_load[p] * belief.covariance(p, q) * (by_load[q] - 2 * parts.tracker.sensitivity(q, segment));
+  }
+  return {parts.tracker.tension(segment), load, std::sqrt(larger(variance, Scalar(0)))};
+}
 
 /// Conditions the loads of a row. Returns whether there is something to check of a jack, too. Cost: that of
 /// JackLoad::take() a jack.
@@ -24,8 +54,8 @@ template <class Parts>
   for (int k = 0; k < jacks.size(); ++k) {
     const EndReading<Scalar>& given = jacks.in(readings.ends, k);
     const bool locked = jacks.in(readings.sample.jack, k).locked;
-    ForceEstimate<Scalar> held;
-    if (jacks[k].locked && !locked) held = parts.estimate(parts.end_segment(k));
+    HeldByWedge<Scalar> held;
+    if (jacks[k].locked && !locked) held = held_by_wedge(parts, k);
     const auto beside = read_beside(parts, readings, jacks.end(k).cable());
     if (jacks[k].take(locked, given, readings.dt, parts.cell(k), parts.most_force(k), held, corners,
                       [&] { return sees_rise(parts, k, given.force, beside); }))

@@ -32,6 +32,14 @@ struct Corners {
   bool any() const { return locks || reverses || loads; }
 };
 
+/// What the wedge of a locked end holds, for the jack that takes over from it.
+template <class Scalar>
+struct HeldByWedge {
+  Scalar driven = 0;     ///< where the tracker is [N]
+  Scalar load = 0;       ///< what the jack's cell will read of it, pulling, over LoadCell::up [N]
+  Scalar deviation = 0;  ///< standard deviation of that [N]
+};
+
 /// A load cell's conditioned load, with the wedge of its end. A plain value: it can be saved and read back
 /// byte by byte. `Reversals` is how many of its reversals are unknowns of a FrictionFilter.
 template <class Scalar, int Reversals>
@@ -54,7 +62,9 @@ struct JackLoad {
   bool pulls = false;     ///< the branch: since then the load has gone up
   bool erred_up =
       false;  ///< the branch whose error the tracker has: after a turn, while the load rests, the old one
-  Scalar raw = 0;        ///< the last reading [N]
+  Scalar taken = 0;        ///< load at which it took over from a wedge [N], until it surely pulls more
+  Scalar taken_least = 0;  ///< and the least one that it may read there [N]
+  Scalar raw = 0;          ///< the last reading [N]
   Scalar first = 0;      ///< the least load once there is one [N]: which way things slide shows from then on
   Scalar sd_before = 0;  ///< standard deviation of the load a sample ago [N]
   Scalar load_before = 0;                ///< best estimate of the load a row ago [N]
@@ -167,6 +177,22 @@ struct JackLoad {
     return left > 5 * filter.sd() && left < come && come < far;
   }
 
+  /// The jack took over from a wedge and does not surely pull more yet: nothing has slid, so that the tracker
+  /// stays. Readings that are below what the wedge was taken to hold, by no more than may be, say no more
+  /// than that it held less.
+  void stay_taken(Scalar up) {
+    if (at.load < up * taken_least) {
+      taken = 0;
+      return;
+    }
+    if (at.reversed) filter.start_at(filter.sd(), at.load, at.sd);
+    at.reversed = at.behind = false;
+    if (at.confirmed > up * taken)
+      taken = 0;
+    else
+      at.confirmed = up * taken;
+  }
+
   /// That reading is believed after all; no force is below zero.
   void come_to_refused() {
     filter.start_at(filter.sd(), larger(refused, Scalar(0)), filter.sd(), refused > believed);
@@ -198,13 +224,13 @@ struct JackLoad {
     constexpr bool operator()() const { return false; }
   };
   /// Takes what a row says of the jack: whether it is locked, a reading of its load cell, and the time since
-  /// the row before. `held` is the force of a locked end; is_seen() says whether another cell has seen the
-  /// load go where it is read, so that it is neither held back nor refused. Returns true if and only if a
-  /// reading is now known to have been an outlier: this one or the one before. Cost: that of
-  /// LoadFilter::take() twice, and at most two calls of is_seen().
+  /// the row before. `held` is what a locked end has;
+  /// is_seen() says whether another cell has seen the load go where it is read, so that it is neither held
+  /// back nor refused. Returns true if and only if a reading is now known to have been an outlier: this one
+  /// or the one before. Cost: that of LoadFilter::take() twice, and at most two calls of is_seen().
   template <class Seen = Unseen>
   [[nodiscard]] bool take(bool locks, const EndReading<Scalar>& given, Scalar dt,
-                          const LoadCell<Scalar>& cell, Scalar most, const ForceEstimate<Scalar>& held,
+                          const LoadCell<Scalar>& cell, Scalar most, const HeldByWedge<Scalar>& held,
                           Corners<Scalar>& corners, const Seen& is_seen = Seen()) {
     is_new = locks_now = false;
     load_before = at.load;
@@ -233,11 +259,13 @@ struct JackLoad {
     // A released end keeps its wedge until a load is read.
     const bool is_released = locked;
     if (locked) {
-      // The jack pulls: what slid back as the wedge was drawn in sticks, which shows a little further on.
+      // The jack pulls, and nothing slides: what slid back as the wedge was drawn in sticks, which shows a
+      // little further on.
       // Its readings are those of the upper branch.
-      const Scalar taken = held.force + Scalar(1e-3) * cell.sd;
-      filter.start_at(filter.sd(), cell.up * taken, cell.up * held.deviation);
-      load_before = farthest = taken;
+      taken = load_before = held.driven + Scalar(1e-3) * cell.sd;
+      taken_least = held.load - 4 * held.deviation;
+      farthest = held.load;
+      filter.start_at(filter.sd(), cell.up * held.load, cell.up * held.deviation);
       farthest_sd = held.deviation;
       rises = true;
       at = {};
@@ -266,6 +294,7 @@ struct JackLoad {
       filter.lose();
       at = filter.take(reading, since);
     }
+    if (taken > 0) stay_taken(cell.up);
     if (filter.run_length() < run_length) {
       noise.bend();
       corners.bends = true;
@@ -320,6 +349,8 @@ struct JackLoad {
   /// Whether the tracker is still where it reversed.
   bool rests_at_turn() const { return at_turn >= 0 && !locked && driven.force == turned_at; }
   bool has_reversed() const { return (!locked || locks_now) && at.reversed; }
+  /// Whether all sticks that its wedge let slide back, at whatever load it may have taken over.
+  bool stays_taken() const { return taken > 0 && !(at.load > taken); }
   /// What slides and what sticks in its cable is in doubt: the load may have reversed, or the reading of this
   /// row was none, and the load is where it was last read, or elsewhere.
   bool is_in_doubt() const { return at.behind || (!locked && at.refused); }

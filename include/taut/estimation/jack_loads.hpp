@@ -104,11 +104,12 @@ class JackLoads {
     for (int k = 0; k < size(); ++k) in(to.jack, k) = {state_.jack[k].target(), state_.jack[k].locked};
     return to;
   }
-  /// The best estimates of the loads, where none has perhaps reversed.
+  /// The best estimates of the loads, where none has perhaps reversed or has just taken over.
   SampleType best(const SampleType& given) const {
     SampleType to = target(given);
     for (int k = 0; k < size(); ++k)
-      if (!state_.jack[k].locked && !state_.jack[k].at.behind) in(to.jack, k).force = state_.jack[k].best();
+      if (const auto& jack = state_.jack[k]; !jack.locked && !jack.at.behind && !jack.stays_taken())
+        in(to.jack, k).force = jack.best();
     return to;
   }
   /// Where it was driven to last.
