@@ -63,7 +63,7 @@ struct JackLoad {
   bool erred_up =
       false;  ///< the branch whose error the tracker has: after a turn, while the load rests, the old one
   Scalar taken = 0;        ///< load at which it took over from a wedge [N], until it surely pulls more
-  Scalar taken_least = 0;  ///< and the least one that it may read there [N]
+  Scalar taken_least = 0;  ///< and what its reading says there at least, if it has not turned [N]
   Scalar raw = 0;          ///< the last reading [N]
   Scalar first = 0;      ///< the least load once there is one [N]: which way things slide shows from then on
   Scalar sd_before = 0;  ///< standard deviation of the load a sample ago [N]
@@ -224,10 +224,10 @@ struct JackLoad {
     constexpr bool operator()() const { return false; }
   };
   /// Takes what a row says of the jack: whether it is locked, a reading of its load cell, and the time since
-  /// the row before. `held` is what a locked end has;
-  /// is_seen() says whether another cell has seen the load go where it is read, so that it is neither held
-  /// back nor refused. Returns true if and only if a reading is now known to have been an outlier: this one
-  /// or the one before. Cost: that of LoadFilter::take() twice, and at most two calls of is_seen().
+  /// the row before. `held` is what the wedge of a locked end holds; is_seen() says whether another cell has
+  /// seen the load go where it is read, so that it is neither held back nor refused. Returns true if and only
+  /// if a reading is now known to have been an outlier: this one or the one before. Cost: that of
+  /// LoadFilter::take() twice, and at most two calls of is_seen().
   template <class Seen = Unseen>
   [[nodiscard]] bool take(bool locks, const EndReading<Scalar>& given, Scalar dt,
                           const LoadCell<Scalar>& cell, Scalar most, const HeldByWedge<Scalar>& held,
@@ -260,8 +260,7 @@ struct JackLoad {
     const bool is_released = locked;
     if (locked) {
       // The jack pulls, and nothing slides: what slid back as the wedge was drawn in sticks, which shows a
-      // little further on.
-      // Its readings are those of the upper branch.
+      // little further on. Its readings are those of the upper branch.
       taken = load_before = held.driven + Scalar(1e-3) * cell.sd;
       taken_least = held.load - 4 * held.deviation;
       farthest = held.load;
