@@ -350,6 +350,9 @@ struct JackLoad {
   bool has_reversed() const { return (!locked || locks_now) && at.reversed; }
   /// Whether all sticks that its wedge let slide back, at whatever load it may have taken over.
   bool stays_taken() const { return taken > 0 && !(at.load > taken); }
+  /// Whether its cable is where the best estimate of its load is: the load is read, has not perhaps turned,
+  /// and does not just take over.
+  bool leads() const { return !locked && !at.behind && !stays_taken(); }
   /// What slides and what sticks in its cable is in doubt: the load may have reversed, or the reading of this
   /// row was none, and the load is where it was last read, or elsewhere.
   bool is_in_doubt() const { return at.behind || (!locked && at.refused); }

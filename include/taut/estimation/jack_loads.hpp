@@ -108,8 +108,7 @@ class JackLoads {
   SampleType best(const SampleType& given) const {
     SampleType to = target(given);
     for (int k = 0; k < size(); ++k)
-      if (const auto& jack = state_.jack[k]; !jack.locked && !jack.at.behind && !jack.stays_taken())
-        in(to.jack, k).force = jack.best();
+      if (state_.jack[k].leads()) in(to.jack, k).force = state_.jack[k].best();
     return to;
   }
   /// Where it was driven to last.

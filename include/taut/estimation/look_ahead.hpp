@@ -17,9 +17,7 @@ bool note_beyond(Parts& parts) {
   bool any = false;
   for (int k = 0; k < parts.jacks.size(); ++k) {
     const auto& jack = parts.jacks[k];
-    if (jack.locked || jack.at.behind || jack.stays_taken() || jack.beyond() == 0 ||
-        parts.tracker.reaches(k, jack.best()))
-      continue;
+    if (!jack.leads() || jack.beyond() == 0 || parts.tracker.reaches(k, jack.best())) continue;
     any = true;
     const int c = parts.jacks.end(k).cable();
     if constexpr (Parts::has_several)
