@@ -123,19 +123,20 @@ Progress<typename TrackerType::Scalar> pull_more(TrackerType& tracker, const Jac
 }
 
 /// Drives the tracker to where jacks were a row ago, before the other loads began to change, then to where
-/// loads have reversed, then to the loads that ends had when they were locked. remember(k, sd, turns) is
-/// called where jack `k` reversed or was locked at a load of that standard deviation [N], and whether it
-/// turned there, remember_load(k) where it was a row ago, or once it has reversed since. Fails as
-/// Tracker::advance() does. Cost: that of drive_straight() four times.
-template <class TrackerType, class Jacks, class Remember, class RememberLoad, class Uncertainty>
+/// loads have reversed, then to the loads that ends had when they were locked. leave(to) is called before
+/// each path; remember(k, sd, turns) where jack `k` reversed or was locked at a load of that standard
+/// deviation [N], and whether it turned there; remember_load(k) where it was a row ago, or once it has
+/// reversed since. Fails as Tracker::advance() does. Cost: that of drive_straight() four times.
+template <class TrackerType, class Jacks, class Leave, class Remember, class RememberLoad, class Uncertainty>
 Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks& jacks,
                                                      const Corners<typename TrackerType::Scalar>& corners,
-                                                     int event_budget, const Remember& remember,
+                                                     int event_budget, const Leave& leave,
+                                                     const Remember& remember,
                                                      const RememberLoad& remember_load,
                                                      const Uncertainty& mu_sd) {
   auto corner = jacks.driven(load_patterns(tracker.model()));
   Progress<typename TrackerType::Scalar> progress;
-  // Goes where `place` is set for the jacks with is_there(k), and remembers that.
+  // Goes where place(k) is, with the jacks with is_there(k), and remembers that.
   const auto go = [&](const auto& is_there, const auto& place, const auto& keep) {
     bool any = false;
     for (int k = 0; k < jacks.size(); ++k) {
@@ -144,39 +145,48 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
       any = true;
     }
     if (!any) return;
+    leave(corner);
     progress = join(progress, drive_straight(tracker, jacks, corner, event_budget, mu_sd));
     for (int k = 0; k < jacks.size(); ++k)
       if (progress.status && is_there(k)) keep(k);
+  };
+  // A load that went up, or came down, until it was at `to` has been no farther: driven back there, joints
+  // would stick at a load of which nothing is remembered.
+  const auto come_no_farther = [&](int k, bool has_gone_up, auto to) {
+    const auto from = jacks.in(corner.jack, k).force;
+    if (has_gone_up ? to < from : to > from) tracker.correct_load(k, to);
+    return to;
   };
   const auto a_row_ago = [&](int k) { return jacks[k].corner(); };
   const auto has_reversed = [&](int k) { return jacks[k].has_reversed(); };
   if (corners.loads) go([&](int k) { return !has_reversed(k); }, a_row_ago, remember_load);
   if (corners.reverses)
     go(
-        has_reversed, [&](int k) { return jacks[k].at.reversal; },
+        has_reversed, [&](int k) { return come_no_farther(k, jacks[k].had_risen(), jacks[k].at.reversal); },
         [&](int k) { remember(k, jacks[k].turn_sd, true); });
-  // What has just turned must not be driven without a change: its joints would count as sliding there.
   if (corners.loads)
     go([&](int k) { return has_reversed(k) && jacks[k].changes_rest(); }, a_row_ago, remember_load);
   if (corners.locks)
-    go([&](int k) { return jacks[k].locks_now; }, [&](int k) { return jacks[k].at.load; },
-       [&](int k) { remember(k, jacks[k].lock_sd, jacks[k].rises != jacks[k].at.reversed); });
+    go([&](int k) { return jacks[k].locks_now; },
+       [&](int k) { return come_no_farther(k, jacks[k].locks_rising(), jacks[k].at.load); },
+       [&](int k) { remember(k, jacks[k].lock_sd, jacks[k].locks_rising()); });
   return progress;
 }
 
 /// Drives the tracker through the corners to `target`, where more happens than that a load changes. Fails as
 /// Tracker::advance() does; the jacks are then where the path ended. Cost: that of drive_straight() four
 /// times, and of pull_more().
-template <class TrackerType, class Jacks, class SampleType, class Remember, class RememberLoad,
+template <class TrackerType, class Jacks, class SampleType, class Leave, class Remember, class RememberLoad,
           class Uncertainty>
 [[gnu::noinline]] Progress<typename TrackerType::Scalar> drive(
     TrackerType& tracker, Jacks& jacks, const Corners<typename TrackerType::Scalar>& corners,
-    const SampleType& target, int event_budget, const Remember& remember, const RememberLoad& remember_load,
-    const Uncertainty& mu_sd) {
+    const SampleType& target, int event_budget, const Leave& leave, const Remember& remember,
+    const RememberLoad& remember_load, const Uncertainty& mu_sd) {
   Progress<typename TrackerType::Scalar> progress;
   if (corners.any())
-    progress = drive_through(tracker, jacks, corners, event_budget, remember, remember_load, mu_sd);
+    progress = drive_through(tracker, jacks, corners, event_budget, leave, remember, remember_load, mu_sd);
   SampleType to = target;
+  if (progress.status) leave(to);
   if (progress.status) progress = join(progress, drive_straight(tracker, jacks, to, event_budget, mu_sd));
   if (!progress.status) progress = pull_more(tracker, jacks, to, event_budget, mu_sd, progress);
   if (progress.status.code != Code::not_started) arrive(tracker, jacks, to, progress);

@@ -80,19 +80,19 @@ template <class Parts>
     follow_ahead(parts, corners, sample);
   else
     parts.slides_ahead.fill(false);
-  for (int k = 0; k < jacks.size(); ++k)
-    if (!jacks[k].at.reversed) change_branch(parts, k);
-  if (parts.is_ahead || (!corners.any() && try_extend(tracker, jacks, sample))) return true;
+  bool is_as_before = !corners.any();
+  for (int k = 0; k < jacks.size(); ++k) is_as_before &= !jacks[k].changes_branch();
+  if (parts.is_ahead || (is_as_before && try_extend(tracker, jacks, sample))) return true;
   learn_waiting(parts);
   begin_row(parts);
-  leave_turns(parts, [&](int k) { return jacks[k].target(); });
   for (int k = 0; k < jacks.size(); ++k)
     if (jacks[k].driven.locked && !jacks[k].locked) turn_forces(parts, k);
   progress = drive(
       tracker, jacks, corners, jacks.target(sample), event_budget,
+      [&](const typename Parts::SampleType& to) { leave(parts, to); },
       [&](int k, typename Parts::Scalar sd, bool turns) {
         if (turns) turn_forces(parts, k);
-        remember_reversal(parts, k, sd);
+        remember_turn(parts, k, sd);
         begin_leg(parts, k);
         if (jacks[k].locks_now) begin_lock_off(parts);
       },

@@ -54,7 +54,8 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   /// Where the way of a jack began that it is on, see begin_leg().
   struct Leg {
     typename TrackerType::State from;
-    Values linearized_at;  ///< where the model was linearized there
+    Values linearized_at;                            ///< where the model was linearized there
+    FixedArray<bool, JacksType::capacity> erred_up;  ///< the branches that loads were read on there
     bool is_known = false;
   };
   /// By how much further a jack's wedge is drawn in than the model has it [m].

@@ -240,14 +240,14 @@ class FrictionFilter {
     }
   }
   /// The wedge at this end has been seated: from here on unknown `p` is by how much further it was drawn in
-  /// than the model has it, with the standard deviation `sd` [m]. Cost: that of remember_reversal().
+  /// than the model has it, with the standard deviation `sd` [m]. Cost: that of renew().
   void remember_seating(TrackerType& tracker, int p, int cable, std::size_t end, Scalar sd) {
     keep_what_is_known(tracker, p);
     tracker.draw_in(p, cable, end, still_in(p, sd));
     belief_.renew(p, sd);
   }
   /// A cable is held from this end on now: from here on unknown `p` is the strain that it takes on by itself,
-  /// with the standard deviation of FrictionPrior::drift_sd. Cost: that of remember_reversal().
+  /// with the standard deviation of FrictionPrior::drift_sd. Cost: that of renew().
   Status remember_drift(TrackerType& tracker, int p, int cable, std::size_t end) {
     keep_what_is_known(tracker, p);
     belief_.renew(p, prior_->drift_sd[cable]);
@@ -288,12 +288,11 @@ class FrictionFilter {
                   : status;
   }
   /// Other loads than that of a jack begin to change: from here on its unknown error, with the standard
-  /// deviation `sd` [N], is remembered wherever friction comes to rest. Cost: that of remember_reversal().
+  /// deviation `sd` [N], is remembered wherever friction comes to rest. Cost: that of renew().
   void remember_load(TrackerType& tracker, const JackError<Scalar>& error, Scalar sd) {
     const int p = error.parameter;
-    keep_what_is_known(tracker, p);
-    tracker.begin_load_error(error, still_in(p, sd));
-    belief_.renew(p, sd);
+    renew(tracker, p, sd);
+    tracker.begin_load_error(error);
   }
   /// Unknown `p` is not known better than to `sd`.
   void widen(int p, Scalar sd) {
@@ -311,11 +310,12 @@ class FrictionFilter {
     }
     if (is_elsewhere) static_cast<void>(relinearize(tracker, belief_.mean()));
   }
-  /// The jack at this end reverses now or is locked: from here on unknown `p` is the error of its load, with
-  /// the standard deviation `sd` [N]. Cost: that of Tracker::turn(), and at worst of Tracker::adjust().
-  void remember_reversal(TrackerType& tracker, int p, int cable, std::size_t end, Scalar sd) {
+  /// From here on unknown `p` is another one, with the standard deviation `sd`; what is remembered of what it
+  /// was stays a part of it, and forces as uncertain. Cost: that of Tracker::weigh(), and at worst of
+  /// Tracker::adjust().
+  void renew(TrackerType& tracker, int p, Scalar sd) {
     keep_what_is_known(tracker, p);
-    tracker.turn(p, cable, end, still_in(p, sd));
+    tracker.weigh(p, still_in(p, sd));
     belief_.renew(p, sd);
   }
 

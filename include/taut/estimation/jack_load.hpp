@@ -345,8 +345,10 @@ struct JackLoad {
   bool may_idle() const { return !locked && at.load < 5 * filter.sd(); }
   /// Whether it begins to rest beside other loads in this row, or ceases to.
   bool changes_rest() const { return rests_beside != (frozen >= 0); }
-  /// Whether the tracker is still where it reversed.
-  bool rests_at_turn() const { return at_turn >= 0 && !locked && driven.force == turned_at; }
+  /// Whether the load went up until it reversed in this row.
+  bool had_risen() const { return locks_now ? rises : !rises; }
+  /// Whether it went up where it is locked in this row.
+  bool locks_rising() const { return rises != at.reversed; }
   bool has_reversed() const { return (!locked || locks_now) && at.reversed; }
   /// Whether all sticks that its wedge let slide back, at whatever load it may have taken over.
   bool stays_taken() const { return taken > 0 && !(at.load > taken); }

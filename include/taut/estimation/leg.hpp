@@ -12,8 +12,7 @@ void forget_leg(Parts& parts) {
   if constexpr (Parts::legs > 0) parts.leg[0].is_known = false;
 }
 
-/// Jack `k` has turned here, or was locked, and what friction remembers of that is known. Cost: that of
-/// Tracker::save().
+/// Jack `k` has turned here, or was locked, and leaves with the next path. Cost: that of Tracker::save().
 template <class Parts>
 void begin_leg(Parts& parts, int k) {
   if constexpr (Parts::legs > 0) {
@@ -23,6 +22,7 @@ void begin_leg(Parts& parts, int k) {
     if (!leg.is_known) return;
     leg.from = parts.tracker.save();
     leg.linearized_at = parts.filter.belief().save().linearized_at;
+    for (int j = 0; j < parts.jacks.size(); ++j) leg.erred_up[j] = parts.jacks[j].erred_up;
   }
 }
 
@@ -53,10 +53,6 @@ bool go_back_to(Parts& parts, const typename Parts::TrackerType::State& from,
   static_cast<void>(parts.filter.linearize_at(there));
   const bool is_there = put_back(parts, from).ok();
   const auto change = parts.filter.linearize_at(values);
-  // Where joints slide still, adjust() has what friction remembers of a load follow it.
-  bool changes = false;
-  for (int p = 0; p < parts.filter.belief().carried(); ++p) changes |= change[p] != 0;
-  if (!changes) return is_there;
   return is_there && parts.tracker.adjust(parts.filter.friction(parts.linear()), change).ok();
 }
 
@@ -69,9 +65,18 @@ bool go_leg_anew(Parts& parts, const typename Parts::Values& values) {
   auto& here = parts.confirmed.tracker = parts.tracker.save();
   parts.lock_off.is_known = false;
   const auto to = parts.jacks.driven(parts.patterns());
-  if (go_back_to(parts, parts.leg[0].from, parts.leg[0].linearized_at, values) &&
-      parts.tracker.advance(to).is_complete())
-    return true;
+  FixedArray<bool, Parts::JacksType::capacity> erred_up;
+  for (int k = 0; k < parts.jacks.size(); ++k) {
+    erred_up[k] = parts.jacks[k].erred_up;
+    parts.jacks[k].erred_up = parts.leg[0].erred_up[k];
+  }
+  bool is_there = go_back_to(parts, parts.leg[0].from, parts.leg[0].linearized_at, values);
+  if (is_there) {
+    leave(parts, to);
+    is_there = parts.tracker.advance(to).is_complete();
+  }
+  if (is_there) return true;
+  for (int k = 0; k < parts.jacks.size(); ++k) parts.jacks[k].erred_up = erred_up[k];
   static_cast<void>(parts.filter.linearize_at(before));
   static_cast<void>(put_back(parts, here).ok());
   return false;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "taut/estimation/estimator_unknowns.hpp"
 #include "taut/status.hpp"
@@ -34,45 +35,80 @@ int next_memory(Parts& parts, int k) {
   return jack.memory[static_cast<std::size_t>(found)];
 }
 
+/// What friction remembers of the loads of jacks that rest where they turned begins here, of those with
+/// leaves(k): until now their joints slid, and followed the loads as they are. Cost: that of Tracker::turn().
+template <class Parts, class Leaves>
+void leave_turns_of(Parts& parts, const Leaves& leaves) {
+  using Scalar = typename Parts::Scalar;
+  const auto error_of = [&](int k) {
+    const auto& jack = parts.jacks[k];
+    const auto& at = parts.jacks.in(parts.tracker.loads().jack, k);
+    const bool rests = !at.locked && static_cast<Scalar>(at.force) == jack.turned_at;
+    return rests && leaves(k) ? static_cast<int>(jack.at_turn) : -1;
+  };
+  bool any = false;
+  for (int k = 0; k < parts.jacks.size(); ++k) any |= error_of(k) >= 0;
+  if (any) parts.tracker.turn(error_of);
+}
+
+/// The tracker is about to go to `to`: jacks that are another load there, or locked, leave where they turned.
+/// Cost: that of Tracker::turn().
+template <class Parts>
+void leave_turns(Parts& parts, const typename Parts::SampleType& to) {
+  leave_turns_of(parts, [&](int k) {
+    const auto& next = parts.jacks.in(to.jack, k);
+    return next.locked || next.force != parts.jacks[k].turned_at;
+  });
+}
+
+/// The same, where a row has it go there: of loads that go on, errors are those of the other branch from here
+/// on. Cost: that of Tracker::turn().
+template <class Parts>
+void leave(Parts& parts, const typename Parts::SampleType& to) {
+  leave_turns(parts, to);
+  for (int k = 0; k < parts.jacks.size(); ++k) {
+    const auto& at = parts.jacks.in(parts.tracker.loads().jack, k);
+    const auto& next = parts.jacks.in(to.jack, k);
+    if (at.locked != next.locked || static_cast<typename Parts::Scalar>(at.force) != next.force)
+      change_branch(parts, k);
+  }
+}
+
 /// Other loads change no longer: what friction remembers of jack `k` stays as it is.
 template <class Parts>
 void forget_other_loads(Parts& parts, int k) {
   if (parts.jacks[k].frozen < 0) return;
+  leave_turns_of(parts, [](int) { return true; });
   // A failure shows on the way on.
   static_cast<void>(parts.tracker.end_load_error(parts.jacks[k].frozen));
   parts.jacks[k].frozen = -1;
 }
 
-/// A jack that reverses or is locked now: friction will remember the error of its load, with the standard
-/// deviation `sd` [N]. Cost: that of FrictionFilter::remember_reversal(), and of next_memory().
+/// Jack `k` reverses or is locked where the tracker is now: once it leaves, friction will remember the error
+/// of its load there, with the standard deviation `sd` [N]. Cost: that of FrictionFilter::renew(), and of
+/// next_memory().
 template <class Parts>
-void remember_reversal(Parts& parts, int k, typename Parts::Scalar sd) {
+void remember_turn(Parts& parts, int k, typename Parts::Scalar sd) {
+  using Scalar = typename Parts::Scalar;
   auto& jack = parts.jacks[k];
-  change_branch(parts, k);
   const bool loads_change = jack.frozen >= 0;
-  forget_other_loads(parts, k);
+  if (loads_change) {
+    // What slides follows the load as it is here.
+    parts.tracker.change_load_error({jack.frozen, -1, Scalar(0), Scalar(0)});
+    jack.frozen = -1;
+  }
   if (!jack.locked && (parts.far_ends.ends().size() > 0 || parts.gauges.size() > 0))
     parts.filter.come_to_what_is_known(parts.tracker);
-  const int p = next_memory(parts, k);
-  if (p < 0) return;
-  const auto& at = parts.jacks.end(k);
-  parts.filter.remember_reversal(parts.tracker, p, at.cable(), at.end, sd);
-  jack.at_turn = static_cast<std::int16_t>(p);
-  jack.turned_at = jack.at.reversal;
+  jack.at_turn = static_cast<std::int16_t>(next_memory(parts, k));
+  if (jack.at_turn < 0) return;
+  jack.turned_at = static_cast<Scalar>(parts.jacks.in(parts.tracker.loads().jack, k).force);
   parts.is_belief_fine = false;
-  if (!loads_change || jack.locked) return;
-  jack.frozen = static_cast<std::int16_t>(p);
-  parts.tracker.change_load_error(resting_error(parts, k));
-}
-
-/// Jacks that rest where they reversed leave now if to(jack) is another load. There their joints still slide,
-/// and follow the load as it is; what friction remembers of it begins here. Cost: that of Tracker::turn() for
-/// each.
-template <class Parts, class To>
-void leave_turns(Parts& parts, const To& to) {
-  for (int k = 0; k < parts.jacks.size(); ++k)
-    if (parts.jacks[k].rests_at_turn() && to(k) != parts.jacks[k].turned_at)
-      parts.tracker.turn(parts.jacks[k].at_turn, parts.jacks.end(k).cable(), parts.jacks.end(k).end, 1);
+  if (loads_change && !jack.locked) {
+    std::swap(jack.frozen, jack.at_turn);
+    parts.filter.remember_load(parts.tracker, resting_error(parts, k), sd);
+  } else {
+    parts.filter.renew(parts.tracker, jack.at_turn, sd);
+  }
 }
 
 template <class Parts>
@@ -121,6 +157,7 @@ void remember_load(Parts& parts, int k) {
   auto& jack = parts.jacks[k];
   if (jack.locked || jack.memory[0] < 0 || !jack.changes_rest()) return;
   if (!jack.rests_beside) return forget_other_loads(parts, k);
+  jack.at_turn = -1;
   jack.frozen = static_cast<std::int16_t>(next_memory(parts, k));
   parts.filter.remember_load(parts.tracker, resting_error(parts, k), jack.come_sd);
   parts.is_belief_fine = false;

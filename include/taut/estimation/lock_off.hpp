@@ -112,6 +112,7 @@ template <class Parts>
   auto& filter = parts.filter;
   auto before = values;
   if (!go_before_lock_off(parts, before)) return false;
+  leave_turns(parts, parts.jacks.driven(parts.patterns()));
   bool is_there = seat(parts, drawn_further(parts, values)), drifts = false;
   if constexpr (Parts::has_seating)
     for_each_of_lock_off(parts, [&](int k) {

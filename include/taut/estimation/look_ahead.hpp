@@ -63,6 +63,7 @@ void go_back(Parts& parts) {
 /// Goes straight to these loads, two jacks as far as friction holds them. Returns whether it is there.
 template <class Parts>
 bool go_straight(Parts& parts, typename Parts::SampleType to) {
+  leave_turns(parts, to);
   const auto progress =
       drive_straight(parts.tracker, parts.jacks, to, Parts::TrackerType::default_budget,
                      [&](int c) { return parts.filter.relative_deviation(parts.tracker, c); });
@@ -74,7 +75,6 @@ bool go_straight(Parts& parts, typename Parts::SampleType to) {
 template <class Parts>
 void go_back_to_target(Parts& parts) {
   go_back(parts);
-  leave_turns(parts, [&](int k) { return parts.jacks[k].target(); });
   static_cast<void>(go_straight(parts, parts.jacks.target(parts.jacks.driven(parts.patterns()))));
 }
 
@@ -93,7 +93,6 @@ void look_ahead(Parts& parts) {
     parts.lock_off.is_known = false;
     for (int k = 0; k < jacks.size(); ++k) parts.confirmed.jack[k] = jacks[k].driven;
     parts.is_ahead = true;
-    leave_turns(parts, [&](int k) { return jacks[k].best(); });
   }
   if (!go_straight(parts, jacks.best(jacks.driven(parts.patterns())))) go_back_to_target(parts);
 }

@@ -77,6 +77,17 @@ class EventPath {
     return progress;
   }
 
+  /// Goes toward the goal as far as the present piece reaches, and decides nothing; the state must have a
+  /// map. Cost: that of EventSearch::next().
+  void come_along_piece() {
+    Inputs dx;
+    cables_.directions(dx);
+    Ending ending;
+    const Real step = EventSearch<Cables>(cables_).next(dx, ending);
+    cables_.state.now = Loads::between(cables_.state.now, cables_.state.goal, step);
+    cables_.find_forces();
+  }
+
  private:
   using Loads = typename Cables::Loads;
   using Inputs = typename Cables::Inputs;

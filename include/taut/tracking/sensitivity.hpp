@@ -138,11 +138,19 @@ class Sensitivity {
     for (int p = 0; p < frozen_.used; ++p)
       event_shift_[p] = -derivative(map, p, i, x) * map.stiffness(i) / falling;
   }
-  /// From here on parameter `p` is by how much further input `k` went before it turned, or before its jack
-  /// was locked; and also so many times what it meant before.
-  void turn(const Map& map, int p, int k, Scalar before) {
+  /// From here on parameter `p` is by so many times what it was until now.
+  void weigh(int p, Scalar by) { frozen_.derivative[p].scale(by); }
+  /// Nothing depends on parameter `p`, in the map that was made either.
+  void forget(int p) {
     use(p);
-    frozen_.derivative[p].scale(before);
+    frozen_.derivative[p] = {};
+    piece_[p].base.clear();
+    for (Column& column : piece_[p].column) column.clear();
+  }
+  /// From here on parameter `p` is also by how much further input `k` went before it turned, or before its
+  /// jack was locked.
+  void turn(const Map& map, int p, int k) {
+    use(p);
     for (int i = 0; i < map.active(); ++i)
       of_variable(map.variable(i), p) += static_cast<Scalar>(map.column_value(k, i));
   }
@@ -195,6 +203,10 @@ class Sensitivity {
   struct Column {
     Plain<Scalar, Cap::segments> tension;
     Plain<Scalar, Map::max_active> value;
+    void clear() {
+      tension.fill(Scalar(0));
+      value.fill(Scalar(0));
+    }
   };
   /// Of the map, with respect to one parameter: where it was made, and how that changes with the inputs.
   struct Piece {
@@ -276,7 +288,9 @@ class Sensitivity<CondensedType, Laws, 0> {
   template <class Change>
   static void for_each(const Change&) {}
   static void depend_on_load(const JackError<Scalar>&) {}
-  static void turn(const Map&, int, int, Scalar) {}
+  static void turn(const Map&, int, int) {}
+  static void weigh(int, Scalar) {}
+  static void forget(int) {}
   static void draw_in(int, int, Scalar) {}
   template <class Values>
   static Scalar tension(const Map&, int, int, const Values&, const Values&) {

@@ -153,14 +153,25 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     depend_on_friction(cables_, level_, friction);
     return make_map_anew();
   }
-  /// From here on unknown `p` is an error [N] in the force at which this jack reverses now, or is locked:
-  /// what friction remembers of it is carried along. It is also `before` times what it was until now, which
-  /// is remembered elsewhere.
-  void turn(int p, int cable, std::size_t end, Scalar before = 0) {
-    const int k = cables_.input_of(cable, end);
-    if (k < 0) return;
+  /// Jacks reverse here, or are locked, and leave now: from here on unknown error_of(k) is an error [N] in
+  /// the force that jack `k`, by its number, has here, and what friction remembers of it is carried along;
+  /// error_of(k) is -1 for every other jack. As long as none has left, what slides follows the loads as they
+  /// are. Cost: that of a map, and at worst of one event.
+  template <class ErrorOf>
+  void turn(const ErrorOf& error_of) {
+    if (!has_or_makes_map()) return;
     freeze_here();
-    cables_.derivatives.turn(cables_.map, p, k, before);
+    for (int k = 0; k < cables_.jacks.size(); ++k)
+      if (const int p = error_of(k), input = cables_.input_of(k); p >= 0 && input >= 0)
+        cables_.derivatives.turn(cables_.map, p, input);
+    drop_map();
+  }
+  /// Unknown `p` will mean something else: what is remembered of it is so many times that from here on. Cost:
+  /// that of turn(); where it is nothing, a number each that slips.
+  void weigh(int p, Scalar by) {
+    if (by == 0) return cables_.derivatives.forget(p);
+    freeze_here();
+    cables_.derivatives.weigh(p, by);
     drop_map();
   }
   /// From here on unknown `p` is by how much further [m] the wedge of a locked end was drawn in than the
@@ -193,15 +204,26 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     cables_.derivatives.strain(p, held, length, 2 * cable + static_cast<int>(end));
     return make_map_anew();
   }
+  /// The force of this jack, by its number, is `force` here: on the way that it has been on it had not come
+  /// as far as it was taken to, and nothing has turned. Goes there on the present piece, and stays at its end
+  /// if that comes first. Does nothing to a locked end, or before anything has moved. Cost: that of a test of
+  /// all forces.
+  void correct_load(int jack, Scalar force) {
+    if (!has_or_makes_map() || cables_.input_of(jack) < 0) return;
+    const auto& at = cables_.jacks[jack];
+    cables_.state.goal.jack[at.cable][at.end].force = static_cast<Real>(force);
+    EventPath<Cables, Level<CondensedType>>(cables_, level_).come_along_piece();
+    samples_.refresh(cables_);
+  }
   /// From here on the force of a jack depends on an unknown by another error. Cost: that of turn().
   void change_load_error(const JackError<Scalar>& error) {
     freeze_here();
     cables_.derivatives.depend_on_load(error);
     drop_map();
   }
-  /// The same for an unknown that meant something else until now, of a jack that came here by itself.
-  void begin_load_error(const JackError<Scalar>& error, Scalar before = 0) {
-    turn(error.parameter, error.jack / 2, static_cast<std::size_t>(error.jack % 2), before);
+  /// The same for an unknown that it did not depend on, of a jack that came here by itself.
+  void begin_load_error(const JackError<Scalar>& error) {
+    turn([&](int k) { return k == cables_.number[error.jack] ? error.parameter : -1; });
     cables_.derivatives.depend_on_load(error);
   }
   /// The force of the jack does not depend on unknown `p` any more, but friction has come to rest at what it
