@@ -57,7 +57,7 @@ Score lock_both(const Said& said) {
     // What both reach has no closed form.
     REQUIRE(chain[4] == middle);
     for (int i = 0; i < 3; ++i) jacked->row_of_both(0, 0, true);
-    score.add(*jacked, chain);
+    add_to(score, *jacked, chain);
   }
   MESSAGE("seeds from 1: ", 100 * score.share(), " % are held, rms ", score.rms(), ", worst ", score.worst);
   return score;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "estimation/ramp.hpp"
+#include "estimation/score.hpp"
 
 namespace estimation {
 
@@ -139,23 +140,10 @@ class Jacked {
   Estimator estimator_;
 };
 
-/// How often error bars hold, and how far errors leave them.
-struct Score {
-  int held = 0, count = 0;
-  double square = 0, worst = 0;
-
-  void add(const Jacked& jacked, const Chain& chain) {
-    for (int i = 0; i < segments; ++i) {
-      const double z = std::fabs(jacked[i].force - chain[i]) / jacked[i].deviation;
-      held += z < 1.96 ? 1 : 0;
-      ++count;
-      square += std::min(z * z, 1e4);
-      worst = std::max(worst, z);
-    }
-  }
-  double share() const { return 1.0 * held / count; }
-  double rms() const { return std::sqrt(square / count); }
-};
+/// Adds all forces of the chain.
+inline void add_to(Score& score, const Jacked& jacked, const Chain& chain) {
+  for (int i = 0; i < segments; ++i) score.add((jacked[i].force - chain[i]) / jacked[i].deviation);
+}
 
 /// A ramp, a hold, half of the time a release, and lock-off, perhaps with a cell at the far end: what is
 /// shown of segments once the wedge is drawn in, after so many rows more, when the jack has taken hold again,
@@ -196,16 +184,16 @@ Locked lock_off(const Said& said, int rows, const Drawn& drawn) {
       for (int i = 0; i < steps; ++i) jacked->row(0, true, 1, far_end());
     };
     stay(1);
-    scores.at_once.add(*jacked, chain);
+    add_to(scores.at_once, *jacked, chain);
     stay(rows);
-    scores.later.add(*jacked, chain);
+    add_to(scores.later, *jacked, chain);
     go(1.002 * chain[segments - 1], 1);
     go(std::max(at, random.between(0.9, 1.05) * full), 40);
     go(at, 40);
-    scores.again.add(*jacked, chain);
+    add_to(scores.again, *jacked, chain);
     chain.lock(said.drawn_in(seating, random));
     stay(1);
-    scores.second.add(*jacked, chain);
+    add_to(scores.second, *jacked, chain);
   }
   MESSAGE("seeds from 1: ", 100 * scores.at_once.share(), " % are held once locked, rms ",
           scores.at_once.rms(), "; later ", 100 * scores.later.share(), " %, rms ", scores.later.rms(),

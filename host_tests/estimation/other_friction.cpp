@@ -120,7 +120,7 @@ TEST_CASE("what friction holds of turns within turns stays as uncertain as the l
     for (const double part : stages) {
       chain.pull(part * full);
       jacked->stage(part * full + sd * support::gaussian(random));
-      score.add(*jacked, chain);
+      add_to(score, *jacked, chain);
     }
   }
   MESSAGE("seeds from 1: ", 100 * score.share(), " % are held, rms ", score.rms(), ", worst ", score.worst);

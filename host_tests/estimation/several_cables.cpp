@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "estimation/saddle_rows.hpp"
 #include "estimation/site.hpp"
 
 using namespace estimation;
@@ -27,16 +28,10 @@ taut::Cable<double> a_cable(double mu) {
 /// Each with a jack at its end and a cell at its start: over saddles of their own, or both below one truss.
 void make_pair(Plane& scene, double mu, bool elastic) {
   const taut::Cable<double> cable = a_cable(mu);
+  if (!elastic) return saddle_rows(scene, cable, 2);
   std::vector<int> path;
-  if (elastic) {
-    support::truss_string(scene, cable, 4);
-    for (int i = 0; i < scene.cables[0].nodes; ++i)
-      path.push_back(scene.path[scene.cables[0].first_path + i]);
-  } else {
-    const auto points = support::chain_points(5);
-    support::rigid_saddles(scene, cable, points);
-    for (const auto& point : points) path.push_back(scene.add_node({point[0], point[1] + 20}, taut::held_xy));
-  }
+  support::truss_string(scene, cable, 4);
+  for (int i = 0; i < scene.cables[0].nodes; ++i) path.push_back(scene.path[scene.cables[0].first_path + i]);
   scene.add_cable(cable, path.data(), static_cast<int>(path.size()));
 }
 

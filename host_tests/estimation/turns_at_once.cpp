@@ -13,6 +13,8 @@
 
 #include "estimation/followers.hpp"
 #include "estimation/ramp.hpp"
+#include "estimation/saddle_rows.hpp"
+#include "estimation/score.hpp"
 
 using namespace estimation;
 
@@ -20,18 +22,6 @@ namespace {
 
 using Model = taut::Condensed<double, PlaneCapacity>;
 constexpr double noise = 0.003 * full;
-
-/// Cables that feel nothing of each other: a row above another.
-void add_cables(Plane& scene, const taut::Cable<double>& cable, int count) {
-  const auto points = support::chain_points(5);
-  support::rigid_saddles(scene, cable, points);
-  for (int c = 1; c < count; ++c) {
-    std::vector<int> path;
-    for (const auto& point : points)
-      path.push_back(scene.add_node({point[0], point[1] + 20 * c}, taut::held_xy));
-    scene.add_cable(cable, path.data(), static_cast<int>(path.size()));
-  }
-}
 
 /// Jacks by one pump, with load cells that are noisy and friction that is known: in truth, and estimated.
 class Pumped {
@@ -70,11 +60,10 @@ class Pumped {
       REQUIRE(estimator_.advance(readings).status.ok());
     }
   }
-  template <class Add>
-  void add_to(const Add& add) const {
+  void add_to(Score& score) const {
     for (int i = 0; i < model_.segments; ++i) {
       const auto found = estimator_.estimate(i);
-      add((found.force - truth_.tension(i)) / found.deviation);
+      score.add((found.force - truth_.tension(i)) / found.deviation);
     }
   }
 
@@ -90,30 +79,18 @@ class Pumped {
   double pressure_ = 0;
 };
 
-/// Of errors in their standard deviations.
-struct Score {
-  long held = 0, all = 0;
-  double square = 0;
-  void add(double z) {
-    held += std::fabs(z) <= 1.96 ? 1 : 0;
-    ++all;
-    square += std::min(z * z, 1e4);
-  }
-  double share() const { return static_cast<double>(held) / static_cast<double>(all); }
-  double rms() const { return std::sqrt(square / static_cast<double>(all)); }
-};
-
-/// Of all forces at the end of `jacking`, many times.
+/// Tries all forces at the end of `jacking`, many times.
 template <class Jacking>
-Score score_of(const Plane& scene, const Jacking& jacking) {
+void check_bars(const Plane& scene, const Jacking& jacking) {
   Score score;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     const auto pumped = std::make_unique<Pumped>(scene, seed);
     jacking(*pumped);
-    pumped->add_to([&](double z) { score.add(z); });
+    pumped->add_to(score);
   }
   MESSAGE("seeds 1 to 200: ", 100 * score.share(), " % are held, rms ", score.rms());
-  return score;
+  CHECK(score.share() > 0.93);
+  CHECK(score.rms() < 1.1);
 }
 
 taut::Cable<double> known_cable(const std::array<taut::End, 2>& ends) {
@@ -124,8 +101,6 @@ taut::Cable<double> known_cable(const std::array<taut::End, 2>& ends) {
   for (auto& cell : cable.cell) cell.sd = noise;
   return cable;
 }
-
-constexpr std::array<taut::End, 2> one_jack = support::jacked_end;
 
 void hold_and_lock(Pumped& pumped) {
   pumped.go(1, 60);
@@ -152,7 +127,6 @@ TEST_CASE(
         static Plane scene;
         static Model model;
         static taut::FrictionPrior<double, PlaneCapacity> known;
-        scene = {};
         auto cable = support::steel_cable(0.2, support::two_jacks);
         cable.seating = 0.003;
         if (elastic)
@@ -192,37 +166,30 @@ TEST_CASE("of cables that are locked in the same row each has the error of its o
   for (const int count : {1, 2}) {
     CAPTURE(count);
     static Plane scene;
-    scene = {};
-    add_cables(scene, known_cable(one_jack), count);
-    const Score locked = score_of(scene, hold_and_lock), turned = score_of(scene, turn_back);
-    CHECK(locked.share() > 0.93);
-    CHECK(locked.rms() < 1.1);
-    CHECK(turned.share() > 0.93);
-    CHECK(turned.rms() < 1.1);
+    saddle_rows(scene, known_cable(support::jacked_end), count);
+    check_bars(scene, hold_and_lock);
+    check_bars(scene, turn_back);
   }
 }
 
 TEST_CASE("of two jacks of a cable that are locked in the same row each leaves the error of its load") {
   static Plane scene;
-  add_cables(scene, known_cable(support::two_jacks), 1);
-  const Score locked = score_of(scene, hold_and_lock), turned = score_of(scene, turn_back);
-  CHECK(locked.share() > 0.93);
-  CHECK(locked.rms() < 1.1);
-  CHECK(turned.share() > 0.93);
-  CHECK(turned.rms() < 1.1);
+  saddle_rows(scene, known_cable(support::two_jacks), 1);
+  check_bars(scene, hold_and_lock);
+  check_bars(scene, turn_back);
 }
 
 TEST_CASE("what friction holds of a load that a ram had is as uncertain as the load was when it turned") {
   static Plane scene;
-  auto cable = known_cable(one_jack);
+  auto cable = known_cable(support::jacked_end);
   cable.cell[1].up = 1.03;
   cable.cell[1].down = 0.96;
   // An unknown that the load depends on in another way on each branch.
   cable.cell[1].gain_sd = 1e-6;
-  add_cables(scene, cable, 1);
+  saddle_rows(scene, cable, 1);
   for (const int rests : {1, 30}) {
     CAPTURE(rests);
-    const Score score = score_of(scene, [&](Pumped& pumped) {
+    check_bars(scene, [&](Pumped& pumped) {
       pumped.go(1, 60);
       // Between the branches all rests, and then the load leaves the place where it turned.
       pumped.go(0.95, 5);
@@ -230,7 +197,5 @@ TEST_CASE("what friction holds of a load that a ram had is as uncertain as the l
       pumped.go(0.88, 10);
       pumped.go(0.88, 20);
     });
-    CHECK(score.share() > 0.93);
-    CHECK(score.rms() < 1.1);
   }
 }
