@@ -107,11 +107,32 @@ void hold_and_lock(Pumped& pumped) {
   pumped.go(1, 30);
   pumped.go(1, 3, true);
 }
+/// On the top of a ramp, with or without a rest.
+void turn_at_once(Pumped& pumped) {
+  pumped.go(1, 60);
+  pumped.go(0.9, 10);
+  pumped.go(0.9, 5);
+}
+void turn_soon(Pumped& pumped) {
+  pumped.go(1, 50);
+  pumped.go(1, 3);
+  pumped.go(0.9, 20);
+}
 void turn_back(Pumped& pumped) {
   pumped.go(1, 60);
   pumped.go(1, 10);
   pumped.go(0.9, 10);
   pumped.go(0.9, 30);
+}
+
+/// Two cables on the same struts, jacked at the same end or at both.
+void two_below_truss(Plane& scene, bool from_both_ends) {
+  const auto cable = known_cable(support::jacked_end);
+  support::truss_string(scene, cable, 6);
+  std::vector<int> path;
+  for (int i = 0; i < scene.cables[0].nodes; ++i) path.push_back(scene.path[i]);
+  if (from_both_ends) std::reverse(path.begin(), path.end());
+  scene.add_cable(cable, path.data(), static_cast<int>(path.size()));
 }
 
 }  // namespace
@@ -177,6 +198,16 @@ TEST_CASE("of two jacks of a cable that are locked in the same row each leaves t
   saddle_rows(scene, known_cable(support::two_jacks), 1);
   check_bars(scene, hold_and_lock);
   check_bars(scene, turn_back);
+}
+
+TEST_CASE("jacks whose turn is confirmed later have been as far when the first one turned") {
+  for (const bool from_both_ends : {false, true}) {
+    CAPTURE(from_both_ends);
+    static Plane scene;
+    two_below_truss(scene, from_both_ends);
+    check_bars(scene, turn_at_once);
+    check_bars(scene, from_both_ends ? turn_back : turn_soon);
+  }
 }
 
 TEST_CASE("what friction holds of a load that a ram had is as uncertain as the load was when it turned") {

@@ -334,6 +334,19 @@ struct JackLoad {
     filter.come_to(to * branch(cell));
     at.confirmed = to;
   }
+  /// Another jack turns in this row: this one has been as far as it surely was by then, whether it goes on or
+  /// has turned as well, which shows later.
+  void come_to_farthest(const LoadCell<Scalar>& cell) {
+    come_sd = larger(at.sd, farthest_sd);
+    if (rises ? farthest > at.confirmed : farthest < at.confirmed) {
+      filter.come_to(farthest * branch(cell));
+      at.confirmed = farthest;
+    }
+    load_before = at.confirmed;
+  }
+  /// Beside other jacks: whether friction may have come to rest at its load. Where it goes on, it has not;
+  /// but it may have turned, and where another jack has, until it surely goes on.
+  bool may_rest() const { return !moves.is_fast() || may_be_back() || (frozen >= 0 && !moves.has_gone()); }
   /// Beside other jacks: after take(), whether it goes on.
   void follow_moves(Scalar dt, const LoadCell<Scalar>& cell) {
     if (is_new)

@@ -103,7 +103,7 @@ void remember_turn(Parts& parts, int k, typename Parts::Scalar sd) {
   if (jack.at_turn < 0) return;
   jack.turned_at = static_cast<Scalar>(parts.jacks.in(parts.tracker.loads().jack, k).force);
   parts.is_belief_fine = false;
-  if (loads_change && !jack.locked) {
+  if (loads_change && !jack.locked && jack.rests_beside) {
     std::swap(jack.frozen, jack.at_turn);
     parts.filter.remember_load(parts.tracker, resting_error(parts, k), sd);
   } else {
@@ -141,9 +141,14 @@ void follow_other_loads(Parts& parts, const typename Parts::ReadingsType& readin
     auto& jack = parts.jacks[k];
     if (jack.locked || jack.memory[0] < 0) continue;
     // Of a load that is none there is nothing to remember.
-    const bool rests = has_others && !jack.moves.is_fast() && !jack.may_idle(),
-               changes = factors_change || (rests && another_has_gone(parts, k));
-    if (changes) jack.come_to_best(parts.cell(k));
+    const bool is_beside = has_others && !jack.may_idle(),
+               meets_turn = is_beside && corners.reverses && !jack.has_reversed() && !jack.stays_taken(),
+               rests = is_beside && jack.may_rest(),
+               changes = factors_change || meets_turn || (rests && another_has_gone(parts, k));
+    if (meets_turn && jack.frozen < 0)
+      jack.come_to_farthest(parts.cell(k));
+    else if (changes)
+      jack.come_to_best(parts.cell(k));
     if (changes && jack.frozen >= 0) parts.filter.widen(jack.frozen, jack.come_sd);
     jack.rests_beside = changes || (rests && jack.frozen >= 0);
     corners.loads |= jack.changes_rest();
