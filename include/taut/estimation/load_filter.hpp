@@ -434,7 +434,7 @@ class LoadFilter : LoadFilterTuning {
     at(hypotheses_.level_variance, born) = is_jump ? jump : level_variance + bent * bent;
     at(hypotheses_.covariance, born) = is_jump ? Level(0) : covariance + bent * change;
     at(hypotheses_.slope_variance, born) = is_jump ? Level(0) : slope_variance + change * change;
-    at(hypotheses_.weight, born) = odds * (is_jump ? jumps : bends);
+    at(hypotheses_.weight, born) = odds * (is_jump ? jumps : why.surprises ? bends : quiet_bends);
     at(hypotheses_.corner, born) = come;
     at(hypotheses_.mean, born) = 0;
     at(hypotheses_.run_length, born) = at(hypotheses_.outliers_in_a_row, born) = 0;

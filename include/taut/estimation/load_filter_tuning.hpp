@@ -19,8 +19,8 @@ struct LoadFilterTuning {
   /// The hazard of a change: the odds that a piece ends now are 1 in its run length and this. Pieces of every
   /// length are as likely.
   static constexpr Level least_length = 15;
-  /// Of the changes so many are bends, and so many jumps.
-  static constexpr Level bends = Level(0.8), jumps = Level(0.002);
+  /// Of the changes so many are bends, where a reading surprises and where none does, and so many jumps.
+  static constexpr Level bends = Level(0.8), quiet_bends = Level(0.4), jumps = Level(0.002);
   /// Changes of slope to be expected, per sample: the slope itself, but at least the first, or the second
   /// where a reading is that far off.
   static constexpr Level gentle_bend = Level(0.15), steep_bend = 3;
@@ -78,7 +78,7 @@ struct LoadFilterTuning {
   /// How far they drift off beyond what is by chance counts as deviation too, by this part, but not beyond
   /// the widest one; of a line older than `young` by less, in proportion.
   static constexpr Level by_chance = 2, perhaps_bent = Level(0.8), widest = Level(1.2);
-  static constexpr int young = 150;
+  static constexpr int young = 300;
 
   // Times without readings.
 
