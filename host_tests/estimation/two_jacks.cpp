@@ -1,6 +1,7 @@
 // A cable between two jacks, each with a noisy load cell, and neither mu nor the loads known.
 #include <doctest/doctest.h>
 
+#include "estimation/score.hpp"
 #include "estimation/site.hpp"
 
 using namespace estimation;
@@ -19,6 +20,17 @@ void make_ground(Ground& ground, bool elastic, double mu_sd, double actual_mu, d
   else
     support::rigid_saddles(ground.known, cable, support::chain_points(7));
   ground.set_true_mu(std::vector<double>(16, actual_mu));
+}
+
+/// What all joints together leave of a jack's force: one over which the cable turns by b keeps
+/// (1 - mu tan(b / 2)) / (1 + mu tan(b / 2)).
+double carried(const Ground& ground, double mu) {
+  double part = 1;
+  for (int j = 0; j < ground.known.mu.size(); ++j) {
+    const double kappa = mu * std::tan(support::chain_turn[j] / 2);
+    part *= (1 - kappa) / (1 + kappa);
+  }
+  return part;
 }
 
 struct Tally {
@@ -108,15 +120,6 @@ TEST_CASE(
   static Ground ground;
   make_ground(ground, false, 0.03, 0.2);
   const auto site = std::make_unique<Site<double>>(ground, Instruments{}, full, 1);
-  // A joint over which the cable turns by b keeps (1 - mu tan(b / 2)) / (1 + mu tan(b / 2)).
-  const auto carried = [&](double mu) {
-    double part = 1;
-    for (int j = 0; j < ground.known.mu.size(); ++j) {
-      const double kappa = mu * std::tan(support::chain_turn[j] / 2);
-      part *= (1 - kappa) / (1 + kappa);
-    }
-    return part;
-  };
   const auto code_at = [&](double start) {
     auto estimator = std::make_unique<Site<double>::Estimator>(site->estimator());
     taut::Readings<double, PlaneCapacity> readings;
@@ -129,11 +132,71 @@ TEST_CASE(
     return taut::Code::ok;
   };
   CHECK(code_at(1) == taut::Code::ok);
-  CHECK(code_at(carried(0.2) + 0.02) == taut::Code::ok);
+  CHECK(code_at(carried(ground, 0.2) + 0.02) == taut::Code::ok);
   // Two standard deviations more friction than the model has, and far more than five.
-  CHECK(code_at(carried(0.26)) == taut::Code::ok);
-  CHECK(code_at(0.6 * carried(0.35)) == taut::Code::pulled_through);
+  CHECK(code_at(carried(ground, 0.26)) == taut::Code::ok);
+  CHECK(code_at(0.6 * carried(ground, 0.35)) == taut::Code::pulled_through);
   CHECK(code_at(0) == taut::Code::pulled_through);
+}
+
+TEST_CASE("what two wedges leave is as uncertain as friction between jacks that differ by up to half of it") {
+  static Ground ground;
+  using Model = Site<double>::Model;
+  static Model known, actual;
+  static taut::FrictionPrior<double, PlaneCapacity> prior;
+  constexpr double noise = 0.002;
+  Score score;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    const double mu = std::max(0.05, 0.2 * (1 + 0.3 * gaussian(random)));
+    make_ground(ground, false, 0.06, 0.2);
+    for (auto& cell : ground.known.cables[0].cell) cell.sd = noise * full;
+    REQUIRE(support::condense(ground.known, known).ok());
+    taut::find_friction_prior(ground.known, prior);
+    auto estimator = std::make_unique<Site<double>::Estimator>();
+    REQUIRE(estimator->start(known, prior).status.ok());
+    for (double& each : ground.known.mu) each = mu;
+    REQUIRE(support::condense(ground.known, actual).ok());
+    auto truth = std::make_unique<taut::Tracker<Model>>();
+    REQUIRE(truth->start(actual).status.ok());
+
+    taut::Sample<double, PlaneCapacity> sample;
+    taut::Readings<double, PlaneCapacity> readings;
+    const auto advance = [&] {
+      for (std::size_t end = 0; end < 2; ++end) {
+        const auto& at = sample.jack[0][end];
+        readings.sample.jack[0][end].locked = at.locked;
+        readings.ends[0][end] = {!at.locked, false, at.force + noise * full * gaussian(random), 0};
+      }
+      REQUIRE(truth->advance(sample).status.ok());
+      REQUIRE(estimator->advance(readings).status.ok());
+    };
+    const auto go = [&](double start, double end, int rows) {
+      const std::array<double, 2> from = {sample.jack[0][0].force, sample.jack[0][1].force},
+                                  to = {start, end};
+      for (int i = 1; i <= rows; ++i) {
+        for (std::size_t k = 0; k < 2; ++k)
+          sample.jack[0][k].force = from[k] + (to[k] * full - from[k]) * i / rows;
+        advance();
+      }
+    };
+    const double least = (1 + carried(ground, mu)) / 2, first = random.between(least, 1),
+                 second = random.between(least, first);
+    go(first, 1, 60);
+    go(first, 1, 10);
+    go(second, 1, 20);
+    go(second, 1, 10);
+    for (auto& at : sample.jack[0]) at.locked = true;
+    advance();
+    for (int k = 0; k < known.segments; ++k) {
+      const auto found = estimator->estimate(k);
+      score.add((found.force - truth->tension(k)) / found.deviation);
+    }
+  }
+  MESSAGE("seeds 1 to 300: ", 100 * score.share(), " % are held, rms ", score.rms());
+  CHECK(score.share() > 0.93);
+  CHECK(score.rms() < 1.1);
 }
 
 }  // namespace

@@ -117,8 +117,9 @@ void for_each_front(const Parts& parts, int c, const Visit& visit) {
 }
 
 /// After wedges of cable `c` were drawn in, in the last lock-off, which is known: draws them in with friction
-/// two standard deviations less, and more, and comes back. How far joints slide back there depends on
-/// friction, and not in proportion. Cost: three times that of lock_anew().
+/// two standard deviations less, and more, and comes back; one or a half where there is no state so far, as
+/// between two jacks that so little friction does not hold. How far joints slide back there depends on
+/// friction, and not in proportion. Cost: three times that of lock_anew(), at worst seven.
 template <class Parts>
 void try_other_friction(Parts& parts, int c) {
   using Scalar = typename Parts::Scalar;
@@ -138,15 +139,18 @@ void try_other_friction(Parts& parts, int c) {
   FixedArray<Scalar, Parts::Cap::segments> force;
   for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i)
     force[i] = best_tension(parts, i);
-  for (const Scalar x : {-far, far}) {
-    auto values = belief.mean();
-    for (int p = 0; p < belief.friction(); ++p)
-      if (turned.leader(p) == leader) values[p] += x * turned.move(p);
-    if (!lock_anew(parts, values)) continue;
-    // By how much jacks' cells are off is counted along a straight line: half of that is in doubt here.
-    for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i)
-      turned.find(i, (parts.tracker.tension(i) - force[i]) / x);
-  }
+  for (const Scalar way : {-far, far})
+    for (const Scalar part : {Scalar(1), Scalar(0.5), Scalar(0.25)}) {
+      const Scalar x = part * way;
+      auto values = belief.mean();
+      for (int p = 0; p < belief.friction(); ++p)
+        if (turned.leader(p) == leader) values[p] += x * turned.move(p);
+      if (!lock_anew(parts, values)) continue;
+      // By how much jacks' cells are off is counted along a straight line: half of that is in doubt here.
+      for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i)
+        turned.find(i, (parts.tracker.tension(i) - force[i]) / x);
+      break;
+    }
   static_cast<void>(lock_anew(parts, here));
   const Scalar sd = std::sqrt(belief.variance(leader));
   parts.far_ends.set_bent(parts.model(), c, [&](int i) {
