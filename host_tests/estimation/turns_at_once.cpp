@@ -79,9 +79,9 @@ class Pumped {
   double pressure_ = 0;
 };
 
-/// Tries all forces at the end of `jacking`, many times.
+/// Tries all forces at the end of `jacking`, many times: at least this share lies in the 95 % intervals.
 template <class Jacking>
-void check_bars(const Plane& scene, const Jacking& jacking) {
+void check_bars(const Plane& scene, const Jacking& jacking, double least = 0.93, double most_rms = 1.1) {
   Score score;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     const auto pumped = std::make_unique<Pumped>(scene, seed);
@@ -89,8 +89,8 @@ void check_bars(const Plane& scene, const Jacking& jacking) {
     pumped->add_to(score);
   }
   MESSAGE("seeds 1 to 200: ", 100 * score.share(), " % are held, rms ", score.rms());
-  CHECK(score.share() > 0.93);
-  CHECK(score.rms() < 1.1);
+  CHECK(score.share() > least);
+  CHECK(score.rms() < most_rms);
 }
 
 taut::Cable<double> known_cable(const std::array<taut::End, 2>& ends) {
@@ -117,6 +117,11 @@ void turn_soon(Pumped& pumped) {
   pumped.go(1, 50);
   pumped.go(1, 3);
   pumped.go(0.9, 20);
+}
+/// By no more than 0.8 deviations of the noise a row.
+void turn_slowly(Pumped& pumped) {
+  pumped.go(1, 100);
+  pumped.go(0.9, 40);
 }
 void turn_back(Pumped& pumped) {
   pumped.go(1, 60);
@@ -207,6 +212,15 @@ TEST_CASE("jacks whose turn is confirmed later have been as far when the first o
     two_below_truss(scene, from_both_ends);
     check_bars(scene, turn_at_once);
     check_bars(scene, from_both_ends ? turn_back : turn_soon);
+  }
+}
+
+TEST_CASE("of jacks that turn so slowly that noise hides it for ten rows four bars in five hold") {
+  for (const bool from_both_ends : {false, true}) {
+    CAPTURE(from_both_ends);
+    static Plane scene;
+    two_below_truss(scene, from_both_ends);
+    check_bars(scene, turn_slowly, 0.8, 2);
   }
 }
 
