@@ -107,12 +107,13 @@ void hold_and_lock(Pumped& pumped) {
   pumped.go(1, 30);
   pumped.go(1, 3, true);
 }
-/// On the top of a ramp, with or without a rest.
+/// Without a rest at the top of the ramp.
 void turn_at_once(Pumped& pumped) {
   pumped.go(1, 60);
   pumped.go(0.9, 10);
   pumped.go(0.9, 5);
 }
+/// After a short rest.
 void turn_soon(Pumped& pumped) {
   pumped.go(1, 50);
   pumped.go(1, 3);

@@ -127,8 +127,9 @@ bool another_has_gone(const Parts& parts, int k) {
 }
 
 /// While other loads change, friction comes to rest at the loads that jacks have then, known or not. To a
-/// jack at rest another jack's load is one, too; it then rests beside it until it goes on itself. Cost: a few
-/// operations a jack, and a pair of jacks.
+/// jack at rest another jack's load is one, too, and so it is to one that may have turned, or that goes on
+/// where the other one is found to have turned; it then rests beside it until it surely goes on itself. Cost:
+/// a few operations a jack, and a pair of jacks.
 template <class Parts>
 void follow_other_loads(Parts& parts, const typename Parts::ReadingsType& readings,
                         Corners<typename Parts::Scalar>& corners) {
