@@ -160,7 +160,12 @@ using Row = taut::Sample<double, PlaneCapacity>;
 class Straight {
  public:
   explicit Straight(const Model& model) { REQUIRE(tracker_.start(model).status.ok()); }
-  void turn(double force) { go(tracker_, force, factor_); }
+  /// A load that turned before it had come as far as was confirmed has been no farther.
+  void turn(double force, bool was_highest) {
+    const double from = tracker_.loads().jack[0][1].force;
+    if (was_highest ? force < from : force > from) tracker_.correct_load(0, force);
+    go(tracker_, force, factor_);
+  }
   void confirm(double force, double factor) {
     // Where the other load begins to change the jack comes first.
     const bool changes = factor != factor_;
@@ -269,7 +274,7 @@ TEST_CASE(
         REQUIRE(site->good());
         const auto& estimator = site->estimator();
         const auto load = estimator.load(0, 1);
-        if (load.reversed) straight->turn(load.reversal);
+        if (load.reversed) straight->turn(load.reversal, load.confirmed < load.reversal);
         straight->confirm(std::max(load.confirmed, 1e-3 * jack * full), deed.factor);
         // Where it may have turned nobody knows what slides.
         if (load.behind) continue;

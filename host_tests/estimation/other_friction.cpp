@@ -165,7 +165,8 @@ TEST_CASE("a force since a turn is the lower of sticking and sliding if it fell,
   CHECK(turned.leader_of(0) < 0);
   turned.set_move(1, 1, 1);
   // Sticking at 100 it would have 10 less with a standard deviation of friction more, which is 0.1.
-  turned.turn(0, 100, -100, 1, 0);
+  turned.turn(0, 100, 0);
+  turned.turn_with_friction(0, -100, 1, 0);
   CHECK(turned.leader_of(0) == 1);
   const auto deviation = [&](double force, double slides, double sd = 0.1) {
     return turned.deviation(0, force, slides, sd);
@@ -186,7 +187,8 @@ TEST_CASE("a force since a turn is the lower of sticking and sliding if it fell,
   CHECK(deviation(70, 30) == doctest::Approx(5));
   CHECK(deviation(70, -80) == doctest::Approx(-8));
   // Of friction that is off by itself, too, it follows both: a kink two of those deviations away counts.
-  turned.turn(0, 100, -100, 1, 0.03);
+  turned.turn(0, 100, 0);
+  turned.turn_with_friction(0, -100, 1, 0.03);
   CHECK(turned.of_friction(0, 0.1) == doctest::Approx(0.2));
   CHECK(deviation(80, 30) == doctest::Approx(-10));
   CHECK(deviation(40, 30) == doctest::Approx(6));

@@ -12,6 +12,7 @@
 #include "taut/estimation/friction_filter.hpp"
 #include "taut/estimation/gauges.hpp"
 #include "taut/estimation/jack_loads.hpp"
+#include "taut/estimation/joint_reach.hpp"
 #include "taut/estimation/readings.hpp"
 #include "taut/estimation/turned_forces.hpp"
 #include "taut/scene/capacity.hpp"
@@ -164,9 +165,20 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   Scalar force(int segment) const {
     return estimate_force<false>(tracker, jacks, filter, turned, segment).force;
   }
-  /// In a cable whose cells are off the model, the deviation is wider by that.
+  /// As joints slide and stick where the tracker is.
+  ForceEstimate<Scalar> estimate_segment(int segment) const {
+    return estimate_force<true>(tracker, jacks, filter, turned, segment);
+  }
+  /// And as joints may stick and slide beside it. In a cable whose cells are off the model, the deviation is
+  /// wider by that.
   ForceEstimate<Scalar> estimate(int segment) const {
-    auto estimate = estimate_force<true>(tracker, jacks, filter, turned, segment);
+    auto estimate = estimate_segment(segment);
+    const Scalar reached = deviation_by_reach(*this, segment, estimate.force);
+    Scalar kept = 0;
+    // While it sticks, what a far end has taught of it since counts, too.
+    if (far_ends.ends().size() == 0 || turned.has_gone_on(segment, estimate.force))
+      kept = turned.deviation_by_loads(segment, estimate.force);
+    estimate.deviation = larger(estimate.deviation, larger(reached, kept));
     if (misfits) {
       const Scalar misfit = far_ends.misfit(cable_of(segment));
       estimate.deviation = std::sqrt(estimate.deviation * estimate.deviation + misfit * misfit);

@@ -16,6 +16,7 @@
 #include "taut/estimation/load_moves.hpp"
 #include "taut/estimation/noise_level.hpp"
 #include "taut/estimation/readings.hpp"
+#include "taut/estimation/turning_point.hpp"
 #include "taut/numerics/larger.hpp"
 #include "taut/scene/load_cell.hpp"
 #include "taut/scene/sample.hpp"
@@ -54,6 +55,7 @@ struct JackLoad {
   JumpGuard<Scalar> guard;
   NoiseLevel<Scalar> noise;
   LoadMoves<Scalar> moves;
+  TurningPoint<Scalar> turning;
   ConditionedLoad<Scalar> at{};
   Jack<Scalar> driven{};  ///< where the tracker was driven to
   Scalar since = 0;       ///< time since the last reading
@@ -89,6 +91,7 @@ struct JackLoad {
   Scalar lasts = 0;           ///< what its readings are off by together, NoiseLevel::Found::lasting [N]
   std::int16_t frozen = 0;    ///< the one of `memory` that its error is while other loads change, or -1
   bool rests_beside = false;  ///< other loads change, and friction comes to rest at the load that it has
+  Scalar rested_at = 0;       ///< where the tracker was when they ceased to [N]
 
   /// A reading, or none if it is more than the cable can carry, `most` [N].
   static Scalar possible(Scalar reading, Scalar most) {
@@ -107,7 +110,8 @@ struct JackLoad {
     };
     if (reading.reversed) {
       load.reversal = turned = on(reading.reversal);
-      turned_sd = sd_before;
+      load.reversal_sd = reading.reversal_sd / branch(cell);
+      turned_sd = load.reversal_sd > 0 ? load.reversal_sd : sd_before;
       pulls = !pulls;
     }
     load.sd = reading.sd / branch(cell);
@@ -127,6 +131,7 @@ struct JackLoad {
     *this = JackLoad();
     pulls = erred_up = rises = true;
     at_turn = seating = frozen = -1;
+    rested_at = -1;
     filter.start(cell.sd);
     noise.start(cell.sd);
   }
@@ -154,12 +159,25 @@ struct JackLoad {
     return larger(times * times, Scalar(1));
   }
 
+  /// The readings have reversed: at which, if the last ones tell, and the line that they were on hardly says
+  /// anything else. Beside other loads that change, friction has come to rest at the load that was taken for
+  /// the farthest by then, and remembers the error of that one. Cost: that of TurningPoint::find().
+  void find_reversal() {
+    if (frozen >= 0 || driven.force == rested_at) return turning.clear();
+    const bool was_highest = !filter.goes_up();
+    const auto turn = turning.find(filter.sd(), was_highest);
+    if (!turn.is_known || std::fabs(turn.load - at.reversal) > 6 * filter.sd()) return;
+    // The load is confirmed to have been as far, and no force is below zero.
+    at.reversal =
+        was_highest ? larger(turn.load, at.confirmed) : larger(-larger(-turn.load, -at.confirmed), Scalar(0));
+    at.reversal_sd = larger(turn.sd, lasts);
+  }
   /// Once the load of a row is known. Where a ramp ends the estimate overshoots: it is farther than it was
   /// read by `beyond` at most [N], and known no better than that.
   void note_farthest(Scalar beyond) {
     Scalar come = at.load;
     if (at.reversed) {
-      turn_sd = larger(sd_before, back(at.reversal));
+      turn_sd = at.reversal_sd > 0 ? at.reversal_sd : larger(sd_before, back(at.reversal));
       rises = !rises;
     } else {
       come = rises ? -larger(-at.load, -raw - beyond) : larger(at.load, raw - beyond);
@@ -196,6 +214,7 @@ struct JackLoad {
   /// That reading is believed after all; no force is below zero.
   void come_to_refused() {
     filter.start_at(filter.sd(), larger(refused, Scalar(0)), filter.sd(), refused > believed);
+    turning.add(refused, 0, filter.sd());
     believed = refused;
     refusals = 0;
   }
@@ -245,12 +264,18 @@ struct JackLoad {
       if (at.reversed) {
         at.reversal = farthest;
         turn_sd = farthest_sd;
+        const auto turn = turning.find(filter.sd(), rises);
+        if (turn.is_known && std::fabs(turn.load / branch(cell) - farthest) < 6 * filter.sd()) {
+          at.reversal = larger(turn.load, Scalar(0)) / branch(cell);
+          turn_sd = larger(turn.sd, lasts) / branch(cell);
+        }
         corners.reverses = true;
       }
       lock_sd = at.reversed ? at.sd : larger(at.sd, come_back);
       corners.locks = locks_now = locked = true;
       at.behind = false;
       filter.start(filter.sd());
+      turning.clear();
       elongation.begin_leg();
       below = 0;
       return false;
@@ -306,6 +331,11 @@ struct JackLoad {
     // have gone as far again.
     if (at.refused && std::isfinite(reading))
       at.sd = larger(at.sd, std::fabs(reading - at.load) / (since > JumpGuard<Scalar>::far_apart ? 1 : 2));
+    if (at.refused)
+      turning.miss(since);
+    else
+      turning.add(reading, since, filter.sd());
+    if (at.reversed) find_reversal();
     raw = given.force;
     if (cell.has_branches()) {
       at = behind_branches(at, cell);

@@ -23,8 +23,9 @@ struct ConditionedLoad {
   bool reversed =
       false;            ///< the load has reversed since the sample before: the model goes to `reversal` first
   Scalar reversal = 0;  ///< best estimate of where [N], if it has
-  bool refused = false;  ///< the reading was taken for an outlier: the load is held
-  bool behind = false;   ///< the estimate has not come as far as `confirmed`: the load may have reversed
+  Scalar reversal_sd = 0;  ///< its standard deviation [N], or zero if TurningPoint does not tell
+  bool refused = false;    ///< the reading was taken for an outlier: the load is held
+  bool behind = false;     ///< the estimate has not come as far as `confirmed`: the load may have reversed
 };
 
 /// Friction remembers every peak, those of noise too: fed with raw readings, a model is dragged along by
@@ -101,6 +102,8 @@ class LoadFilter : LoadFilterTuning {
     set_confirmed(confirmed_);
   }
   bool has_waiting() const { return block_.has_room(); }
+  /// The way that the load goes at present.
+  bool goes_up() const { return way_ > 0; }
   /// Readings since the likeliest line began, but those that wait.
   int run_length() const { return sd_ > 0 && hypotheses_.size > 0 ? at(hypotheses_.run_length, best_) : 0; }
   /// Something else will remember the load as it is now: it is taken to have come as far as this best

@@ -77,11 +77,13 @@ void leave(Parts& parts, const typename Parts::SampleType& to) {
 /// Other loads change no longer: what friction remembers of jack `k` stays as it is.
 template <class Parts>
 void forget_other_loads(Parts& parts, int k) {
-  if (parts.jacks[k].frozen < 0) return;
+  auto& jack = parts.jacks[k];
+  if (jack.frozen < 0) return;
   leave_turns_of(parts, [](int) { return true; });
   // A failure shows on the way on.
-  static_cast<void>(parts.tracker.end_load_error(parts.jacks[k].frozen));
-  parts.jacks[k].frozen = -1;
+  static_cast<void>(parts.tracker.end_load_error(jack.frozen));
+  jack.frozen = -1;
+  jack.rested_at = static_cast<typename Parts::Scalar>(parts.jacks.in(parts.tracker.loads().jack, k).force);
 }
 
 /// Jack `k` reverses or is locked where the tracker is now: once it leaves, friction will remember the error

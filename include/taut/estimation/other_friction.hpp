@@ -61,6 +61,22 @@ typename Parts::Scalar by_move(const Parts& parts, int leader, int segment) {
   return change;
 }
 
+/// The standard deviation of a segment's force by the loads that friction remembers [N], and by that of jack
+/// `k` if it turns here. Cost: a derivative a memory.
+template <class Parts>
+typename Parts::Scalar known_by_loads(const Parts& parts, int k, int segment) {
+  using Scalar = typename Parts::Scalar;
+  const Scalar here = parts.tracker.slope(k, segment) * parts.jacks[k].turn_sd;
+  Scalar variance = here * here;
+  for (int other = 0; other < parts.jacks.size(); ++other)
+    for (const int p : parts.jacks[other].memory) {
+      if (p < 0) continue;
+      const Scalar S = parts.tracker.sensitivity(p, segment);
+      variance += S * S * parts.filter.belief().variance(p);
+    }
+  return std::sqrt(variance);
+}
+
 /// Jack `k` turns here, or takes hold of a cable that was locked. Cost: a derivative a segment and unknown.
 template <class Parts>
 void turn_forces(Parts& parts, int k) {
@@ -68,17 +84,18 @@ void turn_forces(Parts& parts, int k) {
   const auto& belief = parts.filter.belief();
   auto& turned = parts.turned;
   const int c = parts.jacks.end(k).cable(), leader = find_common_friction(parts, c);
-  if (leader < 0) return;
   const auto& cable = parts.model().cables[c];
-  const Scalar sd = std::sqrt(belief.variance(leader));
+  const Scalar sd = leader < 0 ? Scalar(0) : std::sqrt(belief.variance(leader));
   for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i) {
     const Scalar force = best_tension(parts, i);
+    turned.turn(i, force, known_by_loads(parts, k, i));
+    if (leader < 0) continue;
     Scalar sticks = by_move(parts, leader, i), apart = parts.filter.scatter(i);
     if (turned.leader_of(i) == leader) {
       sticks = turned.longest(i, force, sticks, turned.of_friction(i, sd));
       apart = larger(apart, turned.apart(i));
     }
-    turned.turn(i, force, sticks, leader, apart);
+    turned.turn_with_friction(i, sticks, leader, apart);
   }
   parts.far_ends.set_bent(parts.model(), c, [](int) { return Scalar(0); });
 }
@@ -98,8 +115,7 @@ int find_front(const Parts& parts, const FromEnd<Scalar>& from) {
   const int n = from.cable.segments();
   int front = 0;
   const auto has_slid = [&](int i) {
-    const Scalar before = parts.turned.force(from.segment(i));
-    return std::fabs(best_tension(parts, from.segment(i)) - before) > Scalar(1e-4) * before;
+    return parts.turned.has_gone_on(from.segment(i), best_tension(parts, from.segment(i)));
   };
   while (front + 1 < n && has_slid(front + 1)) ++front;
   return front == 0 && n > 1 ? 1 : front;

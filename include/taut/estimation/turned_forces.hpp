@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "taut/estimation/kink.hpp"
 #include "taut/numerics/larger.hpp"
 #include "taut/scene/fixed_list.hpp"
 
@@ -12,7 +13,8 @@ namespace taut {
 /// What the derivatives of forces by friction do not tell once a jack has turned, was locked or took hold
 /// again. From there on joints let go one after the other, and which has last depends on friction: beyond the
 /// next kink, forces change in another way. All derivatives are by one move of the unknowns of friction, by
-/// which a cable has more or less of it as a whole, Eq. (55). A plain value.
+/// which a cable has more or less of it as a whole, Eq. (55); and what they do not tell by errors of loads: a
+/// joint that has just let go may still stick. A plain value.
 template <class Scalar, class Cap, int Parameters>
 class TurnedForces {
  public:
@@ -26,6 +28,7 @@ class TurnedForces {
 
   void clear() {
     move_.fill(Scalar(0));
+    by_loads_.fill(Scalar(0));
     leader_.fill(-1);
     leader_of_.fill(-1);
     drawn_by_.fill(-1);
@@ -37,10 +40,23 @@ class TurnedForces {
   }
   Scalar move(int p) const { return move_[p]; }
   int leader(int p) const { return leader_[p]; }
-  /// The jack turns: a segment has this force [N], with this derivative by the move while its joint sticks.
-  /// Between it and the jack friction is off its move by itself, with the variance `apart`, in moves.
-  void turn(int segment, Scalar force, Scalar derivative, int leader, Scalar apart) {
+  /// The jack turns: a segment has this force [N], known to `by_loads` as far as errors of loads go [N].
+  void turn(int segment, Scalar force, Scalar by_loads) {
+    by_loads_[segment] = larger(by_loads, deviation_by_loads(segment, force));
     force_[segment] = force;
+  }
+  /// Whether a segment has another force now [N] than where it turned.
+  bool has_gone_on(int segment, Scalar force) const {
+    return std::fabs(force - force_[segment]) > Scalar(1e-4) * force_[segment];
+  }
+  /// The standard deviation of a force by what was not known of loads where it turned [N]: its joint may
+  /// still stick. Cost: a few operations.
+  Scalar deviation_by_loads(int segment, Scalar force) const {
+    return deviation_across(by_loads_[segment], std::fabs(force - force_[segment]));
+  }
+  /// Its force has this derivative by the move while its joint sticks. Between it and the jack friction is
+  /// off its move by itself, with the variance `apart`, in moves.
+  void turn_with_friction(int segment, Scalar derivative, int leader, Scalar apart) {
     sticks_[segment] = derivative;
     found_[segment] = 0;
     leader_of_[segment] = static_cast<std::int16_t>(leader);
@@ -122,6 +138,7 @@ class TurnedForces {
   Values move_;                                        // of unknowns
   FixedArray<std::int16_t, Parameters> leader_;        // that they move with, or -1
   FixedArray<Scalar, Cap::segments> force_;            // at the turn [N]
+  FixedArray<Scalar, Cap::segments> by_loads_;         // its deviation by errors of loads there [N]
   FixedArray<Scalar, Cap::segments> sticks_;           // its derivative there
   FixedArray<Scalar, Cap::segments> found_;            // the one that was found since
   FixedArray<Scalar, drawn_segments> drawn_force_;     // once a wedge was drawn in [N]
