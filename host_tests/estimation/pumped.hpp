@@ -1,14 +1,15 @@
 // Jacks by one pump with noisy load cells, of cables whose friction is known: what is not known is the load.
 #pragma once
 
+#include <doctest/doctest.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
-
-#include <doctest/doctest.h>
 
 #include "estimation/followers.hpp"
 #include "estimation/ramp.hpp"

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "estimation/score.hpp"
@@ -32,10 +31,10 @@ std::vector<double> path(double top, double rate, int up, int rest, int back, Ra
   return load;
 }
 taut::TurningPoint<double> readings_of(const std::vector<double>& load, Random* random = nullptr,
-                                       double sign = 1, double dt = 0.5) {
+                                       double sign = 1) {
   taut::TurningPoint<double> turning;
   for (const double each : load)
-    turning.add(sign * each + (random != nullptr ? noise * gaussian(*random) : 0), dt, noise);
+    turning.add(sign * each + (random != nullptr ? noise * gaussian(*random) : 0), 0.5, noise);
   return turning;
 }
 

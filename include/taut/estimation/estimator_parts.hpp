@@ -165,12 +165,12 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   Scalar force(int segment) const {
     return estimate_force<false>(tracker, jacks, filter, turned, segment).force;
   }
-  /// As joints slide and stick where the tracker is.
+  /// The force of a segment with its deviation, all joints being as they are where the tracker is.
   ForceEstimate<Scalar> estimate_segment(int segment) const {
     return estimate_force<true>(tracker, jacks, filter, turned, segment);
   }
-  /// And as joints may stick and slide beside it. In a cable whose cells are off the model, the deviation is
-  /// wider by that.
+  /// The force of a segment with its deviation: joints that slide where the tracker is may stick, and the
+  /// other way round. In a cable whose cells are off the model, the deviation is wider by that.
   ForceEstimate<Scalar> estimate(int segment) const {
     auto estimate = estimate_segment(segment);
     const Scalar reached = deviation_by_reach(*this, segment, estimate.force);

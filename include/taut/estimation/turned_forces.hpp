@@ -54,8 +54,8 @@ class TurnedForces {
   Scalar deviation_by_loads(int segment, Scalar force) const {
     return deviation_across(by_loads_[segment], std::fabs(force - force_[segment]));
   }
-  /// Its force has this derivative by the move while its joint sticks. Between it and the jack friction is
-  /// off its move by itself, with the variance `apart`, in moves.
+  /// After turn(): the force of a segment has this derivative by the move of `leader` while its joint sticks.
+  /// Between it and the jack friction is off its move by itself, with the variance `apart`, in moves.
   void turn_with_friction(int segment, Scalar derivative, int leader, Scalar apart) {
     sticks_[segment] = derivative;
     found_[segment] = 0;
