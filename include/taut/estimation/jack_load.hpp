@@ -159,18 +159,26 @@ struct JackLoad {
     return larger(times * times, Scalar(1));
   }
 
-  /// The readings have reversed: at which, if the last ones tell, and the line that they were on hardly says
-  /// anything else. Beside other loads that change, friction has come to rest at the load that was taken for
-  /// the farthest by then, and remembers the error of that one. Cost: that of TurningPoint::find().
+  /// At which reading the load turned [N], if the last ones tell, and `line`, what the line that they were on
+  /// says [N], is hardly another one; no force is below zero. Cost: that of TurningPoint::find().
+  TurnedLoad<Scalar> turn_beside(Scalar line, bool is_highest) {
+    auto turn = turning.find(filter.sd(), is_highest);
+    turn.is_known &= !(std::fabs(turn.load - line) > 6 * filter.sd());
+    turn.load = larger(turn.load, Scalar(0));
+    turn.sd = larger(turn.sd, lasts);
+    return turn;
+  }
+  /// The readings have reversed: at which, if the last ones tell. Beside other loads that change, friction
+  /// has come to rest at the load that was taken for the farthest by then, and remembers the error of that
+  /// one. Cost: that of turn_beside().
   void find_reversal() {
     if (frozen >= 0 || driven.force == rested_at) return turning.clear();
     const bool was_highest = !filter.goes_up();
-    const auto turn = turning.find(filter.sd(), was_highest);
-    if (!turn.is_known || std::fabs(turn.load - at.reversal) > 6 * filter.sd()) return;
-    // The load is confirmed to have been as far, and no force is below zero.
-    at.reversal =
-        was_highest ? larger(turn.load, at.confirmed) : larger(-larger(-turn.load, -at.confirmed), Scalar(0));
-    at.reversal_sd = larger(turn.sd, lasts);
+    const auto turn = turn_beside(at.reversal, was_highest);
+    if (!turn.is_known) return;
+    // The load is confirmed to have been as far.
+    at.reversal = was_highest ? larger(turn.load, at.confirmed) : -larger(-turn.load, -at.confirmed);
+    at.reversal_sd = turn.sd;
   }
   /// Once the load of a row is known. Where a ramp ends the estimate overshoots: it is farther than it was
   /// read by `beyond` at most [N], and known no better than that.
@@ -264,10 +272,10 @@ struct JackLoad {
       if (at.reversed) {
         at.reversal = farthest;
         turn_sd = farthest_sd;
-        const auto turn = turning.find(filter.sd(), rises);
-        if (turn.is_known && std::fabs(turn.load / branch(cell) - farthest) < 6 * filter.sd()) {
-          at.reversal = larger(turn.load, Scalar(0)) / branch(cell);
-          turn_sd = larger(turn.sd, lasts) / branch(cell);
+        const auto turn = turn_beside(farthest * branch(cell), rises);
+        if (turn.is_known) {
+          at.reversal = turn.load / branch(cell);
+          turn_sd = turn.sd / branch(cell);
         }
         corners.reverses = true;
       }

@@ -165,13 +165,45 @@ class TurningPoint {
       return (rises ? slope < 0 : slope > 0) ? slope * slope / xx : 0;
     }
   };
+  /// A path with its corners at one place.
+  struct Tried {
+    float misfit, level, precision;
+    float likelihood;  ///< beside the misfit
+    int turn;          ///< where it comes to rest
+    bool is_before;
+  };
+  /// Of all of them the one that fits best; then, with the `scatter` that it leaves, what all say together.
+  struct AllPaths {
+    /// No misfit is so large: its square would overflow.
+    static constexpr float none = 1e18F;
+
+    float least = none, best = 0, scatter = 0;
+    float weights = 0, mean = 0, square = 0, early = 0;  // sums of weights, about `best`
+    int turn = 0;
+
+    void take(const Tried& path) {
+      if (scatter > 0) return weigh(path);
+      if (!(path.misfit < least)) return;
+      least = path.misfit;
+      best = path.level;
+      turn = path.turn;
+    }
+
+   private:
+    void weigh(const Tried& path) {
+      const float weight = path.likelihood * decay((path.misfit - least) / (2 * scatter)),
+                  off = path.level - best;
+      weights += weight;
+      mean += weight * off;
+      square += weight * (off * off + scatter / path.precision);
+      if (path.is_before) early += weight;
+    }
+  };
   struct Path {
     /// Of the path that rests at the turn, and that does not.
     static constexpr float rests = 0.8F;
     /// A misfit is too large beyond so many of its standard deviations.
     static constexpr float too_far = 3;
-    /// No misfit is so large: its square would overflow.
-    static constexpr float none = 1e18F;
     /// If it is more likely that the load has rested from the first mean on, for fewer, it turned before.
     static constexpr int first_ones = 3;
 
@@ -185,11 +217,9 @@ class TurningPoint {
       line.end();
       return line;
     }
-    /// Calls visit(misfit, level, its precision, likelihood beside the misfit, where it comes to rest,
-    /// whether that was before) for all places of the corners: where means of readings begin and end, or in
-    /// the middle of one.
-    template <class Visit>
-    void for_each(const Visit& visit) const {
+    /// Shows all places of the corners to `all`: where means of readings begin and end, or in the middle of
+    /// one.
+    void try_all(AllPaths& all) const {
       const auto meet = [&](const Line& before, const Line& rest, const Line& back, float likely, int i,
                             bool is_before) {
         const float A = before.a + rest.a + back.a;
@@ -198,7 +228,8 @@ class TurningPoint {
                     misfit =
                         before.c + rest.c + back.c - B * H + before.against(H, true) + back.against(H, false);
         // Not a number, neither.
-        if (misfit < none) visit(misfit, H, A, likely / std::sqrt(A * before.xx * back.xx), i, is_before);
+        if (misfit < AllPaths::none)
+          all.take({misfit, H, A, likely / std::sqrt(A * before.xx * back.xx), i, is_before});
       };
       const float long_rest = rests / static_cast<float>(size);
       for (int i = 0; i < size; ++i) {
@@ -217,31 +248,20 @@ class TurningPoint {
     Found find() {
       for (int j = 0; j < size; ++j) at(after, j) = line(j + 1, size, at(end, j));
       const auto n = static_cast<float>(size);
+      AllPaths all;
+      try_all(all);
       Found found;
-      float least = none, best = 0;
-      for_each([&](float misfit, float H, float, float, int turn, bool) {
-        if (!(misfit < least)) return;
-        least = misfit;
-        best = H;
-        found.turn = turn;
-      });
-      const float beyond = least - n;
+      found.turn = all.turn;
+      const float beyond = all.least - n;
       found.fits = beyond < 0 || beyond * beyond < too_far * too_far * 2 * n;
       if (!found.fits) return found;
       // A path that is not quite straight tells less.
-      const float scatter = larger(1.F, least / n);
-      float all = 0, mean = 0, square = 0, early = 0;
-      for_each([&](float misfit, float H, float A, float likelihood, int, bool is_before) {
-        const float weight = likelihood * decay((misfit - least) / (2 * scatter)), off = H - best;
-        all += weight;
-        mean += weight * off;
-        square += weight * (off * off + scatter / A);
-        if (is_before) early += weight;
-      });
-      mean /= all;
-      found.level = best + mean;
-      found.sd = std::sqrt(larger(square / all - mean * mean, 0.F));
-      found.is_before = early > all / 2;
+      all.scatter = larger(1.F, all.least / n);
+      try_all(all);
+      const float mean = all.mean / all.weights;
+      found.level = all.best + mean;
+      found.sd = std::sqrt(larger(all.square / all.weights - mean * mean, 0.F));
+      found.is_before = all.early > all.weights / 2;
       return found;
     }
   };
