@@ -20,7 +20,7 @@ void begin_leg(Parts& parts, int k) {
     auto& leg = parts.leg[0];
     leg.is_known = !parts.jacks[k].locked;
     if (!leg.is_known) return;
-    leg.from = parts.tracker.save();
+    parts.tracker.save_into(leg.from);
     leg.linearized_at = parts.filter.belief().save().linearized_at;
     for (int j = 0; j < parts.jacks.size(); ++j) leg.erred_up[j] = parts.jacks[j].erred_up;
   }
@@ -62,7 +62,8 @@ template <class Parts>
 bool go_leg_anew(Parts& parts, const typename Parts::Values& values) {
   const auto before = parts.filter.belief().save().linearized_at;
   // Not in use while the tracker is not ahead.
-  auto& here = parts.confirmed.tracker = parts.tracker.save();
+  auto& here = parts.confirmed.tracker;
+  parts.tracker.save_into(here);
   parts.lock_off.is_known = false;
   const auto to = parts.jacks.driven(parts.patterns());
   FixedArray<bool, Parts::JacksType::capacity> erred_up;

@@ -52,7 +52,7 @@ void begin_lock_off(Parts& parts) {
     if constexpr (Parts::has_seating) keep_draw_in(parts, k);
   }
   // Not in use while the tracker is not ahead.
-  parts.confirmed.tracker = parts.tracker.save();
+  parts.tracker.save_into(parts.confirmed.tracker);
   parts.lock_off.linearized_at = parts.filter.belief().save().linearized_at;
   parts.lock_off.sum = 0;
   parts.lock_off.readings = 0;

@@ -89,7 +89,7 @@ void look_ahead(Parts& parts) {
   auto& jacks = parts.jacks;
   if (!parts.is_ahead) {
     learn_waiting(parts);
-    parts.confirmed.tracker = parts.tracker.save();
+    parts.tracker.save_into(parts.confirmed.tracker);
     parts.lock_off.is_known = false;
     for (int k = 0; k < jacks.size(); ++k) parts.confirmed.jack[k] = jacks[k].driven;
     parts.is_ahead = true;

@@ -258,28 +258,39 @@ class ModeDecision {
         due[i] = due_at(cables_.jacks[cables_.number[variable.index]], totally);
     }
   }
+  /// Begins the path from rates, or from all forces. `is_mapped`: the map is that of the set, and gives its
+  /// rates. What is due is kept no longer: on the path itself the stack is deepest.
+  [[gnu::noinline]] typename Solver::Outcome begin_path(Solver& solver, bool totally, bool goes_on,
+                                                        bool is_mapped) const {
+    typename Map::Values due;
+    dues(totally, due);
+    return solver.begin_path(
+        due, nothing(totally), goes_on, [&](Tensions& T) { find_stuck(totally, T); },
+        [&](Tensions& T, typename Map::Values& values) {
+          if (!is_mapped) return false;
+          Inputs dx;
+          cables_.directions(dx);
+          map_.tension_rates(dx, T);
+          for (int i = 0; i < map_.active(); ++i) values[i] = map_.value_rate(i, dx);
+          return true;
+        });
+  }
+  /// Whether the path ends in a solution; if not, it is noted where it ended.
+  bool solve(Solver& solver, bool totally, bool goes_on, bool is_mapped = false) {
+    auto outcome = begin_path(solver, totally, goes_on, is_mapped);
+    if (outcome == Solver::Outcome::pivots) outcome = solver.follow_path();
+    if (outcome == Solver::Outcome::solved) return true;
+    remember_last(solver);
+    return false;
+  }
   /// What slides, begun from what slid: an ordinary event is one pivot. From rates, or from all forces.
-  /// Segments of the spans in `tightening` must then gain tension. `is_mapped`: the map is that of the set,
-  /// and gives its rates.
+  /// Segments of the spans in `tightening` must then gain tension.
   [[gnu::noinline]] bool go_on(const SlipModes& modes, bool totally, const Spans* tightening = nullptr,
                                bool is_mapped = false) {
-    Tensions stuck;
-    typename Map::Values due;
-    typename Solver::Response mapped;
-    find_stuck(totally, stuck);
-    dues(totally, due);
-    if (is_mapped) {
-      Inputs dx;
-      cables_.directions(dx);
-      map_.tension_rates(dx, mapped.T);
-      for (int i = 0; i < map_.active(); ++i) mapped.values[i] = map_.value_rate(i, dx);
-    }
     Solver solver;
     solver.begin(model_, laws_, map_.set());
     for (const SlipMode& each : modes) solver.add_slip(each);
-    if (solver.solve(stuck, due, nothing(totally), true, is_mapped ? &mapped : nullptr) !=
-        Solver::Outcome::solved) {
-      remember_last(solver);
+    if (!solve(solver, totally, true, is_mapped)) {
       cables_.drop_set();
       return false;
     }
@@ -362,38 +373,29 @@ class ModeDecision {
     });
   }
   /// From rates, or from all forces where there are none.
-  [[gnu::noinline]] bool solve_anew(const Spans& zero, const SlipModes& modes, bool totally,
-                                    int covering = 0) {
+  bool solve_anew(const Spans& zero, const SlipModes& modes, bool totally, int covering = 0) {
     const auto was_slack = state_.slack;
     for (int r = 0; r < spans_.size(); ++r)
       if (zero[r]) state_.slack[r] = false;
-    bool solved = constraints_.set_up_equalities();
-    if (solved) {
-      Tensions stuck;
-      typename Map::Values due;
-      find_stuck(totally, stuck);
-      dues(totally, due);
-      Solver solver;
-      solver.begin(model_, laws_, map_.set(), covering);
-      for (int r = 0; r < spans_.size(); ++r)
-        if (zero[r]) add_span(r, totally, solver);
-      for (const SlipMode& each : modes) solver.add_slip(each);
-      solved = solver.solve(stuck, due, nothing(totally), false) == Solver::Outcome::solved;
-      if (solved)
-        adopt(solver, zero, totally);
-      else
-        remember_last(solver);
-    }
-    solved = solved && constraints_.set_up();
-    if (solved) {
+    if (constraints_.set_up_equalities() && find_modes(zero, modes, totally, covering) &&
+        constraints_.set_up()) {
       constraints_.rebuild();
-      solved = constraints_.is_held(totally);
+      if (constraints_.is_held(totally)) return true;
     }
-    if (!solved) {
-      state_.slack = was_slack;
-      cables_.drop_set();
-    }
-    return solved;
+    state_.slack = was_slack;
+    cables_.drop_set();
+    return false;
+  }
+  /// What slides and what is slack, from what follows whatever happens. False if the path has no end.
+  [[gnu::noinline]] bool find_modes(const Spans& zero, const SlipModes& modes, bool totally, int covering) {
+    Solver solver;
+    solver.begin(model_, laws_, map_.set(), covering);
+    for (int r = 0; r < spans_.size(); ++r)
+      if (zero[r]) add_span(r, totally, solver);
+    for (const SlipMode& each : modes) solver.add_slip(each);
+    if (!solve(solver, totally, false)) return false;
+    adopt(solver, zero, totally);
+    return true;
   }
   /// Segments of a span at zero, but for those that a jack gives their tension; joints without friction make
   /// one of two.

@@ -91,11 +91,18 @@ class ModeSolver {
   /// Otherwise the set has no slips and the problem is solved from zero.
   ///
   /// At most most_pivots() of all pairs, each with two or three solutions of the set. On success the set has
-  /// the slips that slide and the segments that go slack. `known`: where all goes on with the set as it is,
-  /// if that has been worked out.
-  Outcome solve(const Tensions& stuck, const Values& due, Real none, bool go_on,
-                const Response* known = nullptr) {
-    due_ = &due;
+  /// the slips that slide and the segments that go slack.
+  Outcome solve(const Tensions& stuck, const Values& due, Real none, bool go_on) {
+    const Outcome outcome = begin_path(
+        due, none, go_on, [&](Tensions& T) { T = stuck; }, [](Tensions&, Values&) { return false; });
+    return outcome == Outcome::pivots ? follow_path() : outcome;
+  }
+  /// The first part of solve(), up to where follow_path() goes on: then `pivots` is returned. `find_stuck(T)`
+  /// gives the rates with every joint stuck; `find_known(T, values)`, asked once, tensions and slips where
+  /// all goes on with the set as it is, or false if that has not been worked out.
+  template <class FindStuck, class FindKnown>
+  Outcome begin_path(const Values& due, Real none, bool go_on, const FindStuck& find_stuck,
+                     const FindKnown& find_known) {
     none_ = none;
     pivots_ = 0;
     z_ = z_tie_ = 0;
@@ -107,17 +114,21 @@ class ModeSolver {
     place_.fill(inactive);
     equalities_ = 0;
     while (equalities_ < set_->size() && (*set_)[equalities_].sense == 0) ++equalities_;
-    for (int p = 0; p < pairs_.size(); ++p) scale_[segment_of(p)] = root(stiffness(active_of(p)) / stiffest_);
+    for (int p = 0; p < pairs_.size(); ++p)
+      scale_[segment_of(p)] = std::sqrt(static_cast<float>(stiffness(active_of(p)) / stiffest_));
     if (go_on) {
       bool any = false;
-      if (!keep_what_goes_on(stuck, known, any)) return Outcome::singular;
+      if (!keep_what_goes_on(due, find_stuck, find_known, any)) return Outcome::singular;
       if (!any) return Outcome::solved;
     } else {
-      if (!begin_from_zero(stuck)) return Outcome::singular;
+      find_stuck(T_);
+      if (!begin_from_zero(due)) return Outcome::singular;
     }
     perturb();
-    return follow_path();
+    return Outcome::pivots;
   }
+  /// After begin_path(): from there to the end.
+  Outcome follow_path();
 
  private:
   static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
@@ -156,48 +167,45 @@ class ModeSolver {
     if (covering_ == 0) return scale(p);
     return scale(p) * (Real(1) + Real(3) * scattered<Real>(p + covering_ * max_pairs));
   }
-  Real scale(int p) const { return scale_[segment_of(p)]; }
+  Real scale(int p) const { return static_cast<Real>(scale_[segment_of(p)]); }
   /// Which its slip variable lengthens: those that lengthen the same one have the same stiffness.
   int segment_of(int p) const {
     return pairs_[p].is_segment() ? pairs_[p].index : laws_->sides(pairs_[p].index)[0];
   }
   Real perturbation(int p) const { return scale(p) * taut::perturbation<Real>(p); }
-  /// Scales need no more digits than a float has, whose roots cost one instruction.
-  static Real root(Real x) { return static_cast<Real>(std::sqrt(static_cast<float>(x))); }
   static Real sign(const ActiveConstraint& active) { return active.sense < 0 ? Real(-1) : Real(1); }
 
   // The start.
 
   /// All segments of the pairs are without tension and take what length they like.
-  bool begin_from_zero(const Tensions& stuck) {
+  [[gnu::noinline]] bool begin_from_zero(const Values& due) {
     covers_.fill(true);
     set_->truncate(equalities_);
     for (int p = 0; p < pairs_.size(); ++p)
       if (pairs_[p].is_segment() && !enter(p)) return false;
-    T_ = stuck;
     Values values, dues;
     values.fill(Real(0));
     dues.fill(Real(0));
-    for (int i = 0; i < set_->size(); ++i) dues[i] = i < equalities_ ? (*due_)[i] : least_[(*set_)[i].on];
+    for (int i = 0; i < set_->size(); ++i) dues[i] = i < equalities_ ? due[i] : least_[(*set_)[i].on];
     set_->settle(*laws_, dues, T_, values);
     keep_values(values, value_, Real(1));
     return true;
   }
   /// `any`: whether a limit is violated then.
-  bool keep_what_goes_on(const Tensions& stuck, const Response* known, bool& any) {
+  template <class FindStuck, class FindKnown>
+  [[gnu::noinline]] bool keep_what_goes_on(const Values& due, const FindStuck& find_stuck,
+                                           const FindKnown& find_known, bool& any) {
     covers_.fill(false);
     for (int i = equalities_; i < set_->size(); ++i) name((*set_)[i], i);
+    bool is_first = true;
     for (int rounds = set_->size() - equalities_; rounds >= 0; --rounds) {
-      T_ = stuck;
       Values values;
       values.fill(Real(0));
-      if (known != nullptr) {
-        T_ = known->T;
-        values = known->values;
-        known = nullptr;
-      } else {
-        set_->settle(*laws_, *due_, T_, values);
+      if (!is_first || !find_known(T_, values)) {
+        find_stuck(T_);
+        set_->settle(*laws_, due, T_, values);
       }
+      is_first = false;
       // From the last one on, so that the factors of the first are kept.
       int gone = set_->size();
       any = false;
@@ -269,51 +277,6 @@ class ModeSolver {
     bool enters = false;  // the entering variable, rather than its row
     int pair = -1;
   };
-  Outcome follow_path() {
-    int leaving = -1;
-    const auto is_first = [&](Real value, Real tie, Real by, Real& needed, Real& needed_tie) {
-      const Real first = -value / by, second = -tie / by;
-      const bool is = first > needed + none_ || (first >= needed - none_ && second > needed_tie);
-      if (!is) return false;
-      needed = first;
-      needed_tie = second;
-      return true;
-    };
-    Real needed = 0, needed_tie = -(std::numeric_limits<Real>::max)();
-    Direction direction;
-    respond_to_cover(direction);
-    for (int p = 0; p < pairs_.size(); ++p) {
-      if (place_[p] != inactive) continue;
-      const Real by = row(p, direction.T) + direct(p);
-      if (row(p, T_) < -none_ && by > 0 && is_first(row(p, T_), tie_of_row(p), by, needed, needed_tie))
-        leaving = p;
-    }
-    bool leaves_set = false;
-    for (int i = equalities_; i < set_->size(); ++i) {
-      const ActiveConstraint& active = (*set_)[i];
-      if (active.pair < 0) continue;
-      const Real by = sign(active) * direction.values[i] * stiffness(active);
-      if (value_[active.pair] < -none_ && by > 0 &&
-          is_first(value_[active.pair], tie_[active.pair], by, needed, needed_tie)) {
-        leaving = active.pair;
-        leaves_set = true;
-      }
-    }
-    if (leaving < 0) return Outcome::solved;
-    largest_ = needed;
-    direction.z = 1;
-    step_along(direction, {Leaves::cover, -1, needed, needed_tie, needed});
-    direction.pair = leaving;
-    direction.enters = !leaves_set;
-    if (leaves_set && !leave(leaving)) return Outcome::singular;
-
-    for (pivots_ = 1; pivots_ <= most_pivots(pairs_.size()); ++pivots_) {
-      if (!find(direction)) return Outcome::singular;
-      const Outcome outcome = go(direction);
-      if (outcome != Outcome::pivots) return outcome;
-    }
-    return Outcome::pivots;
-  }
   Real tie_of_row(int p) const {
     const Real of_tensions = row(p, T_tie_);
     return pairs_[p].is_segment() ? of_tensions : of_tensions + perturbation(p) + cover(p) * z_tie_;
@@ -548,11 +511,10 @@ class ModeSolver {
   FixedList<Pair, max_pairs> pairs_;
   FixedArray<bool, max_pairs> covers_;
   FixedArray<std::int8_t, max_pairs> place_;  // inactive, in the set (0), pending (1)
-  Tensions scale_;
-  FixedArray<Real, max_pairs> value_, tie_;  // of h and v [N]; the second part decides among ties
-  Tensions least_;                           // L
+  FixedArray<float, Cap::segments> scale_;    // a float has digits enough, and its roots cost one instruction
+  FixedArray<Real, max_pairs> value_, tie_;   // of h and v [N]; the second part decides among ties
+  Tensions least_;                            // L
   Tensions T_, T_tie_;
-  const Values* due_ = nullptr;
   int equalities_ = 0;  // the first slips of the set: they follow whatever happens
   int pending_ = 0;     // a slip that is at work but would make the set singular
   int pivots_ = 0;
@@ -563,5 +525,52 @@ class ModeSolver {
   bool covers_all_ = true;
   Real z_ = 0, z_tie_ = 0, none_ = 0, largest_ = 0, stiffest_ = 0;
 };
+
+template <class CondensedType, class Laws>
+auto ModeSolver<CondensedType, Laws>::follow_path() -> Outcome {
+  int leaving = -1;
+  const auto is_first = [&](Real value, Real tie, Real by, Real& needed, Real& needed_tie) {
+    const Real first = -value / by, second = -tie / by;
+    const bool is = first > needed + none_ || (first >= needed - none_ && second > needed_tie);
+    if (!is) return false;
+    needed = first;
+    needed_tie = second;
+    return true;
+  };
+  Real needed = 0, needed_tie = -(std::numeric_limits<Real>::max)();
+  Direction direction;
+  respond_to_cover(direction);
+  for (int p = 0; p < pairs_.size(); ++p) {
+    if (place_[p] != inactive) continue;
+    const Real by = row(p, direction.T) + direct(p);
+    if (row(p, T_) < -none_ && by > 0 && is_first(row(p, T_), tie_of_row(p), by, needed, needed_tie))
+      leaving = p;
+  }
+  bool leaves_set = false;
+  for (int i = equalities_; i < set_->size(); ++i) {
+    const ActiveConstraint& active = (*set_)[i];
+    if (active.pair < 0) continue;
+    const Real by = sign(active) * direction.values[i] * stiffness(active);
+    if (value_[active.pair] < -none_ && by > 0 &&
+        is_first(value_[active.pair], tie_[active.pair], by, needed, needed_tie)) {
+      leaving = active.pair;
+      leaves_set = true;
+    }
+  }
+  if (leaving < 0) return Outcome::solved;
+  largest_ = needed;
+  direction.z = 1;
+  step_along(direction, {Leaves::cover, -1, needed, needed_tie, needed});
+  direction.pair = leaving;
+  direction.enters = !leaves_set;
+  if (leaves_set && !leave(leaving)) return Outcome::singular;
+
+  for (pivots_ = 1; pivots_ <= most_pivots(pairs_.size()); ++pivots_) {
+    if (!find(direction)) return Outcome::singular;
+    const Outcome outcome = go(direction);
+    if (outcome != Outcome::pivots) return outcome;
+  }
+  return Outcome::pivots;
+}
 
 }  // namespace taut

@@ -83,11 +83,15 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
   /// The state, between two calls. Cost: a copy of it.
   State save() const {
     State saved;
+    save_into(saved);
+    return saved;
+  }
+  /// The same where it is to be kept: it does not lie on the stack as well. Cost: a copy of it.
+  void save_into(State& saved) const {
     static_cast<typename Cables::State&>(saved) = cables_.state;
     if constexpr (is_adjustable)
       static_cast<typename Derivatives::Frozen&>(saved) = cables_.derivatives.frozen();
     level_.save(saved);
-    return saved;
   }
   /// Goes on where save() was called on a tracker of the same scene, with the same bits. Fails with
   /// `bad_sample` if and only if the state is none of this scene, or was saved before start(); then only
