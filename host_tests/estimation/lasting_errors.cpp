@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "estimation/ramp.hpp"
+#include "taut/estimation/lasting_error.hpp"
 
 using namespace estimation;
 
@@ -84,4 +85,25 @@ TEST_CASE("where readings scatter as they should, nothing is kept from averaging
   CHECK(held.of_forces() > 92);
   CHECK(held.of_forces() < 99.5);
   CHECK(held.of_mu() > 88);
+}
+
+TEST_CASE("readings that are off alike leave what they have in common, and their noise over their number") {
+  for (const double lasting : {0.01, 1.0, 100.0})
+    for (const double beforehand : {1e3, 1e9}) {
+      CAPTURE(lasting);
+      CAPTURE(beforehand);
+      const double noise = 25;
+      double known = beforehand;
+      for (int n = 1; n <= 1000; ++n) {
+        const double counted = taut::counted_variance(known, noise, lasting);
+        if (counted > 0) known = known * counted / (known + counted);
+        // Of a mean of n readings, by Bayes.
+        const double mean = lasting + noise / n, exact = beforehand * mean / (beforehand + mean);
+        CHECK(known > exact * (1 - 1e-9));
+        if (beforehand == 1e9) CHECK(known < exact * 1.01);
+      }
+    }
+  CHECK(taut::counted_variance(100.0, 25.0, 0.0) == 25);
+  CHECK(taut::counted_variance(100.0, 25.0, 100.0) == 0);
+  CHECK(taut::counted_variance(1.0, 25.0, 100.0) == 0);
 }

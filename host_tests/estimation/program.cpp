@@ -108,7 +108,10 @@ TEST_CASE("after a pause the load is where it is read, not where the ramp would 
       for (std::size_t i = 99; i < table.rows.size(); ++i) {
         CAPTURE(i);
         CHECK(std::fabs(table.number(i, "C.T4") - 1e5) < 1500);
-        CHECK(table.number(i, "C.sd4") < 600);
+        // Where nothing is read it may have gone on, by as long as it did before.
+        const bool is_empty = i > 99 && i < 100 + static_cast<std::size_t>(empty);
+        CHECK(table.number(i, "C.sd4") <
+              (is_empty ? std::fmin(1e5, 1100.0 * (static_cast<double>(i) - 98)) : 600));
         CHECK(table.at(i, "alarms").empty());
         CHECK(table.at(i, "verdict") == "trust");
       }

@@ -96,10 +96,11 @@ TEST_CASE("between the branches of a ram the far end is compared with the force 
         pressed->press(0.8 * up, 200, nothing_is_odd);
         pressed->press(0.8 * up, 60, nothing_is_odd);
         const double force = pressed->force(), mu = estimator.mu(0), deviation = estimator.mu_deviation(0);
-        int gathered = 0;
+        int resting = 0;
         const auto rests = [&] {
           nothing_is_odd();
-          gathered += estimator.save().far_ends.gathered.size > 1 ? 1 : 0;
+          const auto jack = estimator.save().jacks.jack[0];
+          resting += jack.at.load == jack.turned ? 1 : 0;
         };
         // Down between the branches, fast enough to be seen to turn; a while there; and up again.
         pressed->press(0.8 * (down + 0.02), 6, rests);
@@ -107,7 +108,7 @@ TEST_CASE("between the branches of a ram the far end is compared with the force 
         pressed->press(0.8 * (up - 0.02), 40, rests);
         REQUIRE(pressed->force() == force);
         // Else nothing was tested.
-        CHECK(gathered > 20);
+        CHECK(resting > 20);
         for (int i = 0; i < pressed->segments(); ++i)
           CHECK(std::fabs(estimator.force(i) - pressed->true_force(i)) < 4 * sd * full);
         const double moved = (estimator.mu(0) - mu) / deviation;

@@ -52,7 +52,7 @@ struct CellWatch {
   /// A reading of what should be `force` [N], with the variances of that and of the noise.
   void take(Scalar reading, Scalar force, Scalar of_model, Scalar of_noise) {
     fit.take(confirmed(reading - force, std::sqrt(of_model + of_noise)), of_model, of_noise);
-    follow(reading, force);
+    follow(reading, force, std::sqrt(of_model));
   }
   /// Outliers come alone: an innovation counts as far as the one before it was off to the same side.
   Scalar confirmed(Scalar innovation, Scalar deviation) {
@@ -61,7 +61,8 @@ struct CellWatch {
     off = innovation;
     return larger(-most, -larger(-most, -innovation));
   }
-  void follow(Scalar reading, Scalar force) {
+  /// `deviation` is that of the force: what may not have gone on is no sign that the cell does not live.
+  void follow(Scalar reading, Scalar force, Scalar deviation) {
     if (reading != last || same == 0) {
       last = reading;
       expected = force;
@@ -70,7 +71,7 @@ struct CellWatch {
       return;
     }
     if (same < often) ++same;
-    const Scalar gone = std::fabs(force - expected);
+    const Scalar gone = std::fabs(force - expected) - 2 * deviation;
     is_frozen = same == often && gone > far * sd && gone > part * std::fabs(force);
     // What it should not have read says nothing of the model.
     if (is_frozen) fit = {};

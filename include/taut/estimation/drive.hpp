@@ -42,9 +42,7 @@ template <class TrackerType, class Jacks, class SampleType>
   using Scalar = typename TrackerType::Scalar;
   auto& jack = to.jack[c];
   const std::size_t more = jack[0].force < jack[1].force ? 1 : 0, less = 1 - more;
-  const Scalar held = held_over(tracker, c);
-  // Well inside; but where friction holds next to nothing, or the cable is one segment, jacks pull alike.
-  const Scalar carried = -larger(-Scalar(1.02) * held, -std::sqrt(held));
+  const Scalar carried = surely_held_over(tracker, c);
   // Farthest toward the other one that a load can be; where one ramp has been noticed and the other not yet,
   // they are off by their noise too.
   const auto at_best = [&](std::size_t end, int way) {

@@ -63,6 +63,7 @@ template <class Parts>
     if (jacks[k].is_new) jacks[k].beside = beside.force;
     has_more |= given.has_stroke | (jacks[k].locked & given.has_force);
   }
+  if constexpr (Parts::JacksType::capacity > 1) follow_other_jack(parts);
   return has_more;
 }
 

@@ -39,11 +39,11 @@ class FarEnds {
   template <class CondensedType>
   void start(const CondensedType& model, const FilterType& filter, const Jacks& jacks) {
     ends_.clear();
-    for (int c = 0; c < model.cables.size() && filter.belief().has_friction(); ++c)
+    for (int c = 0; c < model.cables.size(); ++c)
       for (std::size_t end = 0; end < 2 && !model.cables[c].closed; ++end)
         if (model.cables[c].ends[end] == End::anchored && filter.prior().cell[c][end].sd > 0)
           state_.watch[ends_.add(EndType::of(c, end))].start(filter.prior().cell[c][end].sd);
-    can_gather_ = ends_.size() == 1 && jacks.size() == 1;
+    can_gather_ = ends_.size() == 1 && jacks.size() == 1 && filter.belief().has_friction();
     state_.gathered = {};
     state_.learned = 0;
     state_.bent.fill(Scalar(0));
@@ -104,10 +104,11 @@ class FarEnds {
     if (!filter.is_informative(tracker, end.cable(), sd, is_beyond))
       return compare(e, reading, tracker, filter, jacks);
     const Scalar lasting = variance_that_lasts(e, filter, jacks);
-    if (is_known(lasting, filter)) return look(e, reading, tracker, filter, jacks);
+    const auto loads = jacks.readings(filter.prior());
+    const Scalar counted = filter.counted_deviation(sd, lasting, loads);
+    if (!(counted > 0)) return look(e, reading, tracker, filter, jacks);
     count_learned(1);
-    const Update update = filter.update(tracker, predict, jacks.readings(filter.prior()),
-                                        {reading, std::sqrt(sd * sd + lasting), Scalar(0)});
+    const Update update = filter.update(tracker, predict, loads, {reading, counted, Scalar(0)});
     note(e, reading, lasting, filter);
     return update;
   }
@@ -137,11 +138,20 @@ class FarEnds {
     const Scalar sd = state_.watch[e].sd;
     predict_at(ends_[e], tracker, filter, jacks, filter.prediction());
     const Scalar lasting = variance_that_lasts(e, filter, jacks);
-    if (is_known(lasting, filter)) return look(e, reading, tracker, filter, jacks);
-    const Update update = filter.update_alone(is_of, jacks.readings(filter.prior()),
-                                              {reading, std::sqrt(sd * sd + lasting), Scalar(0)});
+    const auto loads = jacks.readings(filter.prior());
+    const Scalar counted = filter.counted_deviation(sd, lasting, loads);
+    if (!(counted > 0)) return look(e, reading, tracker, filter, jacks);
+    const Update update = filter.update_alone(is_of, loads, {reading, counted, Scalar(0)});
     note(e, reading, lasting, filter);
     return update;
+  }
+  /// What cell `e` is expected to read, with the variance of that. Cost: that of Belief::expect().
+  Expected<Scalar> expect(int e, const TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
+    const Scalar sd = state_.watch[e].sd;
+    predict_at(ends_[e], tracker, filter, jacks, filter.prediction());
+    auto reading = filter.belief().expect(filter.prediction(), jacks.readings(filter.prior()), sd);
+    reading.variance += variance_that_lasts(e, filter, jacks);
+    return reading;
   }
   /// What the mean of so many readings of cell `e` is expected to be, with its variance, were unknown `p`
   /// where the tracker is linearized. Cost: that of Belief::expect().
@@ -190,12 +200,12 @@ class FarEnds {
       if (gain >= 0) prediction.H[gain] += back * prediction.by_jack[0];
     };
     predict(filter.prediction());
-    const Scalar sd = state_.watch[0].sd, lasting = variance_that_lasts(0, filter, jacks);
-    if (is_known(lasting, filter)) return Update::waits;
     typename FilterType::JackReadings readings;
     readings.add({all.jack() - driven, all.jack_variance * all.share()});
-    return filter.update(tracker, predict, readings,
-                         {all.reading(), std::sqrt(sd * sd * all.share() + lasting), all.spread});
+    const Scalar sd = state_.watch[0].sd * std::sqrt(all.share()),
+                 counted = filter.counted_deviation(sd, variance_that_lasts(0, filter, jacks), readings);
+    if (!(counted > 0)) return Update::waits;
+    return filter.update(tracker, predict, readings, {all.reading(), counted, all.spread});
   }
 
  private:

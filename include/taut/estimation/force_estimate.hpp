@@ -113,7 +113,7 @@ ForceEstimate<typename TrackerType::Scalar> estimate_strut(const TrackerType& tr
   typename FilterType::PredictionType N;
   predict_strut(tracker, rows, strut, belief, jacks, N);
   auto [force, variance] = belief.expect(N, jacks.readings(prior), Scalar(0));
-  for (int p = 0; p < belief.carried(); ++p) variance += N.H[p] * N.H[p] * filter.most_scatter(p);
+  variance += filter.most_scatter(N.H);
   return {force, std::sqrt(larger(variance, Scalar(0)))};
 }
 

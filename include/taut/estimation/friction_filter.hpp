@@ -9,6 +9,7 @@
 #include "taut/estimation/friction_prior.hpp"
 #include "taut/estimation/friction_scatter.hpp"
 #include "taut/estimation/instruments.hpp"
+#include "taut/estimation/lasting_error.hpp"
 #include "taut/estimation/prediction.hpp"
 #include "taut/estimation/sliding_check.hpp"
 #include "taut/numerics/larger.hpp"
@@ -153,6 +154,17 @@ class FrictionFilter {
                ? Scalar(0)
                : scatter_.variance_of_mean(segment, joints, prior_->scatter[c], belief_.mean(p));
   }
+  /// What scatter adds to the variance of a number with the derivatives `H`: where it is so much, relative to
+  /// the square of the derivative by the unknown of a segment's cable, and, at most, of any segment.
+  Scalar scatter_by(const Values& H, int segment, Scalar relative) const {
+    const int p = scatter_.parameter(segment);
+    return p < 0 ? Scalar(0) : H[p] * H[p] * relative;
+  }
+  Scalar most_scatter(const Values& H) const {
+    Scalar variance = 0;
+    for (int p = 0; p < belief_.carried(); ++p) variance += H[p] * H[p] * most_scatter(p);
+    return variance;
+  }
   /// The largest of all segments that depend on unknown `p`. Cost: a pass over the segments.
   Scalar most_scatter(int p) const { return scatter_.most(p, belief_.mean(p)); }
   /// The unknown that the joints of a segment's cable share if it scatters, or -1.
@@ -213,6 +225,18 @@ class FrictionFilter {
     for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
       if (mu(j) > 0) largest = larger(largest, mu_deviation(j) / mu(j));
     return largest;
+  }
+  /// After prediction(): the standard deviation with which a reading of an instrument that has `sd` counts,
+  /// where all of its readings are off alike with the variance `lasting`, see counted_variance(); zero if it
+  /// tells nothing more. Cost: the square of the unknowns.
+  Scalar counted_deviation(Scalar sd, Scalar lasting, const JackReadings& jacks) const {
+    if (!(lasting > 0)) return sd;
+    Scalar of_jacks = 0;
+    for (int k = 0; k < jacks.size(); ++k)
+      of_jacks += prediction_.by_jack[k] * prediction_.by_jack[k] * jacks[k].variance;
+    const Scalar counted =
+        counted_variance(belief_.variance_of_reading(prediction_.H), sd * sd + of_jacks, lasting);
+    return std::sqrt(larger(counted - of_jacks, Scalar(0)));
   }
   /// Takes a reading into account (iterated update; Gelb, Applied Optimal Estimation, 1974, 6.1).
   /// prediction() has what is expected of it, and predict(prediction) makes it anew after the tracker has

@@ -1,6 +1,10 @@
 // How much of a cable's force is left behind joints that it slides over.
 #pragma once
 
+#include <cmath>
+
+#include "taut/numerics/larger.hpp"
+
 namespace taut {
 
 /// The product of rho of `joints` joints in a row: the part of a force that is left behind them where all
@@ -19,6 +23,15 @@ template <class TrackerType>
 typename TrackerType::Scalar held_over(const TrackerType& tracker, int c) {
   const auto& cable = tracker.model().cables[c];
   return held_between(tracker, cable.first_joint, cable.joints());
+}
+
+/// The same for two jacks that pull at both ends and surely do not pull the cable through: well inside what
+/// friction holds; but where that is next to nothing, or the cable is one segment, they pull alike.
+template <class TrackerType>
+typename TrackerType::Scalar surely_held_over(const TrackerType& tracker, int c) {
+  using Scalar = typename TrackerType::Scalar;
+  const Scalar held = held_over(tracker, c);
+  return -larger(-Scalar(1.02) * held, -std::sqrt(held));
 }
 
 }  // namespace taut

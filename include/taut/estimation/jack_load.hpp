@@ -73,7 +73,11 @@ struct JackLoad {
   Scalar farthest = 0, farthest_sd = 0;  ///< the one that went farthest since the load turned [N]
   Scalar turn_sd = 0, lock_sd = 0;       ///< standard deviation of the load where it turned, was locked [N]
   bool rises = false;                    ///< since it turned
+  bool goes_on = false;                  ///< surely, in this row
   bool is_new = false;                   ///< `raw` is of this row, and was believed
+  bool is_unread = false;                ///< its cell was not read in this row
+  Scalar read_sd = 0;                    ///< then the standard deviation of the load where it was last [N]
+  Scalar step_by = 0, stride = 0;        ///< how far it had come since the reading before [N], in that time
   Scalar believed = 0, refused = 0;      ///< the last reading that was believed, and that was not [N]
   Scalar beside = 0;  ///< what the cell at the other end of the cable read with the one that was believed [N]
   std::uint8_t refusals = 0;  ///< in a row
@@ -147,6 +151,15 @@ struct JackLoad {
     farthest_sd = at.sd;
     first = Scalar(1e-3) * cell.sd;
   }
+  /// A wedge holds its end from here on.
+  void lie_locked() {
+    locked = true;
+    at.behind = false;
+    filter.start(filter.sd());
+    turning.clear();
+    elongation.begin_leg();
+    below = 0;
+  }
   /// The filter goes by the scatter that there is, not only by what was said. Returns by how many times the
   /// variance is larger than it was taken to be, or one.
   Scalar follow_noise(Scalar reading, const LoadCell<Scalar>& cell) {
@@ -171,11 +184,17 @@ struct JackLoad {
   /// The readings have reversed: at which, if the last ones tell. Beside other loads that change, friction
   /// has come to rest at the load that was taken for the farthest by then, and remembers the error of that
   /// one. Cost: that of turn_beside().
-  void find_reversal() {
+  void find_reversal(const LoadCell<Scalar>& cell) {
     if (frozen >= 0 || driven.force == rested_at) return turning.clear();
     const bool was_highest = !filter.goes_up();
-    const auto turn = turn_beside(at.reversal, was_highest);
+    auto turn = turn_beside(at.reversal, was_highest);
     if (!turn.is_known) return;
+    // A load that rested may have come back too little to be seen, and was farther before.
+    const Scalar left =
+                     was_highest ? farthest * branch(cell) - turn.load : turn.load - farthest * branch(cell),
+                 unseen = larger(left - farthest_sd * branch(cell), Scalar(0)) / 2;
+    turn.load += was_highest ? unseen : -unseen;
+    turn.sd = std::sqrt(turn.sd * turn.sd + unseen * unseen);
     // The load is confirmed to have been as far.
     at.reversal = was_highest ? larger(turn.load, at.confirmed) : -larger(-turn.load, -at.confirmed);
     at.reversal_sd = turn.sd;
@@ -183,13 +202,17 @@ struct JackLoad {
   /// Once the load of a row is known. Where a ramp ends the estimate overshoots: it is farther than it was
   /// read by `beyond` at most [N], and known no better than that.
   void note_farthest(Scalar beyond) {
+    constexpr Scalar surely = 6;
     Scalar come = at.load;
+    goes_on = at.reversed || (filter.goes_on() && short_of_farthest(at.load) == 0);
     if (at.reversed) {
       turn_sd = at.reversal_sd > 0 ? at.reversal_sd : larger(sd_before, back(at.reversal));
       rises = !rises;
     } else {
       come = rises ? -larger(-at.load, -raw - beyond) : larger(at.load, raw - beyond);
-      if (at.refused || !(rises ? come > farthest : come < farthest)) return;
+      const Scalar further = rises ? come - farthest : farthest - come;
+      if (at.refused || !(further > 0)) return;
+      goes_on |= further > surely * beyond;
     }
     farthest = come;
     farthest_sd = larger(at.sd, beyond);
@@ -228,12 +251,12 @@ struct JackLoad {
   }
 
   /// A reading was refused, or not. Returns whether one was surely wrong: it cannot be a force at all, it is
-  /// not the only one, or the next one shows that the load did not go there. A single one at the end of a
-  /// steep ramp lies between its neighbours.
+  /// not the only one and they do not go on as a load that begins to move, or the next one shows that the
+  /// load did not go there. A single one at the end of a steep ramp lies between its neighbours.
   [[nodiscard]] bool finds_outlier(Scalar reading, bool can_be) {
     constexpr std::uint8_t many = 2;
     if (at.refused) {
-      const bool is_surely = refusals > 0 || !can_be;
+      const bool is_surely = (refusals > 0 && !guard.may_go_on()) || !can_be;
       refusals = is_surely ? many : 1;
       refused = reading;
       return is_surely;
@@ -244,6 +267,35 @@ struct JackLoad {
     refusals = 0;
     believed = reading;
     return was_wrong;
+  }
+
+  // Rows in which its cell is not read.
+
+  /// The load stays where it was read last, and may have gone on as it went there: along its line, or by as
+  /// much as from the reading before. By more than a reading scatters, it is in doubt; so it is after the
+  /// first reading of all. (What a cell without noise does not say has not changed.)
+  void go_unread(const LoadCell<Scalar>& cell) {
+    constexpr Scalar steps = 4;
+    if (!is_unread) read_sd = at.sd;
+    is_unread = true;
+    const Scalar times = since < steps * stride ? since / stride : stride > 0 ? steps : Scalar(1);
+    const Scalar gone = larger(filter.gone(since) / branch(cell), times * step_by);
+    at.sd = std::sqrt(read_sd * read_sd + gone * gone);
+    at.refused |= gone > filter.sd() / branch(cell) || !filter.knows_pace();
+  }
+  /// Another cell shows that it has gone on, by at least so much [N].
+  void leave_unread(Scalar by) {
+    at.sd = larger(at.sd, by);
+    at.refused = true;
+  }
+  /// It lies between these [N], by what another cell reads.
+  void come_between(Scalar least, Scalar most, const LoadCell<Scalar>& cell) {
+    const auto nearest = [&](Scalar load) { return larger(least, -larger(-most, -load)); };
+    at.refused |= at.load != nearest(at.load);
+    at.load = nearest(at.load);
+    at.confirmed = nearest(at.confirmed);
+    at.sd = -larger(-at.sd, least - most);
+    filter.come_to(at.confirmed * branch(cell));
   }
 
   /// Nobody else sees the load.
@@ -259,7 +311,7 @@ struct JackLoad {
   [[nodiscard]] bool take(bool locks, const EndReading<Scalar>& given, Scalar dt,
                           const LoadCell<Scalar>& cell, Scalar most, const HeldByWedge<Scalar>& held,
                           Corners<Scalar>& corners, const Seen& is_seen = Seen()) {
-    is_new = locks_now = false;
+    is_new = locks_now = goes_on = false;
     load_before = at.load;
     at.reversed = false;
     since += dt;
@@ -280,15 +332,15 @@ struct JackLoad {
         corners.reverses = true;
       }
       lock_sd = at.reversed ? at.sd : larger(at.sd, come_back);
-      corners.locks = locks_now = locked = true;
-      at.behind = false;
-      filter.start(filter.sd());
-      turning.clear();
-      elongation.begin_leg();
-      below = 0;
+      corners.locks = locks_now = true;
+      lie_locked();
       return false;
     }
-    if (!given.has_force) return false;
+    if (!given.has_force) {
+      if (!locked && cell.sd > 0) go_unread(cell);
+      return false;
+    }
+    is_unread = false;
     // A released end keeps its wedge until a load is read.
     const bool is_released = locked;
     if (locked) {
@@ -343,7 +395,7 @@ struct JackLoad {
       turning.miss(since);
     else
       turning.add(reading, since, filter.sd());
-    if (at.reversed) find_reversal();
+    if (at.reversed) find_reversal(cell);
     raw = given.force;
     if (cell.has_branches()) {
       at = behind_branches(at, cell);
@@ -351,6 +403,8 @@ struct JackLoad {
     }
     note_farthest(filter.sd() / branch(cell) / 2);
     if (first == 0 && at.load > 0) first = Scalar(1e-3) * cell.sd;
+    step_by = std::fabs(at.load - load_before);
+    stride = since;
     since = 0;
     is_new = !at.refused;
     corners.reverses |= at.reversed;
@@ -421,8 +475,13 @@ struct JackLoad {
     return larger((rises ? farthest - from : from - farthest) - farthest_sd, Scalar(0));
   }
   bool may_be_back() const { return at.behind || back(at.load) > 0; }
-  /// By how much the load may be off, if it is in doubt [N].
-  Scalar doubt() const { return is_in_doubt() ? larger(at.sd, back(at.load)) : Scalar(0); }
+  /// By how much the load may be off if it is in doubt [N], or may have come back from where it was farthest,
+  /// too little to be seen: joints stick then that are taken to slide, Eq. (64).
+  Scalar doubt() const {
+    if (is_in_doubt()) return larger(at.sd, back(at.load));
+    if (locked || goes_on) return 0;
+    return larger(rises ? farthest - at.load : at.load - farthest, Scalar(0)) + farthest_sd;
+  }
   /// Where the tracker is driven to for a row [N].
   Scalar target() const { return larger(at.confirmed, first); }
   /// Where it was a row ago, between where the tracker is by then and where it is driven to: other loads
@@ -445,8 +504,11 @@ struct JackLoad {
     const Scalar sd = says_load(cell) ? filter.sd() / branch(cell) : at.sd;
     return {seen(cell) - driven.force, sd * sd};
   }
-  /// The part of its standard deviation that readings of several rows have in common [N].
-  Scalar lasting(const LoadCell<Scalar>& cell) const { return locked ? Scalar(0) : lasts / branch(cell); }
+  /// The part of its standard deviation that readings of several rows have in common [N]: all of it, where
+  /// its cell is not read.
+  Scalar lasting(const LoadCell<Scalar>& cell) const {
+    return locked ? Scalar(0) : is_unread ? at.sd : lasts / branch(cell);
+  }
   /// The same load itself [N].
   Scalar seen(const LoadCell<Scalar>& cell) const {
     return locked ? driven.force : says_load(cell) ? raw : at.load;

@@ -8,12 +8,12 @@ namespace taut {
 
 /// Tells a jump of the readings from a load that moves: a reading four times as far away as any has gone from
 /// one row to the next is held back, and those after it until they come back to where the load can have gone
-/// meanwhile, or at least jump back towards it from where they had stayed. Where they go on as they jumped
-/// for two rows more, the load does: it has begun to move, or moves faster. What lasts for more than
-/// `most_held` readings is believed. Readings more than 5 s apart, a row a load stage, and those after a
-/// pause are not held back: what happened before them is not known. Only where rows merely come more slowly,
-/// as in a hold after a ramp, one that still shows what was held back is. A plain value. Cost: a few
-/// operations a reading.
+/// meanwhile, or at least jump back towards it from where they had stayed. Where they go on for two rows
+/// more, by a third of the step before at least, the load does: it has begun to move, or moves faster. What
+/// lasts for more than `most_held` readings is believed. Readings more than 5 s apart, a row a load stage,
+/// and those after a pause are not held back: what happened before them is not known. Only where rows merely
+/// come more slowly, as in a hold after a ramp, one that still shows what was held back is. A plain value.
+/// Cost: a few operations a reading.
 template <class Scalar>
 class JumpGuard {
  public:
@@ -36,14 +36,14 @@ class JumpGuard {
                  possible = held_ == 0 ? jump : scatter + (passed_ + steps) * farthest_;
     const bool stays = held_ > 0 && from_shown < jump && from_shown < off;
     const bool is_pause = dt > far_apart || (dt > pause * step_ && !stays);
-    const Scalar jumped = held_ == 0 ? off / steps : jumped_,
-                 pace = held_ == 0 ? Scalar(0) : least_pace(reading, steps);
-    const bool goes_on = held_ >= line && jumped <= pace + 2 * scatter;
+    const Scalar pace = held_ == 0 ? off / steps : on_by(reading, steps);
+    const bool is_line = held_ == 0 || (is_line_ && pace_ <= slower * pace + 2 * scatter),
+               goes_on = held_ >= line && is_line;
     const bool lasts = held_ == most_held;
     if (seen_ == enough && !is_pause && !lasts && !goes_on && (stays || change > possible) &&
         !comes_back(reading, stays)) {
-      jumped_ = jumped;
       pace_ = pace;
+      is_line_ = is_line;
       has_moved_ = false;
       may_move_ = (held_ == 0 || may_move_) && (held_ == 0 ? off : from_shown) <= fastest * dt + scatter;
       ++held_;
@@ -69,6 +69,8 @@ class JumpGuard {
   }
   /// Whether the last reading is believed because the load has gone where others were held back.
   bool has_moved() const { return has_moved_; }
+  /// Whether those that are held back go on as those of a load that moves: one more tells.
+  bool may_go_on() const { return held_ == line && is_line_; }
   /// How far the load can have gone since the last reading that was believed: as far as ever, at most twice
   /// as far as where it was read; at least as far where it can have gone as fast [N].
   Scalar reach() const {
@@ -78,10 +80,9 @@ class JumpGuard {
   }
 
  private:
-  /// How far readings have gone on a step since they jumped, away from where the load was: the least [N].
-  Scalar least_pace(Scalar reading, Scalar steps) const {
-    const Scalar on = (shown_ > last_ ? reading - shown_ : shown_ - reading) / steps;
-    return held_ > 1 && pace_ < on ? pace_ : on;
+  /// How far a reading has gone on a step from the one before, away from where the load was [N].
+  Scalar on_by(Scalar reading, Scalar steps) const {
+    return (shown_ > last_ ? reading - shown_ : shown_ - reading) / steps;
   }
   /// Whether the readings that were held back had stayed where they were, and this one jumps from there to
   /// the other side: it is right again, though the load has gone farther than any did before.
@@ -94,16 +95,19 @@ class JumpGuard {
   }
 
   static constexpr std::uint8_t enough = 8, steady = 3, line = 2;
+  /// A load that slows down, as where a valve is opened, goes on by no less than one in so many of the step
+  /// before.
+  static constexpr Scalar slower = 3;
   static constexpr Scalar far = 4, at_most = 3, pause = 4;
 
   Scalar last_ = 0, step_ = 0;  // the last reading that was believed; its time after the one before [s]
   Scalar passed_ = 0;           // since then, in such steps
   Scalar farthest_ = 0;         // that readings have gone in a row [N], less their scatter
   Scalar shown_ = 0;            // the last one that was held back
-  Scalar jumped_ = 0,
-         pace_ = 0;  // a step: how far they jumped, and the least that they have gone on since [N]
+  Scalar pace_ = 0;             // how far it had gone on a step, from the one before or as they jumped [N]
   std::uint8_t seen_ = 0, held_ = 0;
   bool may_move_ = false, has_moved_ = false;
+  bool is_line_ = false;     // as they jumped they have gone on, by a third of the step before, at least
   std::uint8_t stayed_ = 0;  // of those held back, so many in a row were where the one before was
 };
 

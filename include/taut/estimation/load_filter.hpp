@@ -104,6 +104,13 @@ class LoadFilter : LoadFilterTuning {
   bool has_waiting() const { return block_.has_room(); }
   /// The way that the load goes at present.
   bool goes_up() const { return way_ > 0; }
+  /// Whether it surely goes on that way: its line has a slope.
+  bool goes_on() const {
+    return sd_ > 0 && hypotheses_.size > 0 && hypotheses_.has_slope(best_, confirm_slope) &&
+           way_ * at(hypotheses_.slope, best_) > 0;
+  }
+  /// Whether two readings have told how it goes in time.
+  bool knows_pace() const { return usual_ > 0 || !(sd_ > 0); }
   /// Readings since the likeliest line began, but those that wait.
   int run_length() const { return sd_ > 0 && hypotheses_.size > 0 ? at(hypotheses_.run_length, best_) : 0; }
   /// Something else will remember the load as it is now: it is taken to have come as far as this best
@@ -114,6 +121,15 @@ class LoadFilter : LoadFilterTuning {
 
   /// The load is known to have left its line: where it is now, the next reading alone tells.
   void lose() { lost_ = true; }
+
+  /// How far the load may have gone in the time `dt` > 0 since the last reading, with none in between: as a
+  /// standard deviation [N]. Cost: a few operations.
+  Scalar gone(Scalar dt) const {
+    if (!(sd_ > 0) || hypotheses_.size == 0) return 0;
+    const Level slope = block_.has_room() && block_.size > 0 ? block_.slope : at(hypotheses_.slope, best_);
+    const Level variance = growth(time_of(static_cast<Level>(dt)), slope);
+    return static_cast<Scalar>(std::sqrt(larger(variance, Level(0)))) * sd_;
+  }
 
   /// Takes the next reading [N], `dt` > 0 after the one before, in any unit of time; for the first it does
   /// not matter. What is not finite is refused, and may be anything else. Cost: while readings wait a few
@@ -190,15 +206,18 @@ class LoadFilter : LoadFilterTuning {
   }
   /// A piece of the path goes on for about as long as it has lasted.
   Level lasts() const { return static_cast<Level>(at(hypotheses_.run_length, best_)) * usual_; }
+  /// By what the variance of the load grows where it may have gone on along its line, with this slope now.
+  Level growth(Level step, Level slope) const {
+    const Level t = -larger(-step, -lasts()), gone = t * slope;
+    return t * (2 * at(hypotheses_.covariance, best_) + t * at(hypotheses_.slope_variance, best_)) +
+           gone * gone;
+  }
   /// A reading that is none: the load stays where it was last read, and is the less certain the longer that
   /// is ago.
   ConditionedLoad<Scalar> miss(Level step) {
     missed_ = step;
-    const Level t = -larger(-step, -lasts()), gone = t * at(hypotheses_.slope, best_);
-    const Level growth =
-        t * (2 * at(hypotheses_.covariance, best_) + t * at(hypotheses_.slope_variance, best_));
     const Told told = last_told();
-    const Level variance = larger(told.variance, Level(0)) + growth + gone * gone;
+    const Level variance = larger(told.variance, Level(0)) + growth(step, at(hypotheses_.slope, best_));
     const Estimate estimate = {told.level, std::sqrt(variance)};
     ConditionedLoad<Scalar> now;
     say(now, estimate, beyond_confirmed(estimate));

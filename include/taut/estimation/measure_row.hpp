@@ -6,6 +6,7 @@
 #include "taut/estimation/draw_in.hpp"
 #include "taut/estimation/learning.hpp"
 #include "taut/estimation/look_ahead.hpp"
+#include "taut/estimation/witness.hpp"
 
 namespace taut {
 
@@ -69,8 +70,9 @@ bool measure_far_end(Parts& parts, int e, typename Parts::Scalar reading, bool g
       : parts.is_ahead                ? far_ends.compare(e, reading, parts.tracker, parts.filter, parts.jacks)
       : gathers                       ? far_ends.gather(reading, parts.tracker, parts.filter, parts.jacks)
                 : far_ends.measure(e, reading, parts.tracker, parts.filter, parts.jacks, parts.is_beyond);
-  // Once, as long as it lasts.
-  const bool is_told = update == Update::no_information && watch.is_told;
+  // Once, as long as it lasts; and where friction is known there is nothing to be told.
+  const bool is_told =
+      update == Update::no_information && (watch.is_told || !parts.filter.belief().has_friction());
   watch.is_told = update == Update::no_information;
   if (update != Update::waits && !is_told)
     note(parts, update, Parts::alarm_at(Alarm::Kind::sensor, end), readings);
@@ -87,12 +89,13 @@ bool measure_far_ends(Parts& parts, const typename Parts::ReadingsType& readings
   for (int e = 0; e < far_ends.ends().size(); ++e) {
     const auto& end = far_ends.ends()[e];
     const auto& given = end.in(readings.ends);
+    if (!is_chosen(end.cable())) continue;
+    const bool is_reading = parts.can_be(given, end.cable());
+    if (given.has_force && !is_reading) parts.alarms.add(Parts::alarm_at(Alarm::Kind::sensor, end));
+    if (is_reading && sees_unread(parts, e, given.force)) continue;
     // Another cable's load that is in doubt makes the reading less certain; its own, what slides.
-    if (!is_chosen(end.cable()) || parts.loads_are_in_doubt(end.cable())) continue;
-    if (parts.can_be(given, end.cable()))
-      learns |= measure_far_end(parts, e, given.force, gathers);
-    else if (given.has_force)
-      parts.alarms.add(Parts::alarm_at(Alarm::Kind::sensor, end));
+    if (parts.loads_are_in_doubt(end.cable())) continue;
+    if (is_reading) learns |= measure_far_end(parts, e, given.force, gathers);
     if (!(far_ends.watch(e).fit.misfit() > 0)) continue;
     parts.misfits = true;
     if (given.has_force) parts.alarms.add(Parts::alarm_at(Alarm::Kind::misfit, end));

@@ -14,6 +14,8 @@ struct Prediction {
   Scalar value = 0;                   ///< [unit of y]
   FixedArray<Scalar, Parameters> H;   ///< by every unknown in use [unit of y / unit of the unknown]
   FixedArray<Scalar, Jacks> by_jack;  ///< by the force of every unlocked jack [unit of y / N]
+  /// What mu that differs from joint to joint adds to the variance of y, the same in all readings of it.
+  Scalar scatter = 0;
 };
 
 /// No unknown of another instrument matters to the reading of this one.

@@ -17,18 +17,26 @@ template <class Parts>
 auto foretell_strut(const Parts& parts, const typename Parts::Condensed::Struts& rows, int strut) {
   return [&parts, &rows, strut](auto& prediction) {
     predict_strut(parts.tracker, rows, strut, parts.filter.belief(), parts.jacks, prediction);
+    prediction.scatter = parts.filter.most_scatter(prediction.H);
   };
 }
 template <class Parts>
 auto foretell_stroke(const Parts& parts, int k) {
   return [&parts, k](auto& prediction) {
-    predict_stroke(parts.tracker, parts.jacks.end(k), parts.filter.belief(), parts.jacks, prediction);
+    const auto& end = parts.jacks.end(k);
+    predict_stroke(parts.tracker, end, parts.filter.belief(), parts.jacks, prediction);
+    // A stroke has friction on the ways to all segments.
+    const auto& cable = parts.model().cables[end.cable()];
+    const int far = cable.end_segment(1 - end.end);
+    prediction.scatter = parts.filter.scatter_by(prediction.H, far,
+                                                 parts.filter.mean_scatter(end.cable(), far, cable.joints()));
   };
 }
 template <class Parts>
 auto foretell_segment(const Parts& parts, int segment) {
   return [&parts, segment](auto& prediction) {
     predict_tension(parts.tracker, segment, parts.filter.belief(), parts.jacks, prediction);
+    prediction.scatter = parts.filter.scatter_by(prediction.H, segment, parts.filter.scatter(segment));
   };
 }
 
@@ -43,11 +51,13 @@ void take_measurement(Parts& parts, const Predict& predict, typename Parts::Scal
   go_back(parts);
   wait_for_none(parts);
   predict(filter.prediction());
-  if (filter.is_informative(parts.tracker, contradiction.cable, sd, parts.is_beyond))
-    note(
-        parts,
-        filter.update(parts.tracker, predict, parts.jacks.readings(filter.prior()), {reading, sd, Scalar(0)}),
-        contradiction);
+  const Scalar counted =
+      filter.counted_deviation(sd, filter.prediction().scatter, parts.jacks.readings(filter.prior()));
+  if (counted > 0 && filter.is_informative(parts.tracker, contradiction.cable, sd, parts.is_beyond))
+    note(parts,
+         filter.update(parts.tracker, predict, parts.jacks.readings(filter.prior()),
+                       {reading, counted, Scalar(0)}),
+         contradiction);
   look_ahead(parts);
 }
 
@@ -142,8 +152,10 @@ void take_gauge(Parts& parts, const Predict& predict, typename Parts::Scalar rea
     filter.renew(gauges.unknowns(gauge).zero, Parts::GaugesType::very_unknown * std::sqrt(expected.variance));
   }
   gauges.count(gauge);
-  note(parts, rule.update(predict_reading, jacks, {reading - gauges.mark(gauge), sd, Scalar(0)}),
-       contradiction);
+  const Scalar counted = filter.counted_deviation(sd, filter.prediction().scatter, jacks);
+  if (counted > 0)
+    note(parts, rule.update(predict_reading, jacks, {reading - gauges.mark(gauge), counted, Scalar(0)}),
+         contradiction);
   look_ahead(parts);
 }
 

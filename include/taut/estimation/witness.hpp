@@ -1,10 +1,12 @@
 // The load cell at the other end of a cable as a witness of what its jack's cell reads.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "taut/estimation/drive.hpp"
 #include "taut/estimation/force_estimate.hpp"
+#include "taut/estimation/held_over.hpp"
 
 namespace taut {
 
@@ -33,6 +35,46 @@ bool sees_rise(const Parts& parts, int k, typename Parts::Scalar reading,
   const Scalar rise = beside.force - jack.beside, of_jack = reading - jack.believed;
   return of_jack > 0 && rise > surely * beside.deviation &&
          rise > half * held_over(parts.tracker, parts.jacks.end(k).cable()) * of_jack;
+}
+
+/// In a row in which the jack of its cable is not read, the load cell at anchored end `e` reads [N] what it
+/// could not if the load were where it was. Then the load has gone on, by as much at least, if it can have
+/// meanwhile; else the cell is wrong, which raises an alarm. Returns whether either is so: nothing is learned
+/// then. Cost: that of FarEnds::expect().
+template <class Parts>
+bool sees_unread(Parts& parts, int e, typename Parts::Scalar reading) {
+  using Scalar = typename Parts::Scalar;
+  constexpr Scalar surely = 5;
+  const auto& end = parts.far_ends.ends()[e];
+  for (int k = 0; k < parts.jacks.size(); ++k) {
+    auto& jack = parts.jacks[k];
+    if (parts.jacks.end(k).cable() != end.cable() || !jack.is_unread || jack.locked) continue;
+    const auto expected = parts.far_ends.expect(e, parts.tracker, parts.filter, parts.jacks);
+    const Scalar off = std::fabs(reading - expected.value);
+    if (off * off <= surely * surely * expected.variance) return false;
+    const Scalar gone = off / held_over(parts.tracker, end.cable());
+    if (gone <= jack.fastest * parts.most_force(k) * jack.since)
+      jack.leave_unread(gone);
+    else
+      parts.alarms.add(Parts::alarm_at(Alarm::Kind::sensor, end));
+    return true;
+  }
+  return false;
+}
+
+/// Of two jacks on one cable one is read in this row and the other one is not: friction holds that one within
+/// what the first one pulls. Cost: one product a joint.
+template <class Parts>
+void follow_other_jack(Parts& parts) {
+  using Scalar = typename Parts::Scalar;
+  auto& jacks = parts.jacks;
+  for (int k = 0; k < jacks.size(); ++k) {
+    const auto& end = jacks.end(k);
+    const int other = jacks.find(end.cable(), 1 - end.end);
+    if (other < 0 || !jacks[k].is_unread || jacks[k].locked || !jacks[other].is_new) continue;
+    const Scalar load = jacks[other].at.load, carried = surely_held_over(parts.tracker, end.cable());
+    jacks[k].come_between(carried * load, load / carried, parts.cell(k));
+  }
 }
 
 }  // namespace taut

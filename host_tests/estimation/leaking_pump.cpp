@@ -1,0 +1,71 @@
+// A pump that leaks a little while it holds: joints stick that are taken to slide.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+
+#include "estimation/saddle_site.hpp"
+
+using namespace estimation;
+
+namespace {
+
+struct Said {
+  Score mu, released;
+  int alarms = 0;
+};
+/// Five stages with holds of so many rows, in which the load comes back by `leak` [N]; then it is let out to
+/// 60 %, and pulled again.
+Said jack_in_stages(double leak, int hold) {
+  Said said;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const auto jacking = std::make_unique<ReadSite>(SaddleSite(), seed);
+    double load = 0;
+    for (int stage = 1; stage <= 5; ++stage) {
+      const double from = load, to = 0.2 * full * stage;
+      for (int i = 1; i <= 10; ++i) jacking->row(from + (to - from) * i / 10);
+      for (int i = 1; i <= hold; ++i) jacking->row(load = to - leak * (1 - std::exp(-i / 10.0)));
+    }
+    said.mu.add(jacking->mu_off());
+    const double highest = load;
+    for (const double to : {0.6, 1.0})
+      for (int i = 1; i <= 30; ++i) {
+        const double from = to < 1 ? highest : 0.6 * full;
+        jacking->row(from + (to * full - from) * std::fmin(1.0, i / 20.0));
+        jacking->site.add_to(said.released, jacking->estimator());
+      }
+    said.alarms += jacking->alarms;
+  }
+  return said;
+}
+
+}  // namespace
+
+TEST_CASE("a load that comes back too little to be seen teaches no friction") {
+  // Nothing of it counted at commit ba830d5: mu off by 7 deviations of its own where a pump leaks three
+  // deviations of the noise, by 44 where holds are long; of the forces let out 65 to 86 % held.
+  for (const double leak : {0.0, 0.5, 1.0, 2.0, 3.0, 6.0})
+    for (const int hold : {60, 300}) {
+      CAPTURE(leak);
+      CAPTURE(hold);
+      const Said said = jack_in_stages(leak * SaddleSite().noise, hold);
+      MESSAGE("leak of ", leak, " of the noise, ", hold, " rows: mu ", said.mu.held, " of ", said.mu.count,
+              " held, rms ", said.mu.rms(), "; let out ", 100 * said.released.share(), " %");
+      CHECK(said.mu.share() > 0.85);
+      CHECK(said.mu.rms() < 1.4);
+      CHECK(said.released.share() > 0.9);
+      CHECK(said.alarms <= 3);
+    }
+}
+
+TEST_CASE("holds tell little of friction, ramps as much as before") {
+  const auto known_after = [](int ramp, int hold) {
+    const auto jacking = std::make_unique<ReadSite>(SaddleSite(), 3);
+    for (int i = 1; i <= ramp; ++i) jacking->row(full * i / ramp);
+    for (int i = 0; i < hold; ++i) jacking->row(full);
+    return jacking->estimator().mu_deviation(0);
+  };
+  CHECK(known_after(400, 0) < 0.6 * known_after(100, 0));
+  CHECK(known_after(100, 1000) > 0.5 * known_after(100, 0));
+}
