@@ -919,3 +919,31 @@ TEST_CASE(
             4 * found.number(49, "C.sd" + segment));
   }
 }
+
+TEST_CASE(
+    "a log that begins while wedges hold the cable begins under load, unless the far end reads nothing") {
+  const std::string friction = R"("mu": 0.2, "mu_sd": 0.02, "shared": true)";
+  struct Begin {
+    std::string log;
+    bool is_load;
+  };
+  for (const Begin& begin : {Begin{"time,C.end,C.end.locked\n1,,1\n2,,1\n", true},
+                             Begin{"time,C.end,C.end.locked,C.start\n1,,1,80000\n2,,1,80100\n", true},
+                             Begin{"time,C.end,C.end.locked,C.start\n1,,1,100\n2,,1,-200\n", false},
+                             Begin{"time,C.end,C.end.locked\n1,0,0\n2,,1\n", false}})
+    for (const bool stream : {false, true}) {
+      CAPTURE(begin.log);
+      CAPTURE(stream);
+      const Scratch scratch;
+      write(scratch, "scene.json", scene(friction, both_cells));
+      write(scratch, "log.csv", begin.log);
+      const Outcome outcome = stream ? run_taut(scratch, "estimate " + scratch.quoted("scene.json") +
+                                                             " - < " + scratch.quoted("log.csv"))
+                                     : estimate(scratch);
+      REQUIRE(outcome.status == 0);
+      const Table table(outcome.out);
+      CHECK((table.at(1, "alarms") == "unknown-past:C") == begin.is_load);
+      CHECK((outcome.err.find("begins under load") != std::string::npos) == begin.is_load);
+      if (begin.is_load) CHECK(table.number(1, "C.T1") + 2 * table.number(1, "C.sd1") > 80000);
+    }
+}

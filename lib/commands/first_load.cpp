@@ -34,8 +34,26 @@ FirstLoad::FirstLoad(const LogRules& rules, const SceneDescription& scene)
     for (std::size_t end = 0; end < 2; ++end) jacks_[c][end].none = read_of_no_load(scene.cables[c], end);
 }
 
+// A cable that only wedges hold, and nothing that is read says that they hold nothing.
+bool FirstLoad::is_held(const LogRow& row, std::size_t c) const {
+  const CableDescription& cable = scene_.cables[c];
+  bool holds = false;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const auto& reading = row.cables[c][end].reading;
+    if (!cable.is_jacked(end)) {
+      if (reading && !(*reading > jacks_[c][end].none)) return false;
+    } else if (row.cables[c][end].locked) {
+      holds = true;
+    } else {
+      return false;
+    }
+  }
+  return holds;
+}
+
 void FirstLoad::take(const LogRow& row) {
   ++rows_;
+  for (std::size_t c = 0; c < jacks_.size() && rows_ == 1; ++c) is_held_ = is_held_ || is_held(row, c);
   for (std::size_t c = 0; c < jacks_.size(); ++c)
     for (std::size_t end = 0; end < 2; ++end) {
       const auto& reading = row.cables[c][end].reading;
@@ -50,11 +68,12 @@ void FirstLoad::take(const LogRow& row) {
 }
 
 bool FirstLoad::is_under_load() const {
-  return any(jacks_, [](const Jack& jack) { return jack.goes_on() && *jack.first > 0.05 * jack.largest; });
+  return is_held_ ||
+         any(jacks_, [](const Jack& jack) { return jack.goes_on() && *jack.first > 0.05 * jack.largest; });
 }
 
 bool FirstLoad::is_open() const {
-  return rows_ == 0 || any(jacks_, [](const Jack& jack) { return jack.goes_on(); });
+  return rows_ == 0 || (!is_held_ && any(jacks_, [](const Jack& jack) { return jack.goes_on(); }));
 }
 
 bool begins_under_load(const std::string& path, const LogRules& rules, const SceneDescription& scene) {

@@ -112,30 +112,38 @@ template <class Parts>
 }
 
 /// After start(): the loads of first readings, those of jacks having come down from so high that every joint
-/// slid back, see Estimator::come_down(). Fails as Tracker::advance() does. Cost: two paths.
+/// slid back, see Estimator::come_down(). What a wedge holds is as much as leaves at the other end what is
+/// read there; where nothing is, as much as the cable can carry. Fails as Tracker::advance() does. Cost: two
+/// paths.
 template <class Parts>
 Progress<typename Parts::Scalar> come_down_to(Parts& parts, const typename Parts::ReadingsType& first) {
   using Scalar = typename Parts::Scalar;
   auto& jacks = parts.jacks;
-  auto to = first.sample;
+  auto to = first.sample, above = to;
   for (int k = 0; k < jacks.size(); ++k) {
     const EndReading<Scalar>& given = jacks.in(first.ends, k);
-    if (jacks.in(to.jack, k).locked || !given.has_force || !(given.force > 0) ||
-        !(given.force <= parts.most_force(k)))
+    const int c = jacks.end(k).cable();
+    const Scalar held = held_over(parts.tracker, c), most = Scalar(0.99) * parts.most_force(k);
+    auto& highest = jacks.in(above.jack, k);
+    if (highest.locked) {
+      const auto beside = read_beside(parts, first, c);
+      const Scalar load = beside.force + 5 * beside.deviation;
+      highest = {load < most * held ? larger(load, Scalar(0)) / held : most, false};
+      jacks[k].lie_locked();
       continue;
+    }
+    if (!given.has_force || !(given.force > 0) || !(given.force <= parts.most_force(k))) continue;
     jacks[k].come_down(given.force, parts.cell(k));
     change_errors(parts, k);
-    jacks.in(to.jack, k).force = jacks[k].at.load;
-  }
-  auto above = to;
-  for (int k = 0; k < jacks.size(); ++k) {
-    const Scalar held = held_over(parts.tracker, jacks.end(k).cable());
-    auto& force = jacks.in(above.jack, k).force;
-    const Scalar most = Scalar(0.99) * parts.most_force(k), square = held * held;
-    force = Scalar(1.02) * force < most * square ? Scalar(1.02) * force / square : most;
+    const Scalar load = jacks.in(to.jack, k).force = jacks[k].at.load, square = held * held;
+    highest.force = Scalar(1.02) * load < most * square ? Scalar(1.02) * load / square : most;
   }
   auto progress = parts.tracker.advance(above);
-  if (progress.status) progress = join(progress, parts.tracker.advance(to));
+  // Wedges are seated already: none is drawn in any more.
+  if (progress.status)
+    progress = join(progress, parts.tracker.seat(to, [&](int c, std::size_t) {
+      return -static_cast<Scalar>(parts.model().cables[c].seating);
+    }));
   if (progress.status) jacks.arrive(to, parts.patterns());
   return progress;
 }

@@ -17,20 +17,35 @@
 
 namespace taut {
 
-/// Whether some jack pulls in these readings: more than five standard deviations of the zero and the noise of
-/// its load cell, which it would not say without load, and not more than the cable can carry. A jack that is
-/// not read pulls nothing. For who has nothing but the first row to tell whether cables were under load
-/// before.
+/// Whether cables are under load in these readings: some jack pulls more than five standard deviations of the
+/// zero and the noise of its load cell, which it would not say without load, and not more than the cable can
+/// carry; a jack that is not read pulls nothing. Or only wedges hold some cable, and a load cell at its other
+/// end, if it is read, says that they do. For who has nothing but the first row to tell whether cables were
+/// under load before.
 template <class CondensedType, class PriorType, class Readings>
 bool is_under_load(const CondensedType& condensed, const PriorType& prior, const Readings& readings) {
-  bool pulls = false;
-  for_each_jacked_end(linear_part(condensed).cables, [&](int c, std::size_t end) {
-    const auto& given = readings.ends[c][end];
-    const auto& cell = prior.cell[c][end];
-    const auto least = 5 * std::sqrt(cell.zero_sd * cell.zero_sd + cell.sd * cell.sd);
-    pulls |= given.has_force && given.force > least && given.force <= linear_part(condensed).most_force[c];
-  });
-  return pulls;
+  const auto& cables = linear_part(condensed).cables;
+  bool is_loaded = false;
+  for (int c = 0; c < cables.size(); ++c) {
+    bool wedges = false, jacks = false, is_slack = false;
+    for (std::size_t end = 0; end < 2 && !cables[c].closed; ++end) {
+      const auto& given = readings.ends[c][end];
+      const auto& cell = prior.cell[c][end];
+      const auto least = 5 * std::sqrt(cell.zero_sd * cell.zero_sd + cell.sd * cell.sd);
+      const bool pulls =
+          given.has_force && given.force > least && given.force <= linear_part(condensed).most_force[c];
+      if (cables[c].ends[end] != End::jacked) {
+        is_slack |= given.has_force && cell.sd > 0 && !pulls;
+      } else if (readings.sample.jack[c][end].locked) {
+        wedges = true;
+      } else {
+        jacks = true;
+        is_loaded |= pulls;
+      }
+    }
+    is_loaded |= wedges && !jacks && !is_slack;
+  }
+  return is_loaded;
 }
 
 /// Beside an Estimator whose loads came up from zero, a second one whose loads came down from so high that
