@@ -165,21 +165,24 @@ class FarEnds {
     mean.variance += sd * sd / static_cast<Scalar>(readings) + variance_that_lasts(e, filter, jacks);
     return mean;
   }
+  /// Whether readings of this row are off by something in common and those that wait are not, or the other
+  /// way round: together all of them would be.
+  bool mixes(const FilterType& filter, const Jacks& jacks) const {
+    return has_waiting() && (variance_in_common(filter, jacks) > 0) != (state_.gathered.lasting > 0);
+  }
   /// Where gathers(): gathers a reading [N] of the only cell. Cost: a few operations; that of update() with
   /// the last one for which there is room.
   [[nodiscard]] Update gather(Scalar reading, TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
     Gathered<Scalar>& gathered = state_.gathered;
     const Scalar driven = jacks[0].driven.force, load = jacks[0].seen(jacks.in(filter.prior().cell, 0));
-    if (gathered.size == 0) {
-      if (!begin_gathering(driven, tracker, filter, jacks))
-        return compare(0, reading, tracker, filter, jacks);
-      if (is_known(variance_that_lasts(0, filter, jacks), filter))
-        return look(0, reading, tracker, filter, jacks);
-    }
-    const Scalar off = gathered.off_line(load, reading), lasting = variance_that_lasts(0, filter, jacks);
+    if (gathered.size == 0 && !begin_gathering(driven, tracker, filter, jacks))
+      return compare(0, reading, tracker, filter, jacks);
+    const Scalar off = gathered.off_line(load, reading), lasting = variance_in_common(filter, jacks);
     state_.watch[0].take(reading, reading - off, gathered.of_model + lasting,
                          gathered.spread - gathered.of_model);
-    if (!(off * off <= FilterType::BeliefType::gate * gathered.spread)) return Update::contradiction;
+    if (!(off * off <= FilterType::BeliefType::gate * (gathered.spread + lasting)))
+      return Update::contradiction;
+    gathered.lasting = larger(gathered.lasting, lasting);
     gathered.add(load, driven, off);
     has_gathered_ = true;
     return gathered.is_full() ? learn(tracker, filter, jacks) : Update::waits;
@@ -203,27 +206,33 @@ class FarEnds {
     typename FilterType::JackReadings readings;
     readings.add({all.jack() - driven, all.jack_variance * all.share()});
     const Scalar sd = state_.watch[0].sd * std::sqrt(all.share()),
-                 counted = filter.counted_deviation(sd, variance_that_lasts(0, filter, jacks), readings);
+                 counted = filter.counted_deviation(sd, all.lasting, readings);
     if (!(counted > 0)) return Update::waits;
     return filter.update(tracker, predict, readings, {all.reading(), counted, all.spread});
   }
 
  private:
-  /// After predict_at(): the variance of what readings of cell `e`, and of the jacks at the same time, have
-  /// in common from row to row, c of Eq. (54), and what its force is off a straight line by.
-  Scalar variance_that_lasts(int e, const FilterType& filter, const Jacks& jacks) const {
+  /// The variance of what readings of cell `e`, and of the jacks at the same time, have in common from row to
+  /// row, c of Eq. (54), and what its force is off a straight line by. `by_jack(k)` is its derivative.
+  template <class ByJack>
+  Scalar variance_that_lasts(int e, const FilterType& filter, const Jacks& jacks,
+                             const ByJack& by_jack) const {
     const Scalar own = state_.watch[e].lasts;
     Scalar variance = own * own + state_.bent[e];
     for (int k = 0; k < jacks.size(); ++k) {
       const Scalar lasting = jacks[k].lasting(jacks.in(filter.prior().cell, k)), doubt = jacks[k].doubt(),
-                   by = filter.prediction().by_jack[k];
+                   by = by_jack(k);
       variance += by * by * (lasting * lasting + doubt * doubt);
     }
     return variance;
   }
-  /// Whether what is predicted is known as well as any number of such readings tell.
-  static bool is_known(Scalar lasting, const FilterType& filter) {
-    return lasting > 0 && filter.belief().variance_of_reading(filter.prediction().H) <= lasting;
+  /// The same after predict_at().
+  Scalar variance_that_lasts(int e, const FilterType& filter, const Jacks& jacks) const {
+    return variance_that_lasts(e, filter, jacks, [&](int k) { return filter.prediction().by_jack[k]; });
+  }
+  /// The same of the only cell, once its readings are gathered.
+  Scalar variance_in_common(const FilterType& filter, const Jacks& jacks) const {
+    return variance_that_lasts(0, filter, jacks, [&](int) { return state_.gathered.slope; });
   }
   /// A reading that tells nothing new is compared all the same.
   Update look(int e, Scalar reading, const TrackerType& tracker, FilterType& filter, const Jacks& jacks) {

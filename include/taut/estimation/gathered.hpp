@@ -21,6 +21,7 @@ struct Gathered {
   Scalar spread = 0;            ///< variance of a reading about the line [N^2]
   Scalar of_model = 0;          ///< the part of it that they have in common [N^2]
   Scalar jack_variance = 0;     ///< of a reading of the jack [N^2]
+  Scalar lasting = 0;           ///< the largest variance that readings had in common by errors [N^2]
   // Sums.
   Scalar jack_further = 0, driven_further = 0;  ///< loads beyond the first one [N]
   Scalar off = 0;                               ///< how far the cell's readings were off the line [N]
@@ -30,7 +31,7 @@ struct Gathered {
   void begin(Scalar jack, Scalar driven, int most) {
     jack_from = jack;
     driven_from = driven;
-    jack_further = driven_further = off = 0;
+    jack_further = driven_further = off = lasting = 0;
     size = 0;
     room = static_cast<std::int8_t>(most < capacity ? most : capacity);
   }

@@ -64,6 +64,7 @@ bool measure_far_end(Parts& parts, int e, typename Parts::Scalar reading, bool g
     parts.alarms.add(Parts::alarm_at(Alarm::Kind::frozen, end));
     return false;
   }
+  if (gathers && far_ends.mixes(parts.filter, parts.jacks)) learn_waiting(parts);
   const int readings = gathers ? far_ends.waiting() + 1 : 1;
   const Update update =
       parts.is_corrected(end.cable()) ? correct_held(parts, e, reading)
