@@ -34,21 +34,21 @@ FirstLoad::FirstLoad(const LogRules& rules, const SceneDescription& scene)
     for (std::size_t end = 0; end < 2; ++end) jacks_[c][end].none = read_of_no_load(scene.cables[c], end);
 }
 
-// A cable that only wedges hold, and nothing that is read says that they hold nothing.
+// A cable that only wedges hold, and the other end reads that they do.
 bool FirstLoad::is_held(const LogRow& row, std::size_t c) const {
   const CableDescription& cable = scene_.cables[c];
-  bool holds = false;
+  bool wedges = false, far_end = false;
   for (std::size_t end = 0; end < 2; ++end) {
     const auto& reading = row.cables[c][end].reading;
     if (!cable.is_jacked(end)) {
-      if (reading && !(*reading > jacks_[c][end].none)) return false;
+      far_end = reading && *reading > jacks_[c][end].none;
     } else if (row.cables[c][end].locked) {
-      holds = true;
+      wedges = true;
     } else {
       return false;
     }
   }
-  return holds;
+  return wedges && far_end;
 }
 
 void FirstLoad::take(const LogRow& row) {

@@ -22,8 +22,8 @@ class FirstLoad {
   void take(const LogRow& row);
   /// Whether some jack pulls in the first row more than 5 % of what it ever does, and did not come there from
   /// zero in one stage: the next row goes on by less than 0.8 of that. What noise and zero of its cell can
-  /// show is no load. Or whether only wedges hold some cable in the first row, and no load cell at its other
-  /// end reads nothing. As far as rows have been taken.
+  /// show is no load. Or whether only wedges hold some cable in the first row, and a load cell at its other
+  /// end says that they do. As far as rows have been taken.
   bool is_under_load() const;
   /// Whether further rows can say so.
   bool is_open() const;

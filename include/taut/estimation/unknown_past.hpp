@@ -20,14 +20,14 @@ namespace taut {
 /// Whether cables are under load in these readings: some jack pulls more than five standard deviations of the
 /// zero and the noise of its load cell, which it would not say without load, and not more than the cable can
 /// carry; a jack that is not read pulls nothing. Or only wedges hold some cable, and a load cell at its other
-/// end, if it is read, says that they do. For who has nothing but the first row to tell whether cables were
-/// under load before.
+/// end says that they do: where none is read they hold nothing. For who has nothing but the first row to tell
+/// whether cables were under load before.
 template <class CondensedType, class PriorType, class Readings>
 bool is_under_load(const CondensedType& condensed, const PriorType& prior, const Readings& readings) {
   const auto& cables = linear_part(condensed).cables;
   bool is_loaded = false;
   for (int c = 0; c < cables.size(); ++c) {
-    bool wedges = false, jacks = false, is_slack = false;
+    bool wedges = false, jacks = false, far_end = false;
     for (std::size_t end = 0; end < 2 && !cables[c].closed; ++end) {
       const auto& given = readings.ends[c][end];
       const auto& cell = prior.cell[c][end];
@@ -35,7 +35,7 @@ bool is_under_load(const CondensedType& condensed, const PriorType& prior, const
       const bool pulls =
           given.has_force && given.force > least && given.force <= linear_part(condensed).most_force[c];
       if (cables[c].ends[end] != End::jacked) {
-        is_slack |= given.has_force && cell.sd > 0 && !pulls;
+        far_end |= pulls;
       } else if (readings.sample.jack[c][end].locked) {
         wedges = true;
       } else {
@@ -43,7 +43,7 @@ bool is_under_load(const CondensedType& condensed, const PriorType& prior, const
         is_loaded |= pulls;
       }
     }
-    is_loaded |= wedges && !jacks && !is_slack;
+    is_loaded |= wedges && !jacks && far_end;
   }
   return is_loaded;
 }
