@@ -106,4 +106,6 @@ TEST_CASE("readings that are off alike leave what they have in common, and their
   CHECK(taut::counted_variance(100.0, 25.0, 0.0) == 25);
   CHECK(taut::counted_variance(100.0, 25.0, 100.0) == 0);
   CHECK(taut::counted_variance(1.0, 25.0, 100.0) == 0);
+  // Of cables of 100 MN, in single precision.
+  CHECK(std::isfinite(taut::counted_variance(1e15F, 1e12F, 9e14F)));
 }

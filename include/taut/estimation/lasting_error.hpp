@@ -14,7 +14,8 @@ constexpr Scalar counted_variance(Scalar predicted, Scalar noise, Scalar lasting
   if (!(lasting > 0)) return noise;
   const Scalar open = predicted - lasting;
   if (!(open > least * predicted)) return 0;
-  return predicted * (lasting * (open + noise) + open * noise) / (open * open);
+  // No product of three variances: it overflows in single precision.
+  return predicted / open * (lasting / open * (open + noise) + noise);
 }
 
 }  // namespace taut
