@@ -30,8 +30,7 @@ int alarms_of(double gain, int until, std::uint64_t seed) {
     if (i <= until) reading = gain * known.force.front() + known.noise * gaussian(random);
     readings.ends[0][0] = {true, false, reading, 0};
     REQUIRE(estimator->advance(readings).status.ok());
-    for (const auto kind : {taut::Alarm::Kind::sensor, taut::Alarm::Kind::misfit, taut::Alarm::Kind::frozen})
-      alarms += raised(estimator->alarms(), kind);
+    alarms += of_far_end(estimator->alarms());
     notices += raised(estimator->alarms(), taut::Alarm::Kind::no_information);
   }
   CHECK(notices == 0);

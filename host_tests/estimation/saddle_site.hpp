@@ -76,6 +76,15 @@ struct SaddleSite {
   }
 };
 
+/// How many alarms blame a far end.
+template <class Alarms>
+int of_far_end(const Alarms& alarms) {
+  int count = 0;
+  for (const auto kind : {taut::Alarm::Kind::sensor, taut::Alarm::Kind::misfit, taut::Alarm::Kind::frozen})
+    count += raised(alarms, kind);
+  return count;
+}
+
 /// The site with an estimator beside it that is handed readings.
 class ReadSite {
  public:
@@ -99,13 +108,11 @@ class ReadSite {
     if (reads_jack) readings.ends[0][1] = {true, false, jack, 0};
     if (reads_far && site.has_far) readings.ends[0][0] = {true, false, far, 0};
     REQUIRE(estimator_.advance(readings).status.ok());
-    for (const auto kind : {taut::Alarm::Kind::sensor, taut::Alarm::Kind::misfit, taut::Alarm::Kind::frozen})
-      alarms += raised(estimator_.alarms(), kind);
+    alarms += of_far_end(estimator_.alarms());
   }
   const Estimator& estimator() const { return estimator_; }
   /// By how many of its standard deviations mu is off.
   double mu_off() const { return (estimator_.mu(0) - site.mean_mu()) / estimator_.mu_deviation(0); }
-  double gaussian_noise() { return gaussian(random_); }
 
   SaddleSite site;
   int alarms = 0;  ///< of the far end
