@@ -925,12 +925,13 @@ TEST_CASE(
   const std::string friction = R"("mu": 0.2, "mu_sd": 0.02, "shared": true)";
   struct Begin {
     std::string log;
-    bool is_load;
+    bool is_load, is_unread;
   };
-  for (const Begin& begin : {Begin{"time,C.end,C.end.locked\n1,,1\n2,,1\n", false},
-                             Begin{"time,C.end,C.end.locked,C.start\n1,,1,80000\n2,,1,80100\n", true},
-                             Begin{"time,C.end,C.end.locked,C.start\n1,,1,100\n2,,1,-200\n", false},
-                             Begin{"time,C.end,C.end.locked\n1,0,0\n2,,1\n", false}})
+  for (const Begin& begin : {Begin{"time,C.end,C.end.locked\n1,,1\n2,,1\n", false, true},
+                             Begin{"time,C.end,C.end.locked,C.start\n1,,1,80000\n2,,1,80100\n", true, false},
+                             Begin{"time,C.end,C.end.locked,C.start\n1,,1,100\n2,,1,-200\n", false, false},
+                             Begin{"time,C.end,C.end.locked,C.start\n1,,1,\n2,,1,80000\n", false, true},
+                             Begin{"time,C.end,C.end.locked\n1,0,0\n2,,1\n", false, false}})
     for (const bool stream : {false, true}) {
       CAPTURE(begin.log);
       CAPTURE(stream);
@@ -944,6 +945,10 @@ TEST_CASE(
       const Table table(outcome.out);
       CHECK((table.at(1, "alarms") == "unknown-past:C") == begin.is_load);
       CHECK((outcome.err.find("begins under load") != std::string::npos) == begin.is_load);
+      // At commit 7ac2946 nothing said that no load was taken.
+      CHECK((outcome.err.find("only wedges hold \"C\" in the first row, and no load cell reads what they "
+                              "hold: they are taken to be without load; if they were pulled before, --state "
+                              "FILE goes on from the log before\n") != std::string::npos) == begin.is_unread);
       if (begin.is_load) CHECK(table.number(1, "C.T1") + 2 * table.number(1, "C.sd1") > 80000);
     }
 }

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "lib/commands/usual_deviations.hpp"
+#include "lib/files/text.hpp"
 
 namespace taut::host {
 namespace {
@@ -34,26 +35,31 @@ FirstLoad::FirstLoad(const LogRules& rules, const SceneDescription& scene)
     for (std::size_t end = 0; end < 2; ++end) jacks_[c][end].none = read_of_no_load(scene.cables[c], end);
 }
 
-// A cable that only wedges hold, and the other end reads that they do.
-bool FirstLoad::is_held(const LogRow& row, std::size_t c) const {
+// Whether only wedges hold a cable, and what the other end reads of it.
+FirstLoad::Held FirstLoad::held_by_wedges(const LogRow& row, std::size_t c) const {
   const CableDescription& cable = scene_.cables[c];
-  bool wedges = false, far_end = false;
+  bool wedges = false;
+  Held held = Held::unread;
   for (std::size_t end = 0; end < 2; ++end) {
     const auto& reading = row.cables[c][end].reading;
-    if (!cable.is_jacked(end)) {
-      far_end = reading && *reading > jacks_[c][end].none;
-    } else if (row.cables[c][end].locked) {
+    if (cable.is_jacked(end)) {
+      if (!row.cables[c][end].locked) return Held::no;
       wedges = true;
-    } else {
-      return false;
+    } else if (reading) {
+      held = *reading > jacks_[c][end].none ? Held::under_load : Held::without_load;
     }
   }
-  return wedges && far_end;
+  return wedges ? held : Held::no;
 }
 
 void FirstLoad::take(const LogRow& row) {
   ++rows_;
-  for (std::size_t c = 0; c < jacks_.size() && rows_ == 1; ++c) is_held_ = is_held_ || is_held(row, c);
+  for (std::size_t c = 0; c < jacks_.size() && rows_ == 1; ++c) {
+    const Held held = held_by_wedges(row, c);
+    is_held_ = is_held_ || held == Held::under_load;
+    if (held == Held::unread)
+      taken_for_unloaded_ += (taken_for_unloaded_.empty() ? "" : ", ") + quote(scene_.cables[c].name);
+  }
   for (std::size_t c = 0; c < jacks_.size(); ++c)
     for (std::size_t end = 0; end < 2; ++end) {
       const auto& reading = row.cables[c][end].reading;
@@ -76,14 +82,14 @@ bool FirstLoad::is_open() const {
   return rows_ == 0 || (!is_held_ && any(jacks_, [](const Jack& jack) { return jack.goes_on(); }));
 }
 
-bool begins_under_load(const std::string& path, const LogRules& rules, const SceneDescription& scene) {
+FirstLoad first_load_of(const std::string& path, const LogRules& rules, const SceneDescription& scene) {
   FirstLoad load(rules, scene);
   std::ifstream stream = open_log(path);
   LogReader log(stream, path, scene, rules);
   LogRow row = log.first_row();
   // A long log is read on only where some jack is in question.
   while (load.is_open() && log.next(row)) load.take(row);
-  return load.is_under_load();
+  return load;
 }
 
 }  // namespace taut::host

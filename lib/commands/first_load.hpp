@@ -27,8 +27,13 @@ class FirstLoad {
   bool is_under_load() const;
   /// Whether further rows can say so.
   bool is_open() const;
+  /// After the first row: the cables that only wedges hold, where no load cell reads what they hold, quoted
+  /// and with commas between. They are taken to be without load, as are those whose turn has not come.
+  const std::string& taken_for_unloaded() const { return taken_for_unloaded_; }
 
  private:
+  enum class Held { no, unread, without_load, under_load };
+
   struct Jack {
     std::optional<double> first, second;
     double largest = 0, none = 0;  // what may be read of no load
@@ -37,16 +42,17 @@ class FirstLoad {
     bool goes_on() const { return first && *first > none && (!second || *second - *first < 0.8 * *first); }
   };
 
-  bool is_held(const LogRow& row, std::size_t c) const;
+  Held held_by_wedges(const LogRow& row, std::size_t c) const;
 
   const LogRules& rules_;
   const SceneDescription& scene_;
   std::vector<std::array<Jack, 2>> jacks_;
   bool is_held_ = false;
+  std::string taken_for_unloaded_;
   std::size_t rows_ = 0;
 };
 
-/// FirstLoad::is_under_load() of a whole log.
-bool begins_under_load(const std::string& path, const LogRules& rules, const SceneDescription& scene);
+/// Of a whole log.
+FirstLoad first_load_of(const std::string& path, const LogRules& rules, const SceneDescription& scene);
 
 }  // namespace taut::host

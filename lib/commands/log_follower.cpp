@@ -36,6 +36,13 @@ Sentence under_load() {
       "past; --state FILE goes on from the log before");
 }
 
+Sentence taken_for_unloaded(const std::string& cables) {
+  return Sentence(
+      "only wedges hold {1} in the first row, and no load cell reads what they hold: they are taken to be "
+      "without load; if they were pulled before, --state FILE goes on from the log before",
+      {cables});
+}
+
 LogRules rules_for(const RunOptions& options, const SceneDescription& scene) {
   LogRules rules;
   rules.are_readings = options.method == Method::estimate;
@@ -188,7 +195,10 @@ void LogFollower::begin() {
   if (is_stream()) {
     first_load_ = std::make_unique<FirstLoad>(rules_, scene_);
     model_->doubt_past();
-  } else if (begins_under_load(options_.log, rules_, scene_)) {
+  } else {
+    const FirstLoad load = first_load_of(options_.log, rules_, scene_);
+    remark_on_first_load(load);
+    if (!load.is_under_load()) return;
     remark(under_load());
     model_->forget_past();
   }
@@ -339,6 +349,7 @@ void LogFollower::warn_of_bend(const LogRow& row, const Answer& answer) {
 void LogFollower::take_first_load(const LogRow& row) {
   first_load_->take(row);
   if (!first_load_->is_under_load()) {
+    remark_on_first_load(*first_load_);
     model_->deny_past();
     first_load_.reset();
   } else if (followed_ == 1 && model_->has_unknown_past()) {
@@ -346,6 +357,12 @@ void LogFollower::take_first_load(const LogRow& row) {
   } else if (followed_ > 0 && !model_->has_unknown_past()) {
     first_load_.reset();
   }
+}
+
+// Where some other cable is known to be under load, the past of all is doubted.
+void LogFollower::remark_on_first_load(const FirstLoad& load) {
+  if (!load.taken_for_unloaded().empty() && !load.is_under_load())
+    remark(taken_for_unloaded(load.taken_for_unloaded()));
 }
 
 void LogFollower::remark_on_left_out(const LogReader& log) {

@@ -534,6 +534,12 @@ constexpr Translation translations[] = {
      "记录开始时已有荷载：在索滑过所有节点之前，其力可为任何经过所致；--state FILE 可接续上一份记录",
      "das Protokoll beginnt unter Last: bis die Seile über alle Umlenkungen geglitten sind, gelten ihre "
      "Kräfte für jede Vergangenheit; --state FILE setzt das vorige Protokoll fort"},
+    {"only wedges hold {1} in the first row, and no load cell reads what they hold: they are taken to be "
+     "without load; if they were pulled before, --state FILE goes on from the log before",
+     "第一行中 {1} 仅由夹片锚固，且没有测力计读取其力：视为无荷载；若此前已张拉，--state FILE "
+     "可接续上一份记录",
+     "nur Keile halten {1} in der ersten Zeile, und kein Messwert sagt, was sie halten: angenommen ist, dass "
+     "keine Last da ist; wurde vorher gespannt, setzt --state FILE das vorige Protokoll fort"},
     {"{1}: {2}: {3}; second-order theory is made for a tenth: beyond it compare with a program for large "
      "displacements",
      "{1}：{2}：{3}；二阶理论适用于十分之一以内：超出时请与大位移程序比较",
