@@ -242,3 +242,41 @@ TEST_CASE(
     CHECK(std::fabs(plain.tension(0) - was) > 1e3);
   }
 }
+
+TEST_CASE(
+    "a locked cable whose wedge turns out to be drawn in by more than it is stretched is slack, and pushes "
+    "not") {
+  // At commit 74723ed verify() refused that state.
+  for (const bool elastic : {false, true}) {
+    CAPTURE(elastic);
+    static Plane scene;
+    const auto cable = support::steel_cable(0.2);
+    if (elastic)
+      support::truss_string(scene, cable, 4);
+    else
+      support::rigid_saddles(scene, cable, support::chain_points(6));
+    const Varied given(scene, true, 0, 0);
+    const auto trackers = std::make_unique<std::array<Follower, 2>>();
+    Follower &adjusted = (*trackers)[0], &drawn_in = (*trackers)[1];
+    constexpr double further = 0.02;
+    Row row;
+    for (Follower* tracker : {&adjusted, &drawn_in}) {
+      given.begin(*tracker, true);
+      row.jack[0][1] = {1e4, false};
+      REQUIRE(tracker->advance(row).status.ok());
+      row.jack[0][1].locked = true;
+      const double more = tracker == &drawn_in ? further : 0;
+      REQUIRE(tracker->seat(row, [&](int, std::size_t) { return more; }).is_complete());
+    }
+    adjusted.draw_in(1, 0, 1);
+    taut::FixedArray<double, most_parameters> change;
+    change[1] = further;
+    REQUIRE(adjusted.adjust(given.friction(true), change).ok());
+    for (int i = 0; i < given.model.segments; ++i) CHECK(std::fabs(adjusted.tension(i)) < 1e-3);
+    CHECK(taut::verify(adjusted).worst() < 1e-9);
+    row.jack[0][1] = {1e5, false};
+    for (Follower* tracker : {&adjusted, &drawn_in}) REQUIRE(tracker->advance(row).status.ok());
+    for (int i = 0; i < given.model.segments; ++i)
+      CHECK(adjusted.tension(i) == doctest::Approx(drawn_in.tension(i)).epsilon(1e-9));
+  }
+}

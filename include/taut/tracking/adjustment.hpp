@@ -71,20 +71,45 @@ bool put_on_edge(Cables& cables) {
   return any;
 }
 
+/// Spans that no jack pulls, and would push, are slack from here on. Returns whether there are any.
+template <class Cables>
+bool let_slack(Cables& cables) {
+  auto& state = cables.state;
+  bool any = false;
+  for (int r = 0; r < cables.spans.size(); ++r) {
+    const auto& span = cables.spans[r];
+    if (state.slack[r] || state.rests[r] || cables.is_jacked(span)) continue;
+    for (int i = 0; i < span.count && !state.slack[r]; ++i)
+      state.slack[r] = cables.force[span.segment(i)] < -cables.force_tolerance();
+    any = any || state.slack[r];
+  }
+  if (!any) return false;
+  const auto slid = state.order;
+  state.order.clear();
+  for (const std::int16_t j : slid) {
+    if (cables.can_slide(j))
+      state.order.add(j);
+    else
+      state.slides[j] = JointState::stick;
+  }
+  return true;
+}
+
 /// Brings the state to what it would be had every unknown been larger by `change[unknown]` all along, to
 /// first order. Fails with `mechanism`, everything being as before but the map, where joints on their edges
-/// leave a node free. Cost: that of one event, and of one more for every joint that is put on its edge.
+/// leave a node free. Cost: that of one event, and of one more for every joint that is put on its edge and
+/// every span that is let slack.
 template <class Cables, class Changes>
 Status change_unknowns(Cables& cables, const Changes& change) {
   cables.freeze();
   const auto before = cables.state;
   cables.derivatives.for_each([&](const auto& derivative, int p) { shift(cables, derivative, change[p]); });
-  for (int count = 0; count <= cables.joints(); ++count) {
+  for (int count = 0; count <= cables.joints() + cables.spans.size(); ++count) {
     if (!make_map_anew(cables)) {
       cables.state = before;
       return cables.at_joint(Code::mechanism, -1);
     }
-    if (!put_on_edge(cables)) break;
+    if (!let_slack(cables) && !put_on_edge(cables)) break;
   }
   cables.state.peak = largest(cables.model->segments, &cables.force[0], cables.state.peak);
   return Status::success();
