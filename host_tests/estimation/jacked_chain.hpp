@@ -27,7 +27,7 @@ class Chain {
  public:
   explicit Chain(double friction) : Chain(std::vector<double>(segments - 1, friction)) {}
   /// Each joint has its own.
-  explicit Chain(const std::vector<double>& friction) : mu_(friction), T_(segments, 0) {}
+  explicit Chain(const std::vector<double>& friction) : mu_(friction), T_(friction.size() + 1, 0) {}
   double operator[](int segment) const { return T_[static_cast<std::size_t>(segment)]; }
 
   void pull(double force, Side side = Side::end) { T_ = pulled_by(force, side); }
@@ -50,16 +50,16 @@ class Chain {
     };
     if (side == Side::end) {
       T.back() = force;
-      for (std::size_t i = segments - 1; i-- > 0;) follow(i, i + 1, rho(i));
+      for (std::size_t i = T.size() - 1; i-- > 0;) follow(i, i + 1, rho(i));
     } else {
       T.front() = force;
-      for (std::size_t i = 1; i < segments; ++i) follow(i, i - 1, rho(i - 1));
+      for (std::size_t i = 1; i < T.size(); ++i) follow(i, i - 1, rho(i - 1));
     }
     return T;
   }
   double shortened_by(const std::vector<double>& T) const {
     double sum = 0;
-    for (std::size_t i = 0; i < segments; ++i)
+    for (std::size_t i = 0; i < T.size(); ++i)
       sum +=
           (T_[i] - T[i]) * support::chain_length(static_cast<int>(i)) / (support::cable_E * support::cable_A);
     return sum;

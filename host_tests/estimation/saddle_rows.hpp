@@ -7,7 +7,7 @@
 
 namespace estimation {
 
-/// So many of them alike, one 20 m above the other.
+/// So many of them alike, of five segments each, one 20 m above the other.
 inline void saddle_rows(support::Plane& scene, const taut::Cable<double>& cable, int count) {
   const auto points = support::chain_points(5);
   support::rigid_saddles(scene, cable, points);

@@ -175,27 +175,30 @@ template <class Parts>
 [[gnu::noinline]] Update learn_draw_in(Parts& parts, int k, int e, typename Parts::Scalar reading) {
   using Scalar = typename Parts::Scalar;
   constexpr int most = 64;
-  auto& lock_off = parts.lock_off;
-  const int p = parts.jacks[k].seating, n = lock_off.readings + 1;
+  const int p = parts.jacks[k].seating, c = parts.jacks.end(k).cable();
+  auto& read = parts.lock_off.read[c];
+  const int n = read.readings + 1;
   if (n > most) return Update::no_information;
-  lock_off.readings = static_cast<std::int16_t>(n);
-  lock_off.sum += reading;
+  read.readings = static_cast<std::int16_t>(n);
+  read.sum += reading;
   if ((n & (n - 1)) != 0) return Update::waits;
   const int segment = parts.far_ends.ends()[e].segment(parts.model());
   // What drifts is not in what is tried.
   const auto here = parts.filter.belief().save().linearized_at;
-  auto values = lock_off.linearized_at;
-  values[p] = parts.filter.belief().linearized_at(p);
-  if (const int drift = parts.drift[parts.jacks.end(k).cable()]; drift >= 0) values[drift] = 0;
+  auto values = parts.lock_off.linearized_at;
+  for_each_of_lock_off(parts, [&](int other) {
+    if (const int q = parts.jacks[other].seating; q >= 0) values[q] = here[q];
+    if (const int drift = parts.drift[parts.jacks.end(other).cable()]; drift >= 0) values[drift] = 0;
+  });
   if (!lock_anew(parts, values)) {
     static_cast<void>(lock_anew(parts, here));
     return Update::no_information;
   }
   const auto expected = parts.far_ends.expect_without(p, e, n, parts.tracker, parts.filter, parts.jacks);
-  const Scalar off = lock_off.sum / static_cast<Scalar>(n) - expected.value;
+  const Scalar off = read.sum / static_cast<Scalar>(n) - expected.value;
   const Update update = weigh_draw_in(
       parts, k, FarEndForce<Scalar>{segment, parts.tracker.tension(segment) + off, expected.variance});
-  try_other_friction(parts, parts.jacks.end(k).cable());
+  try_other_friction(parts, c);
   return update;
 }
 

@@ -63,10 +63,14 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   using DrawnFurther = FixedArray<Scalar, JacksType::capacity>;
   /// Where wedges were about to be drawn in, see begin_lock_off(): confirmed.tracker is there.
   struct LockOff {
+    /// By the cell at the far end of a cable, since then.
+    struct Read {
+      Scalar sum;  ///< [N]
+      std::int16_t readings;
+    };
     Values linearized_at;   ///< where the model was linearized there
     DrawnFurther still_in;  ///< how much of an earlier draw-in a jack's unknown has [-]
-    Scalar sum = 0;         ///< of what the cell at the far end has read since [N]
-    std::int16_t readings = 0;
+    FixedArray<Read, Cap::cables> read;
     bool is_known = false;
   };
   static constexpr bool has_several = Cap::cables > 1;

@@ -54,8 +54,7 @@ void begin_lock_off(Parts& parts) {
   // Not in use while the tracker is not ahead.
   parts.tracker.save_into(parts.confirmed.tracker);
   parts.lock_off.linearized_at = parts.filter.belief().save().linearized_at;
-  parts.lock_off.sum = 0;
-  parts.lock_off.readings = 0;
+  parts.lock_off.read.fill({});
   parts.lock_off.is_known = true;
 }
 
