@@ -87,6 +87,12 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.jacking.warming = 8;
     c.jacking.lock = c.logs_sun = true;
   }
+  {
+    Case& c = add("leaking-pump", Demand::model);
+    c.jacking.least_leak = 0.0005;
+    c.jacking.most_leak = 0.02;
+  }
+  add("cells-in-turn", Demand::model).instruments.in_turn = true;
   add("any-pace", Demand::model).jacking.any_pace = true;
   {
     Case& c = add("cables-in-turns", Demand::model);

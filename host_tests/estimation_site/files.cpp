@@ -1,5 +1,6 @@
 #include "estimation_site/files.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 namespace estimation_site {
@@ -12,6 +13,7 @@ std::string number(double value) {
 }
 /// A reading with as many digits as anyone writes down.
 std::string rounded(double value, int decimals) {
+  if (std::isnan(value)) return "";
   char text[64];
   std::snprintf(text, sizeof text, "%.*f", decimals, value);
   return text;

@@ -10,9 +10,9 @@ namespace estimation_site {
 
 /// What the instruments of a cable show, row by row.
 struct Readings {
-  std::vector<double> start, end, stroke;
-  double sd = 0;    ///< of the noise, as stated [N]
-  double step = 0;  ///< of the display [N]
+  std::vector<double> start, end, stroke;  ///< NaN: an empty field
+  double sd = 0;                           ///< of the noise, as stated [N]
+  double step = 0;                         ///< of the display [N]
 };
 
 /// A site that is jacked, and what was read.

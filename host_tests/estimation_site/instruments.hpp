@@ -19,6 +19,7 @@ struct InstrumentRules {
   double memory = 0;                         ///< of the noise [s]
   double step = 0;                           ///< of the display, part
   bool loose_plug = false;                   ///< the jack's, for 5 to 15 rows
+  bool in_turn = false;                      ///< each row has the reading of one end only
   bool far_freezes = false;                  ///< the far cell keeps its value from the first ramp on
 };
 
@@ -47,6 +48,11 @@ inline void loosen_plug(support::Random& random, double full, std::vector<double
   const double wrong = full * random.between(0, 1.4);
   for (int i = first; i < std::min(first + rows, last_row); ++i)
     readings[static_cast<std::size_t>(i)] = wrong;
+}
+
+/// One logger asks one cell after the other: that at the end in even rows, that at the start in odd ones.
+inline void read_in_turn(std::vector<double>& end, std::vector<double>& start) {
+  for (std::size_t i = 0; i < end.size(); ++i) (i % 2 == 0 ? start : end)[i] = std::nan("");
 }
 
 /// From a row on the value of that row is shown.

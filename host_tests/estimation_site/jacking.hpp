@@ -27,18 +27,19 @@ struct JackingRules {
   bool any_pace = false;   ///< the log begins before the pump runs; it is fast or slow, and so are rows
   bool dead_load = false;  ///< comes on while jacking, and changes in holds
   double warming = 0;      ///< sd of the temperature's way in the last hold, and of that after lock-off [K]
-  double warming_locked = 0;   ///< sd of the temperature's way after lock-off [K]
-  bool sized = false;          ///< warming is as large as its sd, up or down
-  int year_rows = 0;           ///< a ramp, and a year after lock-off in so many rows
-  double year_sd = 2;          ///< of the logged temperature in that year [K]
-  double relaxation = 0.025;   ///< of force in that year, part
-  double ram = 0, ram_sd = 0;  ///< friction of the rams, part of the force, and how much it differs
-  double ripple = 0;           ///< of the pump, part of the force
+  double warming_locked = 0;             ///< sd of the temperature's way after lock-off [K]
+  bool sized = false;                    ///< warming is as large as its sd, up or down
+  int year_rows = 0;                     ///< a ramp, and a year after lock-off in so many rows
+  double year_sd = 2;                    ///< of the logged temperature in that year [K]
+  double relaxation = 0.025;             ///< of force in that year, part
+  double ram = 0, ram_sd = 0;            ///< friction of the rams, part of the force, and how much it differs
+  double ripple = 0;                     ///< of the pump, part of the force
+  double least_leak = 0, most_leak = 0;  ///< of the force that the pump loses in a hold, part
 
   auto all() const {
     return std::tie(stages, least_rate, every_row, lock, visit, swings, loop, in_turns, together, any_pace,
                     dead_load, warming, warming_locked, sized, year_rows, year_sd, relaxation, ram, ram_sd,
-                    ripple);
+                    ripple, least_leak, most_leak);
   }
 };
 
@@ -243,11 +244,13 @@ class Jacking {
     const bool loads = rules_.dead_load && phase == Phase::hold && random_.coin();
     const double change = loads ? random_.between(-0.2, 0.3) : 0;
     const Way dead_way = some_window(from.factor[dead], from.factor[dead] + change);
+    const double leak = rules_.most_leak > 0 ? log_between(random_, rules_.least_leak, rules_.most_leak) : 0;
     for (int i = 1; i <= pace.rows; ++i) {
       Deed deed = next(phase, i, pace);
       const double part = double(i) / pace.rows;
       deed.factor[sun] = from.factor[sun] + warming * part;
       deed.factor[dead] = dead_way.at(part);
+      for (const std::size_t c : active_) deed.pulls[c].level = from.pulls[c].level * (1 - leak * part);
       add(deed, true);
     }
   }

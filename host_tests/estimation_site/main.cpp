@@ -68,6 +68,7 @@ Readings read_cable(Random& random, const InstrumentRules& rules, const Jacked& 
     if (!pull.locked[1]) last_free = static_cast<int>(i);
     if (pull.phase == Phase::ramp) last_of_ramp = static_cast<int>(i);
   }
+  if (rules.in_turn) read_in_turn(readings.end, readings.start);
   if (rules.loose_plug) loosen_plug(random, full, readings.end, last_free);
   if (rules.far_freezes) freeze(readings.start, static_cast<int>(last_of_ramp * random.between(0.3, 0.8)));
   return readings;

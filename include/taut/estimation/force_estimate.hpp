@@ -48,16 +48,19 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
   Scalar T = tracker.tension(segment), variance = 0;
   for (int k = 0; k < jacks.size(); ++k) {
     const auto& load = jacks[k];
-    const Scalar slope = by_jack[k] = tracker.slope(k, segment), further = slope * load.beyond();
-    T += further;
-    if (!HasDeviation || load.locked) continue;
     const EndType& at = jacks.end(k);
-    const bool may_be_back = load.may_be_back() && segment != at.segment(tracker.model());
     // Where nothing is confirmed to pull yet, too.
     const bool is_elsewhere = load.at.refused || !(load.driven.force > 0);
+    const bool is_held = segment != at.segment(tracker.model()) && !is_elsewhere;
+    const Scalar slope = by_jack[k] = tracker.slope(k, segment),
+                 further = slope * (is_held ? load.come_beyond() : load.beyond());
+    T += further;
+    if (!HasDeviation || load.locked) continue;
+    const bool may_be_back = load.may_be_back() && segment != at.segment(tracker.model());
     const Scalar most = is_elsewhere || may_be_back ? carried_over(tracker, at, segment) : Scalar(0);
     // Where the load may be elsewhere, joints that stick may slide.
-    const Scalar part = larger(std::fabs(slope), is_elsewhere ? most : Scalar(0)) * load.at.sd;
+    const Scalar part =
+        larger(std::fabs(slope), is_elsewhere ? most : Scalar(0)) * (is_held ? load.at.come_sd : load.at.sd);
     variance += part * part;
     if (!may_be_back) continue;
     // If it has reversed, the force did not follow from where it was farthest.

@@ -121,8 +121,11 @@ struct JackLoad {
     load.sd = reading.sd / branch(cell);
     load.confirmed = on(reading.confirmed);
     load.load = on(reading.load);
+    load.come = on(reading.come);
+    load.come_sd = reading.come_sd / branch(cell);
     // While it rests, no reading tells more of it.
     if (load.load == turned) load.sd = larger(load.sd, turned_sd);
+    if (load.come == turned) load.come_sd = larger(load.come_sd, turned_sd);
     if (!reading.behind) return load;
     // If it has turned, it rests at first.
     const Scalar other = reading.load / (pulls ? cell.down : cell.up);
@@ -144,8 +147,8 @@ struct JackLoad {
     filter.start_at(cell.sd, reading, cell.sd, false);
     guard.start(reading);
     at = {};
-    at.load = at.confirmed = turned = reading / cell.down;
-    at.sd = cell.sd / cell.down;
+    at.load = at.come = at.confirmed = turned = reading / cell.down;
+    at.sd = at.come_sd = cell.sd / cell.down;
     pulls = erred_up = rises = false;
     farthest = at.load;
     farthest_sd = at.sd;
@@ -280,7 +283,8 @@ struct JackLoad {
     is_unread = true;
     const Scalar times = since < steps * stride ? since / stride : stride > 0 ? steps : Scalar(1);
     const Scalar gone = larger(filter.gone(since) / branch(cell), times * step_by);
-    at.sd = std::sqrt(read_sd * read_sd + gone * gone);
+    at.come = at.load;
+    at.come_sd = at.sd = std::sqrt(read_sd * read_sd + gone * gone);
     at.refused |= gone > filter.sd() / branch(cell) || !filter.knows_pace();
   }
   /// Another cell shows that it has gone on, by at least so much [N].
@@ -292,9 +296,9 @@ struct JackLoad {
   void come_between(Scalar least, Scalar most, const LoadCell<Scalar>& cell) {
     const auto nearest = [&](Scalar load) { return larger(least, -larger(-most, -load)); };
     at.refused |= at.load != nearest(at.load);
-    at.load = nearest(at.load);
+    at.come = at.load = nearest(at.load);
     at.confirmed = nearest(at.confirmed);
-    at.sd = -larger(-at.sd, least - most);
+    at.come_sd = at.sd = -larger(-at.sd, least - most);
     filter.come_to(at.confirmed * branch(cell));
   }
 
@@ -319,12 +323,14 @@ struct JackLoad {
       sd_before = at.sd;
       if (locked) return false;
       // What of a turn is not confirmed by now never will be: asked once, it need not be as sure.
-      const Scalar come_back = back(at.load);
-      at.reversed = come_back > (since > JumpGuard<Scalar>::far_apart ? Scalar(0) : 5 * filter.sd());
+      const Scalar come_back = back(at.load), fallen = rises ? at.come - at.load : at.load - at.come;
+      const bool has_turned =
+          come_back > (since > JumpGuard<Scalar>::far_apart ? Scalar(0) : 5 * filter.sd());
+      at.reversed = has_turned || fallen > at.come_sd;
       if (at.reversed) {
-        at.reversal = farthest;
-        turn_sd = farthest_sd;
-        const auto turn = turn_beside(farthest * branch(cell), rises);
+        at.reversal = has_turned ? farthest : at.come;
+        turn_sd = has_turned ? farthest_sd : at.come_sd;
+        const auto turn = has_turned ? turn_beside(farthest * branch(cell), rises) : TurnedLoad<Scalar>();
         if (turn.is_known) {
           at.reversal = turn.load / branch(cell);
           turn_sd = turn.sd / branch(cell);
@@ -385,6 +391,7 @@ struct JackLoad {
     }
     corners.times_noise = larger(corners.times_noise, follow_noise(given.force, cell));
     at.sd = larger(at.sd, lasts);
+    at.come_sd = larger(at.come_sd, lasts);
     // Two standard deviations are as far as the load can have gone.
     if (is_held) at.sd = larger(at.sd, guard.reach() / 2);
     // A single reading far off may well be a load that begins to move; in a row a load stage the jack may
@@ -497,6 +504,8 @@ struct JackLoad {
   Scalar best() const { return larger(at.load, first); }
   /// From where the tracker was driven to, to the best estimate of the load [N].
   Scalar beyond() const { return locked ? Scalar(0) : best() - driven.force; }
+  /// The same to where the load has probably come, for what friction holds of it.
+  Scalar come_beyond() const { return locked ? Scalar(0) : larger(at.come, first) - driven.force; }
   /// The load as a measurement of the row sees it: the raw reading if there is one, so that errors are
   /// independent from row to row.
   JackReading<Scalar> reading(const LoadCell<Scalar>& cell) const {

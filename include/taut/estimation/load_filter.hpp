@@ -9,6 +9,7 @@
 #include "taut/estimation/load_filter_tuning.hpp"
 #include "taut/estimation/load_hypotheses.hpp"
 #include "taut/estimation/load_mixture.hpp"
+#include "taut/numerics/decay.hpp"
 #include "taut/numerics/larger.hpp"
 
 namespace taut {
@@ -18,6 +19,9 @@ template <class Scalar>
 struct ConditionedLoad {
   Scalar load = 0;  ///< best estimate of the true load at this sample [N]
   Scalar sd = 0;    ///< its standard deviation [N]
+  /// How far it has probably come since it turned [N], and the standard deviation of that: friction holds
+  /// forces where the load was farthest, and a load that is held may have come back since, Eq. (65).
+  Scalar come = 0, come_sd = 0;
   Scalar confirmed =
       0;  ///< how far the load is confirmed to have come [N]; between two reversals it moves one way only
   bool reversed =
@@ -97,6 +101,9 @@ class LoadFilter : LoadFilterTuning {
          {&hypotheses_.level_variance, &hypotheses_.covariance, &hypotheses_.slope_variance})
       for (Level& each : *lanes) each *= f * f;
     off_best_ *= f;
+    come_.level *= f;
+    come_.sd *= f;
+    told_ *= f;
     beside_best_ *= f * f;
     of_drift_ *= f * f;
     set_confirmed(confirmed_);
@@ -298,6 +305,7 @@ class LoadFilter : LoadFilterTuning {
     });
     ConditionedLoad<Scalar> now;
     say(now, widened(estimate), further);
+    say_come(now, {come_.level + goes_on_ * (estimate.level - told_), come_.sd}, estimate.level);
     return now;
   }
   /// What comes next is none of those that wait.
@@ -397,7 +405,7 @@ class LoadFilter : LoadFilterTuning {
       now.reversal = confirmed_;
       way_ = -way_;
     }
-    now.load = now.confirmed = confirmed_ = load;
+    now.load = now.come = now.confirmed = confirmed_ = load;
     return now;
   }
 
@@ -416,8 +424,8 @@ class LoadFilter : LoadFilterTuning {
 
   ConditionedLoad<Scalar> refuse() const {
     ConditionedLoad<Scalar> now;
-    now.load = now.confirmed = confirmed_;
-    now.sd = sd_;
+    now.load = now.come = now.confirmed = confirmed_;
+    now.sd = now.come_sd = sd_;
     now.refused = true;
     return now;
   }
@@ -522,6 +530,10 @@ class LoadFilter : LoadFilterTuning {
     }
     say(now, accepted ? widened(estimate) : estimate, beyond_confirmed(estimate));
     now.refused = !accepted;
+    if (accepted) {
+      find_come(estimate);
+      say_come(now, come_, estimate.level);
+    }
     move_base();
     return now;
   }
@@ -542,9 +554,36 @@ class LoadFilter : LoadFilterTuning {
   void say(ConditionedLoad<Scalar>& now, const Estimate& estimate, Level further) const {
     now.load = force(estimate.level);
     now.sd = static_cast<Scalar>(estimate.sd) * sd_;
+    now.come = now.load;
+    now.come_sd = now.sd;
     now.confirmed = confirmed_;
     // Below zero there is no load: both are zero then.
     if (further < 0) now.behind = now.load != confirmed_;
+  }
+  /// Where the load was farthest on the best line, Eq. (65): one that is held is at rest, or goes on, or
+  /// comes back, and what the line rises or falls by from its beginning to now is as likely chance.
+  void find_come(const Estimate& estimate) {
+    come_ = estimate;
+    told_ = estimate.level;
+    goes_on_ = 1;
+    const auto readings = static_cast<Level>(at(hypotheses_.run_length, best_));
+    const Level variance = estimate.sd * estimate.sd, of_rest = 1 / readings;
+    if (readings < Hypotheses::established || !(of_rest < variance)) return;
+    const Level mean = at(hypotheses_.mean, best_), half = way_ * (estimate.level - mean),
+                gone_variance = 12 * of_rest;
+    const Level expected = least_gone * least_gone + 4 * half * half, both = expected + gone_variance,
+                known = expected / both, square = 4 * half * half / gone_variance;
+    const Level part = 1 / (1 + std::sqrt(both / gone_variance) * decay(square * known / 2)),
+                far = known * std::fabs(half);
+    come_.level = mean + way_ * part * far;
+    come_.sd = std::sqrt((1 - part) * (of_rest + part * far * far) + part * variance);
+    goes_on_ = half > 0 ? part * known : Level(0);
+  }
+  /// Readings that drift off on its way may be the first of a load that goes on.
+  void say_come(ConditionedLoad<Scalar>& now, const Estimate& come, Level load) const {
+    if (of_drift_ > 0 && way_ * block_.drift > 0 && way_ * (load - come.level) > 0) return;
+    now.come = force(come.level);
+    now.come_sd = static_cast<Scalar>(std::sqrt(come.sd * come.sd + of_drift_)) * sd_;
   }
   /// How much further the estimate is than what is confirmed, as the load goes at present.
   Level beyond_confirmed(const Estimate& estimate) const {
@@ -596,6 +635,8 @@ class LoadFilter : LoadFilterTuning {
     set_confirmed(confirmed_);
     for (auto* const lanes : {&hypotheses_.level, &hypotheses_.mean, &hypotheses_.corner})
       for (Level& each : *lanes) each -= moved;
+    come_.level -= moved;
+    told_ -= moved;
   }
 
   Hypotheses hypotheses_;
@@ -605,6 +646,9 @@ class LoadFilter : LoadFilterTuning {
   Level confirmed_level_ = 0;
   // The estimate less the level of the best line, its variance less that of this line.
   Level off_best_ = 0, beside_best_ = 0;
+  Estimate come_{};              // how far the load had come when lines were weighed last
+  Level told_ = 0;               // where it was then
+  Level goes_on_ = 0;            // by how much of what it goes since, it has come
   Level of_drift_ = 0;           // of what was told, for readings that drift off
   Level waits_sd_ = 0;           // standard deviation of the estimate while readings wait
   Level step_ = 0, usual_ = 0;   // the last one; what they usually are

@@ -80,6 +80,9 @@ struct LoadFilterTuning {
   static constexpr Level by_chance = 2, perhaps_bent = Level(0.8), widest = Level(1.2);
   static constexpr int young = 300;
 
+  /// By how much a load that is held goes on or comes back, if it does: by about so much, or as it has.
+  static constexpr Level least_gone = 2;
+
   // Times without readings.
 
   /// A step so many times as long as the one before, or longer, is a gap.
