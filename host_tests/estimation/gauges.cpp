@@ -15,8 +15,8 @@ using taut::Gauge;
 namespace {
 
 using Cell = taut::LoadCell<double>;
-constexpr int capacity = 3, cables = 2;
-using Gauges = taut::Gauges<double, capacity, cables>;
+constexpr int capacity = 3;
+using Gauges = taut::Gauges<double, capacity>;
 
 Cell with_noise(double sd) {
   Cell cell;
@@ -107,7 +107,7 @@ TEST_CASE("started again, nothing is left of before") {
   CHECK(gauges.mark({0}) == 0);
   CHECK(gauges.is_due({0}));
   CHECK(gauges.sd({0}) == 2);
-  CHECK(gauges.save().way == 0);
+  CHECK(gauges.save().largest == 0);
 }
 
 TEST_CASE("the derivative of a reading by the gain is what is read, by the zero it is one") {
@@ -211,51 +211,6 @@ TEST_CASE("after a saved state all goes on as it would have") {
   gauges.restore(saved);
   CHECK_FALSE(gauges.is_due({0}));
   CHECK(gauges.is_due({1}));
-}
-
-TEST_CASE(
-    "a cable surely slides once the jacks have gone as far as with a friction higher by its deviation") {
-  // It ceases to slide at a way of 100, begins again at 180: with a friction higher by a part, at 100 + 80 (1
-  // + part). All of these come exactly in doubles.
-  for (const double mu_sd : {0.0, 0.25, 0.5}) {
-    CAPTURE(mu_sd);
-    Gauges gauges = started({});
-    double load = 0;
-    const auto row = [&](double change, bool slides) {
-      load += change;
-      gauges.begin_row(load, load, 1);
-      gauges.follow_sliding(0, slides);
-      gauges.follow_sliding(1, false);
-    };
-    // It has slid from the beginning.
-    row(0, true);
-    CHECK(gauges.surely_slides(0, mu_sd));
-    CHECK_FALSE(gauges.surely_slides(1, mu_sd));
-    row(100, true);
-    row(0, false);
-    CHECK_FALSE(gauges.surely_slides(0, mu_sd));
-    // Let out.
-    for (int i = 0; i < 8; ++i) {
-      CHECK_FALSE(gauges.surely_slides(0, mu_sd));
-      row(-10, i == 7);
-    }
-    for (int gone = 80; gone < 130; ++gone) {
-      CAPTURE(gone);
-      CHECK(gauges.surely_slides(0, mu_sd) == (gone >= 80 * (1 + mu_sd)));
-      row(-1, true);
-    }
-    CHECK_FALSE(gauges.surely_slides(1, mu_sd));
-    // Whenever it ceases, the next way counts from there: half as long this time.
-    row(0, false);
-    row(40, true);
-    for (int gone = 40; gone < 65; ++gone) {
-      CAPTURE(gone);
-      CHECK(gauges.surely_slides(0, mu_sd) == (gone >= 40 * (1 + mu_sd)));
-      row(1, true);
-    }
-    row(5, false);
-    CHECK_FALSE(gauges.surely_slides(0, mu_sd));
-  }
 }
 
 TEST_CASE("every instrument has a noise of its own, of the readings handed in and their times") {

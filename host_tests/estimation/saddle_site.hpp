@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +25,7 @@ struct SaddleSite {
   double mu_sd = 0.06;  ///< of mu beforehand
   double scatter = 0;   ///< of mu from joint to joint, relative
   double noise = 0.003 * full;
+  double gain_sd = 0;  ///< of both cells
   bool has_far = true;
 
   Model model;
@@ -39,6 +41,7 @@ struct SaddleSite {
     cable.scatter = scatter;
     cable.cell[1].sd = noise;
     cable.cell[0].sd = has_far ? noise : 0;
+    for (auto& cell : cable.cell) cell.gain_sd = gain_sd;
     Plane scene;
     std::vector<support::PlanePoint> points{{0, 0}};
     for (int i = 0; i <= joints; ++i) {
@@ -93,6 +96,8 @@ class ReadSite {
   ReadSite(const SaddleSite& given, std::uint64_t seed) : site(given), random_(seed) {
     site.begin(random_);
     REQUIRE(estimator_.start(site.model, site.prior).status.ok());
+    for (double& gain : gain_)
+      if (site.gain_sd > 0) gain = 1 + site.gain_sd * gaussian(random_);
   }
   ReadSite(const ReadSite&) = delete;
   ReadSite& operator=(const ReadSite&) = delete;
@@ -103,8 +108,8 @@ class ReadSite {
     site.pull(load);
     taut::Readings<double, PlaneCapacity> readings;
     readings.dt = dt;
-    const double jack = load + site.noise * gaussian(random_),
-                 far = site.force.front() + site.noise * gaussian(random_);
+    const double jack = gain_[1] * load + site.noise * gaussian(random_),
+                 far = gain_[0] * site.force.front() + site.noise * gaussian(random_);
     if (reads_jack) readings.ends[0][1] = {true, false, jack, 0};
     if (reads_far && site.has_far) readings.ends[0][0] = {true, false, far, 0};
     REQUIRE(estimator_.advance(readings).status.ok());
@@ -119,6 +124,7 @@ class ReadSite {
 
  private:
   Random random_;
+  std::array<double, 2> gain_{1, 1};
   Estimator estimator_;
 };
 

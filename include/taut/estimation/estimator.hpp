@@ -66,6 +66,7 @@ class Estimator {
     typename FilterType::State friction;
     typename FarEndsType::State far_ends;
     typename GaugesType::State gauges;
+    typename Parts::SlidingWayType sliding_way;
     Confirmed confirmed;
     bool is_ahead = false;  ///< of what is confirmed; else that has no meaning
     FixedArray<typename Parts::Leg, Parts::legs> leg;
@@ -100,9 +101,10 @@ class Estimator {
   Progress<Scalar> come_down(const ReadingsType& first);
   /// The state between two rows. Cost: a copy of it.
   State save() const {
-    return {parts_.tracker.save(), parts_.jacks.save(),  parts_.filter.save(), parts_.far_ends.save(),
-            parts_.gauges.save(),  parts_.confirmed,     parts_.is_ahead,      parts_.leg,
-            parts_.lock_off,       parts_.forces.save(), parts_.turned};
+    return {parts_.tracker.save(),  parts_.jacks.save(),  parts_.filter.save(),
+            parts_.far_ends.save(), parts_.gauges.save(), parts_.sliding_way,
+            parts_.confirmed,       parts_.is_ahead,      parts_.leg,
+            parts_.lock_off,        parts_.forces.save(), parts_.turned};
   }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `capacity_exceeded` if and
   /// only if start() would, and with `bad_sample` if the state is none of this scene or was saved before
@@ -120,6 +122,7 @@ class Estimator {
     parts_.far_ends.restore(state.far_ends);
     parts_.misfits = parts_.far_ends.misfits();
     parts_.gauges.restore(state.gauges);
+    parts_.sliding_way = state.sliding_way;
     parts_.forces.restore(state.forces);
     parts_.turned = state.turned;
     parts_.confirmed = state.confirmed;
@@ -226,6 +229,7 @@ class Estimator {
     parts_.lock_off.is_known = false;
     parts_.forces.start();
     parts_.turned.clear();
+    parts_.sliding_way = {};
     return number_unknowns(parts_, condensed, prior, gauges);
   }
   /// What a row measures, once the tracker has come to its loads; the tracker looks ahead.
@@ -235,7 +239,10 @@ class Estimator {
       parts_.gauges.bend();
     }
     follow_cell_noise(parts_, readings, corners);
-    if (parts_.gauges.size() > 0) follow_gauges(parts_, corners, readings.dt);
+    const bool has_gauges = parts_.gauges.size() > 0, has_far_ends = parts_.far_ends.ends().size() > 0;
+    if (has_gauges) follow_gauges(parts_, corners, readings.dt);
+    // While readings are gathered nothing begins to slide.
+    if (has_gauges || (has_far_ends && !parts_.far_ends.has_waiting())) follow_sliding(parts_);
     for (int c = 0; c < parts_.model().cables.size(); ++c)
       if (parts_.drifts(c)) parts_.filter.diffuse(parts_.drift[c], c, readings.dt);
     measure_far_ends(parts_, readings);

@@ -14,6 +14,7 @@
 #include "taut/estimation/jack_loads.hpp"
 #include "taut/estimation/joint_reach.hpp"
 #include "taut/estimation/readings.hpp"
+#include "taut/estimation/sliding_way.hpp"
 #include "taut/estimation/turned_forces.hpp"
 #include "taut/scene/capacity.hpp"
 #include "taut/tracking/tracker.hpp"
@@ -37,7 +38,8 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   /// Where the tracker is driven to, by jack.
   using Drives = FixedArray<Jack<Scalar>, JacksType::capacity>;
   using FarEndsType = FarEnds<FilterType, JacksType>;
-  using GaugesType = Gauges<Scalar, Further, Cap::cables>;
+  using GaugesType = Gauges<Scalar, Further>;
+  using SlidingWayType = SlidingWay<Scalar, Cap::cables>;
   using ForceWatchType = ForceWatch<Scalar, Cap::segments>;
   using TurnedForcesType = TurnedForces<Scalar, Cap, Parameters>;
   using Alarms = FixedList<Alarm, 8 + 5 * Cap::cables + Cap::joints + Cap::segments>;
@@ -88,6 +90,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   TrackerType tracker;
   FilterType filter;
   GaugesType gauges;
+  SlidingWayType sliding_way;
   ForceWatchType forces;
   TurnedForcesType turned;
   Alarms alarms;
@@ -125,7 +128,19 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   /// Whether it strains its cable by AlarmLimits::initial_strain. It carries at most a tenth of E A.
   bool is_bedded(int k) const { return jacks[k].at.load >= 10 * limits.initial_strain * most_force(k); }
 
+  /// What all of them pull where the tracker is, or was when they were locked [N].
+  Scalar sum_of_loads() const {
+    Scalar sum = 0;
+    for (int k = 0; k < jacks.size(); ++k) sum += jacks[k].driven.force;
+    return sum;
+  }
+
   // Of cable `c`.
+
+  /// Whether it surely slides throughout, with friction as well as it is known. Cost: a pass over its joints.
+  bool surely_slides(int c) const {
+    return sliding_way.surely_slides(c, filter.relative_deviation(tracker, c));
+  }
 
   /// Whether all its jacks are locked, if there are any.
   bool is_held(int c) const {

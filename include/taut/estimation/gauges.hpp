@@ -42,7 +42,7 @@ struct StrokeGauge : LoadCell<Scalar> {
 /// if the best estimate of the jacks' loads is elsewhere, by `part` of the largest, than at the last one that
 /// did. Not if the model has been driven on: that follows the noise of a load cell, and those readings are a
 /// choice of rows that read high on the way up, and low on the way down.
-template <class Scalar, int Capacity, int Cables>
+template <class Scalar, int Capacity>
 class Gauges {
  public:
   static constexpr Scalar part = Scalar(1) / 256;
@@ -58,13 +58,9 @@ class Gauges {
       Scalar taken = 0;  ///< `best` at the last reading that counted [N]
       bool is_marked = false, is_taken = false;
     };
-    Scalar way = 0, largest = 0;  ///< that the sum of all loads has gone, and the largest such sum [N]
-    Scalar last = 0;              ///< the present sum [N]
-    Scalar best = 0;              ///< that of the best estimates of the loads [N]
+    Scalar largest = 0;  ///< sum of all loads so far [N]
+    Scalar best = 0;     ///< that of the best estimates of the loads [N]
     FixedArray<One, Capacity> one;
-    /// `way` where a cable last began and ceased to slide throughout.
-    FixedArray<Scalar, Cables> began, ceased;
-    FixedArray<bool, Cables> slides;
   };
 
   /// Takes the instruments over, and numbers their unknowns by add(standard deviation). Returns how many
@@ -113,23 +109,8 @@ class Gauges {
   /// their best estimates [N].
   void begin_row(Scalar load, Scalar best, Scalar dt) {
     state_.best = best;
-    state_.way += std::fabs(load - state_.last);
     state_.largest = larger(state_.largest, load);
-    state_.last = load;
     for (int g = 0; g < size(); ++g) state_.one[g].since += dt;
-  }
-  /// Whether cable `c` slides throughout in this row.
-  void follow_sliding(int c, bool slides) {
-    if (slides == state_.slides[c]) return;
-    state_.slides[c] = slides;
-    (slides ? state_.began : state_.ceased)[c] = state_.way;
-  }
-  /// Whether it surely slides throughout, with a friction that is known to the part `mu_sd`: the way that the
-  /// jacks go until it does is in proportion to friction, and they have gone beyond that with a friction
-  /// that is higher by one standard deviation.
-  bool surely_slides(int c, Scalar mu_sd) const {
-    return state_.slides[c] &&
-           state_.way - state_.ceased[c] >= (1 + mu_sd) * (state_.began[c] - state_.ceased[c]);
   }
   /// What was read from a mark may be read from another one from now on.
   void forget_marks() {

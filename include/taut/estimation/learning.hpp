@@ -25,6 +25,15 @@ void begin_row(Parts& parts) {
   parts.far_ends.begin_row();
 }
 
+/// How far the loads have gone by now, and which cables the model has slide throughout. Cost: a pass over the
+/// joints.
+template <class Parts>
+void follow_sliding(Parts& parts) {
+  parts.sliding_way.go(parts.sum_of_loads());
+  for (int c = 0; c < parts.model().cables.size(); ++c)
+    parts.sliding_way.follow(c, parts.filter.slides_throughout(parts.tracker, c));
+}
+
 /// Readings of the far end that were gathered are taken into account. Cost: that of FarEnds::learn().
 template <class Parts>
 void learn_waiting(Parts& parts) {

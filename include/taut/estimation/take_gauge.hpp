@@ -61,18 +61,14 @@ void take_measurement(Parts& parts, const Predict& predict, typename Parts::Scal
   look_ahead(parts);
 }
 
-/// Gauges learn from a row how far the jacks have gone, and which cables slide. Cost: a pass over the joints.
+/// Gauges learn from a row how far the jacks have gone. Cost: a few operations a jack and gauge.
 template <class Parts>
 void follow_gauges(Parts& parts, const Corners<typename Parts::Scalar>& corners, typename Parts::Scalar dt) {
-  typename Parts::Scalar load = 0, best = 0;
-  for (int k = 0; k < parts.jacks.size(); ++k) {
-    load += parts.jacks[k].driven.force;
+  typename Parts::Scalar best = 0;
+  for (int k = 0; k < parts.jacks.size(); ++k)
     best += parts.jacks[k].locked ? parts.jacks[k].driven.force : parts.jacks[k].at.load;
-  }
   if (corners.locks) parts.gauges.forget_marks();
-  parts.gauges.begin_row(load, best, dt);
-  for (int c = 0; c < parts.model().cables.size(); ++c)
-    parts.gauges.follow_sliding(c, parts.filter.slides_throughout(parts.tracker, c));
+  parts.gauges.begin_row(parts.sum_of_loads(), best, dt);
 }
 
 /// Whether all cables that prediction() depends on, read with `sd` at `cable`, surely slide throughout, none
@@ -80,9 +76,7 @@ void follow_gauges(Parts& parts, const Corners<typename Parts::Scalar>& corners,
 template <class Parts>
 bool is_sure(const Parts& parts, int cable, typename Parts::Scalar sd) {
   for (int c = 0; c < parts.model().cables.size(); ++c)
-    if (parts.filter.matters(parts.tracker, c, cable, sd) &&
-        (parts.is_beyond[c] ||
-         !parts.gauges.surely_slides(c, parts.filter.relative_deviation(parts.tracker, c))))
+    if (parts.filter.matters(parts.tracker, c, cable, sd) && (parts.is_beyond[c] || !parts.surely_slides(c)))
       return false;
   return true;
 }
