@@ -37,7 +37,7 @@ struct CellWatch {
     sd = at_least;
   }
   /// Another reading [N], `dt` [s] after the one before, tells how much they scatter. Returns by how many
-  /// times their variance is larger than it was taken to be, or one.
+  /// times their variance is larger than it was ever taken to be, or one.
   Scalar follow_noise(Scalar reading, Scalar dt) {
     if (!noise.take(reading, dt)) return 1;
     const auto found = noise.found();
@@ -45,7 +45,7 @@ struct CellWatch {
     const Scalar times = found.sd / sd;
     if (!NoiseLevel<Scalar>::is_worth_it(times)) return 1;
     sd = found.sd;
-    return larger(times * times, Scalar(1));
+    return noise.rises_to(sd);
   }
   /// Whether it goes on being frozen with this reading [N].
   bool stays_frozen(Scalar reading) const { return is_frozen && reading == last; }

@@ -29,7 +29,7 @@ struct Corners {
   bool locks = false, reverses = false;
   bool loads = false;      ///< other loads begin to change, or cease to
   bool bends = false;      ///< no corner: a load goes on at another rate since a while
-  Scalar times_noise = 1;  ///< by so many times the variance of readings is larger than it was taken to be
+  Scalar times_noise = 1;  ///< by so many times readings scatter more, in variance, than they ever did
   bool any() const { return locks || reverses || loads; }
 };
 
@@ -164,7 +164,7 @@ struct JackLoad {
     below = 0;
   }
   /// The filter goes by the scatter that there is, not only by what was said. Returns by how many times the
-  /// variance is larger than it was taken to be, or one.
+  /// variance is larger than it was ever taken to be, or one.
   Scalar follow_noise(Scalar reading, const LoadCell<Scalar>& cell) {
     if (!(cell.sd > 0) || at.refused || !noise.take(reading, since)) return 1;
     const auto found = noise.found();
@@ -172,7 +172,7 @@ struct JackLoad {
     const Scalar times = found.sd / filter.sd();
     if (!NoiseLevel<Scalar>::is_worth_it(times) || filter.has_waiting()) return 1;
     filter.change_sd(found.sd);
-    return larger(times * times, Scalar(1));
+    return noise.rises_to(found.sd);
   }
 
   /// At which reading the load turned [N], if the last ones tell, and `line`, what the line that they were on

@@ -37,7 +37,15 @@ class NoiseLevel {
   /// Readings scatter at least by `sd`.
   void start(Scalar sd) {
     *this = NoiseLevel();
-    said_ = neighbours_.sd = beside_.sd = distant_.sd = apart_.sd = sd;
+    said_ = counted_ = neighbours_.sd = beside_.sd = distant_.sd = apart_.sd = sd;
+  }
+  /// Readings are taken to scatter by `sd` from here on: by how many times the variance is larger than it
+  /// ever was. Where bends of the path are taken for noise again and again, a level that comes and goes would
+  /// make all that has been learned worth less every time.
+  Scalar rises_to(Scalar sd) {
+    const Scalar times = sd / counted_;
+    counted_ = larger(counted_, sd);
+    return larger(times * times, Scalar(1));
   }
   /// What readings scatter by.
   struct Found {
@@ -172,7 +180,7 @@ class NoiseLevel {
   // Those beside are the neighbours where readings far apart are compared: a scatter that ceases is not taken
   // for memory while the two follow it at different paces.
   Level neighbours_, distant_, beside_, apart_;
-  Scalar said_ = 0, dt_ = 0, last_ = 0, before_ = 0, span_ = 0;
+  Scalar said_ = 0, counted_ = 0, dt_ = 0, last_ = 0, before_ = 0, span_ = 0;
   std::array<Scalar, 4> at_{};  // kept readings, the newest first
   std::int8_t count_ = 0, kept_ = 0;
   std::uint8_t strides_ = 0;
