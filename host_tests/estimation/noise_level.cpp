@@ -292,6 +292,15 @@ TEST_CASE("a ramp stays no noise where its readings become rare, or pause") {
   CHECK(held.sd() > 0.5);
 }
 
+TEST_CASE("a level that comes and goes is larger than any before only once") {
+  taut::NoiseLevel<double> noise;
+  noise.start(10);
+  CHECK(noise.rises_to(20) == 4);
+  CHECK(noise.rises_to(10) == 1);
+  CHECK(noise.rises_to(20) == 1);
+  CHECK(noise.rises_to(30) == 2.25);
+}
+
 TEST_CASE("a path of short pieces is no noise: ramps and holds of thirty readings") {
   int wrong = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
