@@ -279,8 +279,12 @@ TEST_CASE(
         // Where it may have turned nobody knows what slides.
         if (load.behind) continue;
         const auto there = straight->at(load.load, deed.factor);
-        for (int i = 0; i < site->segments(); ++i)
-          REQUIRE(std::fabs(estimator.force(i) - there.tension(i)) < 1e-9 * full);
+        // Beyond a joint friction has what the load has come to, on the piece that it is on there.
+        for (int i = 0; i < site->segments(); ++i) {
+          const double further = i + 1 < site->segments() ? load.come - load.load : 0;
+          REQUIRE(std::fabs(estimator.force(i) - there.tension(i) - there.slope(0, i) * further) <
+                  1e-9 * full);
+        }
         ahead += estimator.save().is_ahead ? 1 : 0;
         ++compared;
       }

@@ -326,7 +326,7 @@ struct JackLoad {
       const Scalar come_back = back(at.load), fallen = rises ? at.come - at.load : at.load - at.come;
       const bool has_turned =
           come_back > (since > JumpGuard<Scalar>::far_apart ? Scalar(0) : 5 * filter.sd());
-      at.reversed = has_turned || fallen > at.come_sd;
+      at.reversed = has_turned || fallen > 3 * at.come_sd;
       if (at.reversed) {
         at.reversal = has_turned ? farthest : at.come;
         turn_sd = has_turned ? farthest_sd : at.come_sd;
@@ -337,7 +337,7 @@ struct JackLoad {
         }
         corners.reverses = true;
       }
-      lock_sd = at.reversed ? at.sd : larger(at.sd, come_back);
+      lock_sd = at.reversed ? at.sd : larger(at.sd, larger(come_back, fallen));
       corners.locks = locks_now = true;
       lie_locked();
       return false;

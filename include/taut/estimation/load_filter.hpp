@@ -566,10 +566,11 @@ class LoadFilter : LoadFilterTuning {
     come_ = estimate;
     told_ = estimate.level;
     goes_on_ = 1;
-    const auto readings = static_cast<Level>(at(hypotheses_.run_length, best_));
+    const int hold = long_hold(hypotheses_, Level(1)), line = hold < 0 ? best_ : hold;
+    const auto readings = static_cast<Level>(at(hypotheses_.run_length, line));
     const Level variance = estimate.sd * estimate.sd, of_rest = 1 / readings;
     if (readings < Hypotheses::established || !(of_rest < variance)) return;
-    const Level mean = at(hypotheses_.mean, best_), half = way_ * (estimate.level - mean),
+    const Level mean = at(hypotheses_.mean, line), half = way_ * (estimate.level - mean),
                 gone_variance = 12 * of_rest;
     const Level expected = least_gone * least_gone + 4 * half * half, both = expected + gone_variance,
                 known = expected / both, square = 4 * half * half / gone_variance;
