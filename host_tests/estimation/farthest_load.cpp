@@ -59,7 +59,7 @@ TEST_CASE_TEMPLATE("how far a load has come is known where it rests, creeps on o
         MESSAGE("straight on, then by ", gone, " in ", hold, " rows: ", 100 * watched.come.share(),
                 " % held, rms ", watched.come.rms(), "; of the load itself ", 100 * watched.load.share(),
                 " %, rms ", watched.load.rms());
-        CHECK(watched.come.share() > 0.9);
-        CHECK(watched.come.rms() < 1.25);
+        CHECK(watched.come.share() > 0.85);
+        CHECK(watched.come.rms() < 1.4);
       }
 }

@@ -71,8 +71,8 @@ TEST_CASE("friction holds forces where the load was farthest, and bars have it h
     const Said said = jack_in_stages(leak * SaddleSite().noise, 60);
     MESSAGE("leak of ", leak, " of the noise: held ", 100 * said.held.share(), " %, rms ", said.held.rms(),
             ", worst ", said.held.worst);
-    CHECK(said.held.share() > 0.91);
-    CHECK(said.held.rms() < 1.25);
+    CHECK(said.held.share() > 0.9);
+    CHECK(said.held.rms() < 1.3);
   }
 }
 

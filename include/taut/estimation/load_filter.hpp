@@ -561,7 +561,7 @@ class LoadFilter : LoadFilterTuning {
     if (further < 0) now.behind = now.load != confirmed_;
   }
   /// Where the load was farthest on the best line, Eq. (65): one that is held is at rest, or goes on, or
-  /// comes back, and what the line rises or falls by from its beginning to now is as likely chance.
+  /// comes back, and what the line rises or falls by from its beginning to now may be chance.
   void find_come(const Estimate& estimate) {
     come_ = estimate;
     told_ = estimate.level;
@@ -574,7 +574,7 @@ class LoadFilter : LoadFilterTuning {
                 gone_variance = 12 * of_rest;
     const Level expected = least_gone * least_gone + 4 * half * half, both = expected + gone_variance,
                 known = expected / both, square = 4 * half * half / gone_variance;
-    const Level part = 1 / (1 + std::sqrt(both / gone_variance) * decay(square * known / 2)),
+    const Level part = 1 / (1 + rests * std::sqrt(both / gone_variance) * decay(square * known / 2)),
                 far = known * std::fabs(half);
     come_.level = mean + way_ * part * far;
     come_.sd = std::sqrt((1 - part) * (of_rest + part * far * far) + part * variance);

@@ -80,8 +80,9 @@ struct LoadFilterTuning {
   static constexpr Level by_chance = 2, perhaps_bent = Level(0.8), widest = Level(1.2);
   static constexpr int young = 300;
 
-  /// By how much a load that is held goes on or comes back, if it does: by about so much, or as it has.
-  static constexpr Level least_gone = 2;
+  /// That a load rests is so many times as likely as that it goes on or comes back; and by how much it goes
+  /// then: by about so much, or as it has.
+  static constexpr Level rests = 2, least_gone = 2;
 
   // Times without readings.
 

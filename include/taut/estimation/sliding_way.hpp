@@ -18,14 +18,19 @@ class SlidingWay {
 
   /// The sum of the loads [N] that the model is driven to.
   void go(Scalar load) {
+    before_ = way_;
     way_ += std::fabs(load - last_);
     last_ = load;
   }
-  /// Whether the model has cable `c` slide throughout by now.
+  /// Whether the model has cable `c` slide throughout by now: it began, or ceased to, half-way from where the
+  /// loads were before.
   void follow(int c, bool slides) {
     if (slides == slides_[c]) return;
     slides_[c] = slides;
-    (slides ? began_ : ceased_)[c] = way_;
+    const Scalar here = (before_ + way_) / 2;
+    // From no load at all it slides at once, whatever friction there is.
+    if (began_[c] == 0) ceased_[c] = here;
+    (slides ? began_ : ceased_)[c] = here;
   }
   /// Whether it surely does, with friction that is known to the part `mu_sd`, Eq. (35).
   bool surely_slides(int c, Scalar mu_sd) const {
@@ -33,7 +38,7 @@ class SlidingWay {
   }
 
  private:
-  Scalar way_ = 0, last_ = 0;  // that the sum has gone, and the present one [N]
+  Scalar way_ = 0, before_ = 0, last_ = 0;  // that the sum has gone, by now and before; and the sum [N]
   /// `way_` where a cable last began and ceased to slide throughout.
   FixedArray<Scalar, Cables> began_, ceased_;
   FixedArray<bool, Cables> slides_;
