@@ -9,8 +9,8 @@
 using namespace estimation;
 
 TEST_CASE("where gains are not known a release teaches friction once all joints surely slide back") {
-  // At commit 74723ed readings counted from where the model had them do so: 88 % of the bars of mu held, the worst
-  // was 48 deviations off, and the far end was blamed 838 times.
+  // At commit 74723ed readings counted from where the model had them do so: 88 % of the bars of mu held, the
+  // worst was 48 deviations off, and the far end was blamed 838 times.
   Score mu, forces;
   int alarms = 0;
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
