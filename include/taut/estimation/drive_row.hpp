@@ -77,6 +77,7 @@ template <class Parts>
   auto& jacks = parts.jacks;
   auto& tracker = parts.tracker;
   if (parts.lock_off.is_known) parts.lock_off.is_known = !has_gone_on(parts, jacks.target(sample));
+  if (parts.has_instruments() && !parts.is_ahead) parts.sliding_way.go(parts.sum_of_loads());
   if (parts.is_ahead)
     follow_ahead(parts, corners, sample);
   else
@@ -103,6 +104,7 @@ template <class Parts>
       },
       [&](int c) { return parts.filter.relative_deviation(tracker, c); });
   if (corners.any() || progress.events > 0) parts.far_ends.restart();
+  follow_sliding(parts);
   if (!progress.is_complete()) return false;
   if (!corners.locks) return true;
   if (remember_seating(parts)) progress = join(progress, tracker.advance(jacks.target(sample), event_budget));

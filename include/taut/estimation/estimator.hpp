@@ -239,10 +239,10 @@ class Estimator {
       parts_.gauges.bend();
     }
     follow_cell_noise(parts_, readings, corners);
-    const bool has_gauges = parts_.gauges.size() > 0, has_far_ends = parts_.far_ends.ends().size() > 0;
-    if (has_gauges) follow_gauges(parts_, corners, readings.dt);
-    // While readings are gathered nothing begins to slide.
-    if (has_gauges || (has_far_ends && !parts_.far_ends.has_waiting())) follow_sliding(parts_);
+    if (parts_.gauges.size() > 0) {
+      follow_gauges(parts_, corners, readings.dt);
+      follow_sliding(parts_);
+    }
     for (int c = 0; c < parts_.model().cables.size(); ++c)
       if (parts_.drifts(c)) parts_.filter.diffuse(parts_.drift[c], c, readings.dt);
     measure_far_ends(parts_, readings);

@@ -128,7 +128,9 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   /// Whether it strains its cable by AlarmLimits::initial_strain. It carries at most a tenth of E A.
   bool is_bedded(int k) const { return jacks[k].at.load >= 10 * limits.initial_strain * most_force(k); }
 
-  /// What all of them pull where the tracker is, or was when they were locked [N].
+  /// Whether there are any beside the jacks' own.
+  bool has_instruments() const { return far_ends.ends().size() > 0 || gauges.size() > 0; }
+  /// What all jacks pull where the tracker is, or was when they were locked [N].
   Scalar sum_of_loads() const {
     Scalar sum = 0;
     for (int k = 0; k < jacks.size(); ++k) sum += jacks[k].driven.force;

@@ -25,10 +25,11 @@ void begin_row(Parts& parts) {
   parts.far_ends.begin_row();
 }
 
-/// How far the loads have gone by now, and which cables the model has slide throughout. Cost: a pass over the
-/// joints.
+/// The loads are where the tracker is, and it may have changed which cables the model has slide throughout.
+/// Cost: a pass over the joints, if there is an instrument to learn from.
 template <class Parts>
 void follow_sliding(Parts& parts) {
+  if (!parts.has_instruments()) return;
   parts.sliding_way.go(parts.sum_of_loads());
   for (int c = 0; c < parts.model().cables.size(); ++c)
     parts.sliding_way.follow(c, parts.filter.slides_throughout(parts.tracker, c));

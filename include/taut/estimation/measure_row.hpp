@@ -75,6 +75,7 @@ bool measure_far_end(Parts& parts, int e, typename Parts::Scalar reading, bool g
   }
   if (gathers && far_ends.mixes(parts.filter, parts.jacks)) learn_waiting(parts);
   const int readings = gathers ? far_ends.waiting() + 1 : 1;
+  if (!gathers && !parts.is_ahead) follow_sliding(parts);
   const Update update =
       parts.is_corrected(end.cable()) ? correct_held(parts, e, reading)
       : parts.is_ahead                ? far_ends.compare(e, reading, parts.tracker, parts.filter, parts.jacks)
