@@ -103,8 +103,10 @@ template <class Parts>
         forget_leg(parts);
       },
       [&](int c) { return parts.filter.relative_deviation(tracker, c); });
-  if (corners.any() || progress.events > 0) parts.far_ends.restart();
-  follow_sliding(parts);
+  if (corners.any() || progress.events > 0) {
+    parts.far_ends.restart();
+    follow_sliding(parts);
+  }
   if (!progress.is_complete()) return false;
   if (!corners.locks) return true;
   if (remember_seating(parts)) progress = join(progress, tracker.advance(jacks.target(sample), event_budget));
