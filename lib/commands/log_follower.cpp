@@ -197,8 +197,7 @@ void LogFollower::begin() {
     model_->doubt_past();
   } else {
     const FirstLoad load = first_load_of(options_.log, rules_, scene_);
-    remark_on_first_load(load);
-    if (!load.is_under_load()) return;
+    if (!load.is_under_load()) return remark_on_unloaded(load);
     remark(under_load());
     model_->forget_past();
   }
@@ -349,7 +348,7 @@ void LogFollower::warn_of_bend(const LogRow& row, const Answer& answer) {
 void LogFollower::take_first_load(const LogRow& row) {
   first_load_->take(row);
   if (!first_load_->is_under_load()) {
-    remark_on_first_load(*first_load_);
+    remark_on_unloaded(*first_load_);
     model_->deny_past();
     first_load_.reset();
   } else if (followed_ == 1 && model_->has_unknown_past()) {
@@ -359,10 +358,9 @@ void LogFollower::take_first_load(const LogRow& row) {
   }
 }
 
-// Where some other cable is known to be under load, the past of all is doubted.
-void LogFollower::remark_on_first_load(const FirstLoad& load) {
-  if (!load.taken_for_unloaded().empty() && !load.is_under_load())
-    remark(taken_for_unloaded(load.taken_for_unloaded()));
+// Where no cable is known to be under load: else the past of all is doubted.
+void LogFollower::remark_on_unloaded(const FirstLoad& load) {
+  if (!load.taken_for_unloaded().empty()) remark(taken_for_unloaded(load.taken_for_unloaded()));
 }
 
 void LogFollower::remark_on_left_out(const LogReader& log) {

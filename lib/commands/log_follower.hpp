@@ -97,7 +97,7 @@ class LogFollower {
   bool next_of_stream(LogRow& row);
   void take_first_load(const LogRow& row);
   std::string loads_at_end(const Followed& path, const LogRow& row) const;
-  void remark_on_first_load(const FirstLoad& load);
+  void remark_on_unloaded(const FirstLoad& load);
   void warn_of_bend(const LogRow& row, const Answer& answer);
   void remark_on_left_out(const LogReader& log);
   void remark_on_columns(const LogReader& log);
