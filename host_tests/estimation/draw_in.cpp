@@ -72,7 +72,7 @@ Score lock_both(const Said& said) {
 Score lock_two_cables(const Said& said) {
   constexpr int of_each = 5;
   Score score;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 250; ++seed) {
     support::Random random(seed);
     const double seating = 3e-3 * std::pow(5, random.between(0, 1));
     auto cable = support::steel_cable(mu);
@@ -142,7 +142,8 @@ TEST_CASE("two wedges that are drawn in in the same row leave what each of them 
 }
 
 TEST_CASE("of cables that are locked in one row every far end tells of its own wedge") {
-  // At commit 74723ed readings of both cells were taken for those of one: 84 % held, the worst was 31 off.
+  // At commit 74723ed readings of both cells were taken for those of one: 84 % held, the worst was 31 off. At
+  // a6da8df the model was linearized where friction had been taken to be a while before: the worst was 17.
   const Score score = lock_two_cables(said(2e-3 * full, 0.5));
   CHECK(score.share() > 0.92);
   CHECK(score.worst < 4);

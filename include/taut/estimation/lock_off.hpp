@@ -43,14 +43,18 @@ void keep_draw_in(Parts& parts, int k) {
 }
 
 /// The wedges of all jacks that lock in this row are about to be drawn in. Cost: that of Tracker::save(), and
-/// at worst of Tracker::adjust() an unknown.
+/// at worst of Tracker::adjust() an unknown and once more.
 template <class Parts>
 void begin_lock_off(Parts& parts) {
+  bool is_unknown = false;
   for (int k = 0; k < parts.jacks.size(); ++k) {
     if (!parts.jacks[k].locks_now) continue;
     for_each_of_lock(parts, k, [&](int p) { parts.filter.keep_what_is_known(parts.tracker, p); });
     if constexpr (Parts::has_seating) keep_draw_in(parts, k);
+    is_unknown |= Parts::has_seating && parts.jacks[k].seating >= 0;
   }
+  // Draw-ins are tried with this friction, and how far joints slide back is not in proportion to it.
+  if (is_unknown) parts.filter.come_to_what_is_known(parts.tracker);
   // Not in use while the tracker is not ahead.
   parts.tracker.save_into(parts.confirmed.tracker);
   parts.lock_off.linearized_at = parts.filter.belief().save().linearized_at;
