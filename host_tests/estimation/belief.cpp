@@ -93,11 +93,15 @@ TEST_CASE("readings of several rows and instruments teach what least squares ove
           reading += by_jack[k] * readings[k].beyond;
           whole[first + k] = -by_jack[k];
         }
-        belief.update_errors(readings);
         REQUIRE(belief.innovate(prediction_of(value, H, by_jack), readings, {reading, sd, 0}));
-        belief.update();
+        belief.update(readings);
         expected.add(whole, off, sd);
         check_same(belief, expected);
+        const Eigen::MatrixXd covariance = expected.covariance();
+        for (int p = 0; p < unknowns; ++p)
+          for (int k = 0; k < jacks; ++k)
+            REQUIRE(std::fabs(belief.with_load(p, k) - covariance(p, first + k)) <
+                    1e-9 * std::sqrt(covariance(p, p)) * sds[first + k]);
       }
     }
   }
@@ -115,7 +119,7 @@ TEST_CASE("where the model is linearized does not matter to a number that is lin
   double value = 10;
   for (int p = 0; p < unknowns; ++p) value += H[p] * at[p];
   REQUIRE(belief.innovate(prediction_of(value, H, none), {}, {10.7, 0.4, 0}));
-  belief.update();
+  belief.update({});
   LeastSquares expected(prior_sd);
   expected.add(H, 0.7, 0.4);
   check_same(belief, expected);
@@ -150,7 +154,7 @@ TEST_CASE("a mean stays within its bounds") {
   Vector H = Vector::Zero(unknowns);
   H[0] = 1;
   REQUIRE(belief.innovate(prediction_of(0, H, Vector::Zero(jacks)), {}, {2, 0.1, 0}));
-  belief.update();
+  belief.update({});
   CHECK(belief.mean(0) == 0.2);
 }
 
@@ -172,7 +176,7 @@ TEST_CASE("readings that scatter more than they were taken to have taught as muc
         const double measured = support::gaussian(random);
         belief.begin_row();
         REQUIRE(belief.innovate(prediction_of(0, H, Vector::Zero(jacks)), {}, {measured, 1, 0}));
-        belief.update();
+        belief.update({});
         expected.add(H, measured, std::sqrt(times));
       }
       belief.inflate(times);
@@ -191,7 +195,7 @@ TEST_CASE("what was never measured stays as well known as it was beforehand") {
   Vector H = Vector::Zero(unknowns);
   H[0] = H[1] = 1;
   REQUIRE(belief.innovate(prediction_of(0, H, Vector::Zero(jacks)), {}, {0.3, 0.5, 0}));
-  belief.update();
+  belief.update({});
   belief.inflate(100);
   for (int p = 2; p < unknowns; ++p)
     CHECK(belief.variance(p) == doctest::Approx(prior[p] * prior[p]).epsilon(1e-12));
@@ -211,7 +215,7 @@ TEST_CASE("a sum that was measured well is no news of its parts, however often n
     for (int i = 0; i < 20; ++i) {
       belief.begin_row();
       REQUIRE(belief.innovate(prediction_of(0, H, Vector::Zero(jacks)), {}, {0, 1e-3, 0}));
-      belief.update();
+      belief.update({});
     }
     belief.inflate(2);
   }

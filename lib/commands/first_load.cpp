@@ -46,7 +46,7 @@ FirstLoad::Held FirstLoad::held_by_wedges(const LogRow& row, std::size_t c) cons
       if (!row.cables[c][end].locked) return Held::no;
       wedges = true;
     } else if (reading) {
-      held = *reading > jacks_[c][end].none ? Held::under_load : Held::without_load;
+      held = *reading > jacks_[c][end].none ? Held::under_load : Held::no;
     }
   }
   return wedges ? held : Held::no;

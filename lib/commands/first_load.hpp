@@ -32,7 +32,7 @@ class FirstLoad {
   const std::string& taken_for_unloaded() const { return taken_for_unloaded_; }
 
  private:
-  enum class Held { no, unread, without_load, under_load };
+  enum class Held { no, unread, under_load };
 
   struct Jack {
     std::optional<double> first, second;

@@ -53,6 +53,8 @@ class Belief {
   struct State {
     Values mean, linearized_at;
     Covariance covariance;
+    /// Of the unknowns with the error that a jack's reading had, that the last one of them was learned with.
+    FixedArray<Values, Jacks> with_load;
   };
   /// The model is linearized anew where a predicted number would be off its line by more than half of this
   /// part of its standard deviation.
@@ -65,6 +67,7 @@ class Belief {
     state_.mean.fill(Scalar(0));
     state_.linearized_at.fill(Scalar(0));
     state_.covariance = {};
+    state_.with_load = {};
     begin_row();
   }
   /// Adds an unknown with mean zero. Returns its number, or -1 if there is no room.
@@ -103,6 +106,7 @@ class Belief {
   void know(int p, Scalar mean, Scalar sd) {
     state_.mean[p] = mean;
     for (int q = 0; q < size_; ++q) state_.covariance[p][q] = state_.covariance[q][p] = 0;
+    for (int k = 0; k < Jacks; ++k) state_.with_load[k][p] = 0;
     state_.covariance[p][p] = sd * sd;
   }
   /// Readings scatter more than they were taken to, their variance is so many `times` larger, above one: what
@@ -164,6 +168,10 @@ class Belief {
   Scalar linearized_at(int p) const { return state_.linearized_at[p]; }
   Scalar variance(int p) const { return state_.covariance[p][p]; }
   Scalar covariance(int p, int q) const { return state_.covariance[p][q]; }
+  /// The covariance of unknown `p` with the error of jack `k`, its reading less its load [N], in the last row
+  /// that taught anything, Eq. (66). As long as one row is like another it is that with the error of every
+  /// row.
+  Scalar with_load(int p, int k) const { return state_.with_load[k][p]; }
   /// Variance S P S^T, Eq. (20), of a force whose derivative by unknown `p` is derivative(p). Cost: half the
   /// square of the unknowns in use.
   template <class Derivatives>
@@ -201,25 +209,7 @@ class Belief {
   }
 
   /// Begins a row: nothing of it has been measured yet.
-  void begin_row() { has_errors_ = has_news_ = false; }
-  /// Before another measurement of the same row: what the one before said of the jacks' errors.
-  void update_errors(const JackReadings& jacks) {
-    if (!has_news_) return;
-    for (int k = 0; k < jacks.size() && !has_errors_; ++k) {
-      errors_.mean[k] = 0;
-      for (int p = 0; p < in_use_; ++p) errors_.with_unknown[k][p] = 0;
-      for (int l = 0; l < jacks.size(); ++l)
-        errors_.with_error[k][l] = k == l ? jacks[k].variance : Scalar(0);
-    }
-    for (int k = 0; k < jacks.size(); ++k) {
-      const Scalar gain = innovation_.with_error[k] * innovation_.precision;
-      errors_.mean[k] += gain * innovation_.value;
-      for (int p = 0; p < in_use_; ++p) errors_.with_unknown[k][p] -= gain * innovation_.with_unknown[p];
-      for (int l = 0; l < jacks.size(); ++l) errors_.with_error[k][l] -= gain * innovation_.with_error[l];
-    }
-    has_errors_ = true;
-    has_news_ = false;
-  }
+  void begin_row() { has_errors_ = false; }
   /// Compares a reading with its prediction, Eqs. (21), (22) and (24). Returns false if and only if the
   /// innovation is outside of the gate. Changes nothing that is known before update(). Cost: the square of
   /// the unknowns in use and jacks.
@@ -240,7 +230,7 @@ class Belief {
       if (has_errors_) {
         expected += by_error(k) * errors_.mean[k];
         sum = 0;
-        for (int p = 0; p < in_use_; ++p) sum += errors_.with_unknown[k][p] * H[p];
+        for (int p = 0; p < in_use_; ++p) sum += state_.with_load[k][p] * H[p];
         for (int l = 0; l < jacks.size(); ++l) sum += errors_.with_error[k][l] * by_error(l);
       }
       innovation.with_error[k] = sum;
@@ -252,7 +242,7 @@ class Belief {
       for (int q = 0; q < friction_; ++q) sum += P[p][q] * H[q];
       if (p < friction_) of_friction += H[p] * sum;
       for (int q = friction_; q < in_use_; ++q) sum += P[p][q] * H[q];
-      for (int k = 0; k < jacks.size() && has_errors_; ++k) sum += errors_.with_unknown[k][p] * by_error(k);
+      for (int k = 0; k < jacks.size() && has_errors_; ++k) sum += state_.with_load[k][p] * by_error(k);
       innovation.with_unknown[p] = sum;
       variance += H[p] * sum;
       if (p < friction_) through_friction += H[p] * sum;
@@ -293,9 +283,9 @@ class Belief {
   /// that which is due to unknowns and jacks.
   Scalar innovation() const { return innovation_.value; }
   Scalar innovation_variance() const { return innovation_.variance; }
-  /// After innovate(): the reading is known from here on, Eq. (23). Cost: half the square of the unknowns in
-  /// use.
-  void update() {
+  /// After innovate(): the reading is known from here on, Eq. (23), and what it says of the jacks' errors.
+  /// Cost: half the square of the unknowns in use, and the square of the jacks.
+  void update(const JackReadings& jacks) {
     for (int p = 0; p < in_use_; ++p) {
       state_.mean[p] = innovation_.updated_mean[p];
       const Scalar gain = innovation_.with_unknown[p] * innovation_.precision;
@@ -303,7 +293,7 @@ class Belief {
       for (int q = 0; q < p; ++q) P[q][p] = P[p][q] = P[p][q] - gain * innovation_.with_unknown[q];
       P[p][p] -= gain * innovation_.with_unknown[p];
     }
-    has_news_ = true;
+    update_errors(jacks);
   }
 
   /// After innovate(): the same for some unknowns alone, those with is_of(p); what the reading says of the
@@ -322,6 +312,23 @@ class Belief {
   }
 
  private:
+  /// What a measurement of the row says of the jacks' errors.
+  void update_errors(const JackReadings& jacks) {
+    auto& with_load = state_.with_load;
+    for (int k = 0; k < jacks.size() && !has_errors_; ++k) {
+      errors_.mean[k] = 0;
+      for (int p = 0; p < in_use_; ++p) with_load[k][p] = 0;
+      for (int l = 0; l < jacks.size(); ++l)
+        errors_.with_error[k][l] = k == l ? jacks[k].variance : Scalar(0);
+    }
+    for (int k = 0; k < jacks.size(); ++k) {
+      const Scalar gain = innovation_.with_error[k] * innovation_.precision;
+      errors_.mean[k] += gain * innovation_.value;
+      for (int p = 0; p < in_use_; ++p) with_load[k][p] -= gain * innovation_.with_unknown[p];
+      for (int l = 0; l < jacks.size(); ++l) errors_.with_error[k][l] -= gain * innovation_.with_error[l];
+    }
+    has_errors_ = true;
+  }
   bool is_linearized(int p) const { return p < friction_ || p >= loads_; }
   /// Of a reading, and what would follow from it.
   struct Innovation {
@@ -334,8 +341,7 @@ class Belief {
   /// Errors of the jacks' readings in this row, which all its measurements share.
   struct Errors {
     FixedArray<Scalar, Jacks> mean;
-    FixedArray<Values, Jacks> with_unknown;  // covariances
-    FixedArray<FixedArray<Scalar, Jacks>, Jacks> with_error;
+    FixedArray<FixedArray<Scalar, Jacks>, Jacks> with_error;  // covariances
   };
 
   int size_ = 0, friction_ = 0, loads_ = 0, carried_ = 0;
@@ -344,8 +350,8 @@ class Belief {
   Values least_, most_, most_variance_;
   // A member, so that what is not in use need not be cleared every time.
   Innovation innovation_;
-  Errors errors_;  // once there is a second measurement
-  bool has_news_ = false, has_errors_ = false;
+  Errors errors_;  // once something of the row has been measured
+  bool has_errors_ = false;
 };
 
 }  // namespace taut

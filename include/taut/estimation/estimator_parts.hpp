@@ -143,6 +143,8 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   bool surely_slides(int c) const {
     return sliding_way.surely_slides(c, filter.relative_deviation(tracker, c));
   }
+  /// Whether forces teach its friction: it surely slides throughout, on the present piece.
+  bool teaches(int c) const { return !is_beyond[c] && surely_slides(c); }
 
   /// Whether all its jacks are locked, if there are any.
   bool is_held(int c) const {

@@ -26,7 +26,6 @@ class FarEnds {
   using Cap = typename FilterType::Cap;
   using TrackerType = typename FilterType::TrackerType;
   using EndType = CableEnd<Cap>;
-  using IsBeyond = FixedArray<bool, Cap::cables>;
   /// What has been gathered so far.
   struct State {
     Gathered<Scalar> gathered;
@@ -93,15 +92,16 @@ class FarEnds {
       if (ends_[e].cable() == cable) largest = larger(largest, state_.watch[e].fit.misfit());
     return largest;
   }
-  /// Takes a reading [N] of cell `e` into account at once, if FilterType::is_informative(). Cost: that of
-  /// FilterType::update().
+  /// Takes a reading [N] of cell `e` into account at once, if FilterType::is_informative() with slides(c).
+  /// Cost: that of FilterType::update().
+  template <class Slides>
   [[nodiscard]] Update measure(int e, Scalar reading, TrackerType& tracker, FilterType& filter,
-                               const Jacks& jacks, const IsBeyond& is_beyond) {
+                               const Jacks& jacks, const Slides& slides) {
     const EndType& end = ends_[e];
     const Scalar sd = state_.watch[e].sd;
     const auto predict = [&](auto& prediction) { predict_at(end, tracker, filter, jacks, prediction); };
     predict(filter.prediction());
-    if (!filter.is_informative(tracker, end.cable(), sd, is_beyond))
+    if (!filter.is_informative(tracker, end.cable(), sd, slides))
       return compare(e, reading, tracker, filter, jacks);
     const Scalar lasting = variance_that_lasts(e, filter, jacks);
     const auto loads = jacks.readings(filter.prior());
@@ -270,7 +270,9 @@ class FarEnds {
     const Scalar sd = state_.watch[0].sd;
     const auto jack = jacks[0].reading(jacks.in(filter.prior().cell, 0));
     predict_at(ends_[0], tracker, filter, jacks, prediction);
-    if (!filter.is_informative(tracker, ends_[0].cable(), sd, IsBeyond())) return false;
+    if (!filter.is_informative(tracker, ends_[0].cable(), sd,
+                               [&](int c) { return filter.slides_throughout(tracker, c); }))
+      return false;
     Gathered<Scalar>& gathered = state_.gathered;
     gathered.begin(driven + jack.beyond, driven, room());
     const Scalar by_jack = prediction.by_jack[0];

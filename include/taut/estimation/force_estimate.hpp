@@ -32,7 +32,8 @@ typename TrackerType::Scalar carried_over(const TrackerType& tracker, const EndT
 /// deviation has that of the loads, of friction and its scatter, and of what friction remembers, Eq. (20);
 /// zero if not `HasDeviation`. A load that may be elsewhere may have let joints slide that stick here; of one
 /// that may have turned friction may hold more than it is confirmed to have done; a joint that slides since a
-/// turn may stick, as `turned` has it. Cost: one product a jack and unknown in use, and with a deviation half
+/// turn may stick, as `turned` has it. What a load is off by for readings that taught friction as well counts
+/// once, Eq. (66). Cost: one product a jack and unknown in use, and with a deviation half
 /// the square of the unknowns.
 template <bool HasDeviation, class TrackerType, class Jacks, class FilterType, class Turned>
 ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tracker, const Jacks& jacks,
@@ -41,7 +42,7 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
   const auto& belief = filter.belief();
   using Scalar = typename TrackerType::Scalar;
   using EndType = CableEnd<typename TrackerType::Cap>;
-  FixedArray<Scalar, Jacks::capacity> by_jack;
+  FixedArray<Scalar, Jacks::capacity> by_jack, by_shared;
   const auto sensitivity = [&](int p) {
     return tracker.sensitivity(p, segment) - jacks.counted_elsewhere(p, by_jack);
   };
@@ -50,18 +51,20 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
     const auto& load = jacks[k];
     const EndType& at = jacks.end(k);
     // Where nothing is confirmed to pull yet, too.
-    const bool is_elsewhere = load.at.refused || !(load.driven.force > 0);
-    const bool is_held = segment != at.segment(tracker.model()) && !is_elsewhere;
+    const bool is_elsewhere = load.at.refused || !(load.driven.force > 0),
+               is_behind_joints = segment != at.segment(tracker.model()),
+               is_held = is_behind_joints && !is_elsewhere;
     const Scalar slope = by_jack[k] = tracker.slope(k, segment),
                  further = slope * (is_held ? load.come_beyond() : load.beyond());
     T += further;
     if (!HasDeviation || load.locked) continue;
-    const bool may_be_back = load.may_be_back() && segment != at.segment(tracker.model());
+    const bool may_be_back = load.may_be_back() && is_behind_joints;
     const Scalar most = is_elsewhere || may_be_back ? carried_over(tracker, at, segment) : Scalar(0);
     // Where the load may be elsewhere, joints that stick may slide.
     const Scalar part =
         larger(std::fabs(slope), is_elsewhere ? most : Scalar(0)) * (is_held ? load.at.come_sd : load.at.sd);
     variance += part * part;
+    if (!is_elsewhere && !may_be_back) by_shared[k] = slope * load.taught_part();
     if (!may_be_back) continue;
     // If it has reversed, the force did not follow from where it was farthest.
     const Scalar held = most * load.short_of_farthest(load.driven.force),
@@ -70,14 +73,17 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
   }
   if (HasDeviation) {
     const int leader = turned.leader_of(segment);
-    Scalar by_friction = 0;
+    Scalar by_friction = 0, in_common = 0;
     Scalar of_unknowns = belief.variance_of([&](int p) {
       const Scalar S = sensitivity(p);
+      for (int k = 0; k < jacks.size(); ++k) in_common += by_shared[k] * S * belief.with_load(p, k);
       T += S * (belief.mean(p) - belief.linearized_at(p));
       if (leader >= 0 && p < belief.friction() && turned.leader(p) == leader)
         by_friction += S * turned.move(p);
       return S;
     });
+    // Eq. (66), counted for no more than either variance.
+    variance -= 2 * -larger(-in_common, larger(-variance, -of_unknowns));
     if (leader >= 0) {
       const Scalar sd = std::sqrt(larger(belief.variance(leader), Scalar(0))), straight = by_friction * sd,
                    kinked = turned.deviation(segment, T, by_friction, sd);

@@ -201,13 +201,13 @@ class FrictionFilter {
   void inflate(Scalar times) { belief_.inflate(times); }
   /// Begins a row: its measurements share the errors of the jacks' readings.
   void begin_row() { belief_.begin_row(); }
-  /// Whether prediction() has a derivative to go by: all of `cable` must slide (-1: no cable does in
-  /// particular), and every other one whose friction shows in a number read with the standard deviation `sd`;
-  /// and none of them on another piece, as is_beyond[cable] says. Cost: a pass over the joints.
-  bool is_informative(const TrackerType& tracker, int cable, Scalar sd,
-                      const FixedArray<bool, Cap::cables>& is_beyond) const {
+  /// Whether prediction() has a derivative to go by: with slides(c), all of `cable` must slide (-1: no cable
+  /// does in particular), and every other one whose friction shows in a number read with the standard
+  /// deviation `sd`. Cost: a pass over the joints, and a question for each of them.
+  template <class Slides>
+  bool is_informative(const TrackerType& tracker, int cable, Scalar sd, const Slides& slides) const {
     for (int c = 0; c < tracker.model().cables.size(); ++c)
-      if (matters(tracker, c, cable, sd) && (is_beyond[c] || !slides_throughout(tracker, c))) return false;
+      if (matters(tracker, c, cable, sd) && !slides(c)) return false;
     return true;
   }
   /// Whether friction of cable `c` matters to prediction(), read with `sd` at `cable` (-1: at none).
@@ -253,11 +253,10 @@ class FrictionFilter {
   template <class ComesCloser, class Predict>
   [[nodiscard]] Update update_by(const ComesCloser& comes_closer, const Predict& predict,
                                  const JackReadings& jacks, const Measured<Scalar>& measured) {
-    belief_.update_errors(jacks);
     for (int iteration = 1;; ++iteration) {
       if (!belief_.innovate(prediction_, jacks, measured)) return Update::contradiction;
       if (!comes_closer() || iteration == most_iterations) {
-        belief_.update();
+        belief_.update(jacks);
         return Update::updated;
       }
       predict(prediction_);

@@ -80,6 +80,8 @@ struct JackLoad {
   Scalar step_by = 0, stride = 0;        ///< how far it had come since the reading before [N], in that time
   Scalar believed = 0, refused = 0;      ///< the last reading that was believed, and that was not [N]
   Scalar beside = 0;  ///< what the cell at the other end of the cable read with the one that was believed [N]
+  std::int32_t taught = 0;    ///< readings of the line that it is on with which unknowns were learned
+  bool teaches = false;       ///< those of this row were counted
   std::uint8_t refusals = 0;  ///< in a row
   bool locks_now = false, locked = false;
   ElongationCheck<Scalar> elongation;  ///< of the leg that it is on
@@ -315,7 +317,7 @@ struct JackLoad {
   [[nodiscard]] bool take(bool locks, const EndReading<Scalar>& given, Scalar dt,
                           const LoadCell<Scalar>& cell, Scalar most, const HeldByWedge<Scalar>& held,
                           Corners<Scalar>& corners, const Seen& is_seen = Seen()) {
-    is_new = locks_now = goes_on = false;
+    is_new = locks_now = goes_on = teaches = false;
     load_before = at.load;
     at.reversed = false;
     since += dt;
@@ -337,7 +339,8 @@ struct JackLoad {
         }
         corners.reverses = true;
       }
-      lock_sd = at.reversed ? at.sd : larger(at.sd, larger(come_back, fallen));
+      lock_sd = at.reversed ? at.sd : larger(at.come_sd, larger(come_back, std::fabs(fallen)));
+      if (!at.reversed) at.load = at.come;
       corners.locks = locks_now = true;
       lie_locked();
       return false;
@@ -414,22 +417,33 @@ struct JackLoad {
     stride = since;
     since = 0;
     is_new = !at.refused;
+    if (taught > filter.run_length()) taught = filter.run_length();
     corners.reverses |= at.reversed;
     if (at.reversed) elongation.begin_leg();
     return finds_outlier(given.force, std::isfinite(possible(given.force, most)));
   }
+  /// Unknowns were learned with so many of its readings, the one of this row among them.
+  void teach(int readings) {
+    if (is_new && !teaches) taught += readings;
+    teaches = true;
+  }
+  /// The part of the readings behind its best estimate with which unknowns were learned, Eq. (66).
+  Scalar taught_part() const {
+    const int readings = filter.run_length();
+    return taught < readings ? static_cast<Scalar>(taught) / static_cast<Scalar>(readings) : Scalar(1);
+  }
   /// Other loads change: where friction comes to rest, it remembers the load as it is, not as far as it is
   /// confirmed to have come.
   void come_to_best(const LoadCell<Scalar>& cell) {
-    come_sd = at.behind ? larger(at.sd, std::fabs(at.load - at.confirmed)) : at.sd;
+    come_sd = at.behind ? larger(at.come_sd, std::fabs(at.come - at.confirmed)) : at.come_sd;
     if (!is_new || (at.behind && frozen < 0)) return;
     // Where a ramp ends, the estimate overshoots at first.
-    const bool goes_up = at.load > at.confirmed;
+    const bool goes_up = at.come > at.confirmed;
     const Scalar noise_sd = filter.sd() / branch(cell), most = goes_up ? raw + noise_sd : raw - noise_sd;
-    const bool overshoots = goes_up ? at.load > most : at.load < most;
-    const Scalar to = overshoots ? most : at.load, further = goes_up ? to - at.confirmed : at.confirmed - to;
-    if (overshoots) come_sd = larger(at.sd, noise_sd);
-    if (!(further > (frozen < 0 ? Scalar(0) : at.sd))) return;
+    const bool overshoots = goes_up ? at.come > most : at.come < most;
+    const Scalar to = overshoots ? most : at.come, further = goes_up ? to - at.confirmed : at.confirmed - to;
+    if (overshoots) come_sd = larger(at.come_sd, noise_sd);
+    if (!(further > (frozen < 0 ? Scalar(0) : at.come_sd))) return;
     filter.come_to(to * branch(cell));
     at.confirmed = to;
   }

@@ -103,7 +103,6 @@ class LoadFilter : LoadFilterTuning {
     off_best_ *= f;
     come_.level *= f;
     come_.sd *= f;
-    told_ *= f;
     beside_best_ *= f * f;
     of_drift_ *= f * f;
     set_confirmed(confirmed_);
@@ -284,6 +283,9 @@ class LoadFilter : LoadFilterTuning {
     // While half of them have been taken.
     const Level variance = block_.variance() * taken / (taken + half);
     waits_sd_ = std::sqrt(larger(variance + beside_best_, Level(0)));
+    // Where it goes on, it comes with the line.
+    const Level gained = goes_on_ * (block_.variance() - variance);
+    come_.sd = std::sqrt(larger(come_.sd * come_.sd - gained, waits_sd_ * waits_sd_ * goes_on_));
     return true;
   }
   ConditionedLoad<Scalar> wait(Scalar reading, Level dt) {
@@ -305,7 +307,7 @@ class LoadFilter : LoadFilterTuning {
     });
     ConditionedLoad<Scalar> now;
     say(now, widened(estimate), further);
-    say_come(now, {come_.level + goes_on_ * (estimate.level - told_), come_.sd}, estimate.level);
+    say_come(now, come_with(estimate.level), estimate.level);
     return now;
   }
   /// What comes next is none of those that wait.
@@ -532,7 +534,7 @@ class LoadFilter : LoadFilterTuning {
     now.refused = !accepted;
     if (accepted) {
       find_come(estimate);
-      say_come(now, come_, estimate.level);
+      say_come(now, come_with(estimate.level), estimate.level);
     }
     move_base();
     return now;
@@ -563,8 +565,7 @@ class LoadFilter : LoadFilterTuning {
   /// Where the load was farthest on the best line, Eq. (65): one that is held is at rest, or goes on, or
   /// comes back, and what the line rises or falls by from its beginning to now may be chance.
   void find_come(const Estimate& estimate) {
-    come_ = estimate;
-    told_ = estimate.level;
+    come_ = {0, estimate.sd};
     goes_on_ = 1;
     const int hold = long_hold(hypotheses_, Level(1)), line = hold < 0 ? best_ : hold;
     const auto readings = static_cast<Level>(at(hypotheses_.run_length, line));
@@ -576,10 +577,12 @@ class LoadFilter : LoadFilterTuning {
                 known = expected / both, square = 4 * half * half / gone_variance;
     const Level part = 1 / (1 + rests * std::sqrt(both / gone_variance) * decay(square * known / 2)),
                 far = known * std::fabs(half);
-    come_.level = mean + way_ * part * far;
-    come_.sd = std::sqrt((1 - part) * (of_rest + part * far * far) + part * variance);
     goes_on_ = half > 0 ? part * known : Level(0);
+    come_.level = mean + way_ * part * far - goes_on_ * estimate.level;
+    come_.sd = std::sqrt((1 - part) * (of_rest + part * far * far) + part * variance);
   }
+  /// How far the load has come where the estimate is at `level`.
+  Estimate come_with(Level level) const { return {come_.level + goes_on_ * level, come_.sd}; }
   /// Readings that drift off on its way may be the first of a load that goes on.
   void say_come(ConditionedLoad<Scalar>& now, const Estimate& come, Level load) const {
     if (of_drift_ > 0 && way_ * block_.drift > 0 && way_ * (load - come.level) > 0) return;
@@ -636,8 +639,7 @@ class LoadFilter : LoadFilterTuning {
     set_confirmed(confirmed_);
     for (auto* const lanes : {&hypotheses_.level, &hypotheses_.mean, &hypotheses_.corner})
       for (Level& each : *lanes) each -= moved;
-    come_.level -= moved;
-    told_ -= moved;
+    come_.level -= (1 - goes_on_) * moved;
   }
 
   Hypotheses hypotheses_;
@@ -647,9 +649,9 @@ class LoadFilter : LoadFilterTuning {
   Level confirmed_level_ = 0;
   // The estimate less the level of the best line, its variance less that of this line.
   Level off_best_ = 0, beside_best_ = 0;
-  Estimate come_{};              // how far the load had come when lines were weighed last
-  Level told_ = 0;               // where it was then
-  Level goes_on_ = 0;            // by how much of what it goes since, it has come
+  // How far the load has come, without what follows it; and by how much of where it is it follows.
+  Estimate come_{};
+  Level goes_on_ = 0;
   Level of_drift_ = 0;           // of what was told, for readings that drift off
   Level waits_sd_ = 0;           // standard deviation of the estimate while readings wait
   Level step_ = 0, usual_ = 0;   // the last one; what they usually are

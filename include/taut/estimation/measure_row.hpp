@@ -52,15 +52,6 @@ Update correct_held(Parts& parts, int e, typename Parts::Scalar reading) {
   return update;
 }
 
-/// The cables that may not slide throughout, though the model has them do so, or that are on another piece.
-/// Cost: a pass over the joints.
-template <class Parts>
-FixedArray<bool, Parts::Cap::cables> unsure_cables(const Parts& parts) {
-  auto unsure = parts.is_beyond;
-  for (int c = 0; c < parts.model().cables.size(); ++c) unsure[c] |= !parts.surely_slides(c);
-  return unsure;
-}
-
 /// A reading of the cell at anchored end `e`; the tracker is where the loads are confirmed to have come, if
 /// it is not ahead for the jacks of this cable. `gathers` is whether it is gathered with others. Returns
 /// whether anything was learned. Cost: an update at most.
@@ -76,12 +67,12 @@ bool measure_far_end(Parts& parts, int e, typename Parts::Scalar reading, bool g
   if (gathers && far_ends.mixes(parts.filter, parts.jacks)) learn_waiting(parts);
   const int readings = gathers ? far_ends.waiting() + 1 : 1;
   if (!gathers && !parts.is_ahead) follow_sliding(parts);
-  const Update update =
-      parts.is_corrected(end.cable()) ? correct_held(parts, e, reading)
-      : parts.is_ahead                ? far_ends.compare(e, reading, parts.tracker, parts.filter, parts.jacks)
-      : gathers
-          ? far_ends.gather(reading, parts.tracker, parts.filter, parts.jacks)
-          : far_ends.measure(e, reading, parts.tracker, parts.filter, parts.jacks, unsure_cables(parts));
+  const Update update = parts.is_corrected(end.cable()) ? correct_held(parts, e, reading)
+                        : parts.is_ahead
+                            ? far_ends.compare(e, reading, parts.tracker, parts.filter, parts.jacks)
+                        : gathers ? far_ends.gather(reading, parts.tracker, parts.filter, parts.jacks)
+                                  : far_ends.measure(e, reading, parts.tracker, parts.filter, parts.jacks,
+                                                     [&](int c) { return parts.teaches(c); });
   // Once, as long as it lasts; and where friction is known there is nothing to be told.
   const bool is_told =
       update == Update::no_information && (watch.is_told || !parts.filter.belief().has_friction());

@@ -51,13 +51,13 @@ void take_measurement(Parts& parts, const Predict& predict, typename Parts::Scal
   go_back(parts);
   wait_for_none(parts);
   predict(filter.prediction());
-  const Scalar counted =
-      filter.counted_deviation(sd, filter.prediction().scatter, parts.jacks.readings(filter.prior()));
-  if (counted > 0 && filter.is_informative(parts.tracker, contradiction.cable, sd, parts.is_beyond))
-    note(parts,
-         filter.update(parts.tracker, predict, parts.jacks.readings(filter.prior()),
-                       {reading, counted, Scalar(0)}),
-         contradiction);
+  const auto jacks = parts.jacks.readings(filter.prior());
+  const Scalar counted = filter.counted_deviation(sd, filter.prediction().scatter, jacks);
+  const auto slides = [&](int c) {
+    return !parts.is_beyond[c] && filter.slides_throughout(parts.tracker, c);
+  };
+  if (counted > 0 && filter.is_informative(parts.tracker, contradiction.cable, sd, slides))
+    note(parts, filter.update(parts.tracker, predict, jacks, {reading, counted, Scalar(0)}), contradiction);
   look_ahead(parts);
 }
 
@@ -71,16 +71,6 @@ void follow_gauges(Parts& parts, const Corners<typename Parts::Scalar>& corners,
   parts.gauges.begin_row(parts.sum_of_loads(), best, dt);
 }
 
-/// Whether all cables that prediction() depends on, read with `sd` at `cable`, surely slide throughout, none
-/// of them on another piece. Cost: a pass over the joints.
-template <class Parts>
-bool is_sure(const Parts& parts, int cable, typename Parts::Scalar sd) {
-  for (int c = 0; c < parts.model().cables.size(); ++c)
-    if (parts.filter.matters(parts.tracker, c, cable, sd) && (parts.is_beyond[c] || !parts.surely_slides(c)))
-      return false;
-  return true;
-}
-
 /// Readings of forces count only while cables surely slide, and where the loads are confirmed to have come:
 /// what lies behind joints that stick has no derivative to go by.
 template <class Parts>
@@ -89,7 +79,9 @@ struct WhileSliding {
   bool can_learn(int cable) const { return parts.can_learn(cable); }
   /// Before it is predicted: to where it counts.
   void begin() const { go_back(parts); }
-  bool is_sure(int cable, typename Parts::Scalar sd) const { return taut::is_sure(parts, cable, sd); }
+  bool is_sure(int cable, typename Parts::Scalar sd) const {
+    return parts.filter.is_informative(parts.tracker, cable, sd, [this](int c) { return parts.teaches(c); });
+  }
   template <class Predict>
   Update update(const Predict& predict, const typename Parts::JacksType::Readings& jacks,
                 const Measured<typename Parts::Scalar>& measured) const {
