@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "taut/estimation/alarms.hpp"
+#include "taut/estimation/beyond_friction.hpp"
 #include "taut/estimation/far_ends.hpp"
 #include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/force_watch.hpp"
@@ -76,6 +77,8 @@ struct EstimatorParts : CondensedType::Capacity::Account {
     bool is_known = false;
   };
   static constexpr bool has_several = Cap::cables > 1;
+  /// Whether forces may change though the cable's own jack rests.
+  static constexpr bool has_others = has_several || Cap::loads > 0;
   /// Whether it may be unknown how far a wedge is drawn in.
   static constexpr bool has_seating = Cap::seating;
   /// Only strokes are compared all along it.
@@ -193,7 +196,8 @@ struct EstimatorParts : CondensedType::Capacity::Account {
     return estimate_force<true>(tracker, jacks, filter, turned, segment);
   }
   /// The force of a segment with its deviation: joints that slide where the tracker is may stick, and the
-  /// other way round. In a cable whose cells are off the model, the deviation is wider by that.
+  /// other way round. In a cable whose cells are off the model, the deviation is wider by that. Beside other
+  /// loads it reaches to what friction can hold, see beyond_friction().
   ForceEstimate<Scalar> estimate(int segment) const {
     auto estimate = estimate_segment(segment);
     const Scalar reached = deviation_by_reach(*this, segment, estimate.force);
@@ -202,6 +206,8 @@ struct EstimatorParts : CondensedType::Capacity::Account {
     if (far_ends.ends().size() == 0 || turned.has_gone_on(segment, estimate.force))
       kept = turned.deviation_by_loads(segment, estimate.force);
     estimate.deviation = larger(estimate.deviation, larger(reached, kept));
+    if constexpr (has_others)
+      estimate.deviation = larger(estimate.deviation, beyond_friction(*this, segment, estimate.force));
     if (misfits) {
       const Scalar misfit = far_ends.misfit(cable_of(segment));
       estimate.deviation = std::sqrt(estimate.deviation * estimate.deviation + misfit * misfit);
