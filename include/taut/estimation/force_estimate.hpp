@@ -83,7 +83,7 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
       return S;
     });
     // Eq. (66), counted for no more than either variance.
-    variance -= 2 * -larger(-in_common, larger(-variance, -of_unknowns));
+    variance += 2 * larger(-in_common, larger(-variance, -of_unknowns));
     if (leader >= 0) {
       const Scalar sd = std::sqrt(larger(belief.variance(leader), Scalar(0))), straight = by_friction * sd,
                    kinked = turned.deviation(segment, T, by_friction, sd);

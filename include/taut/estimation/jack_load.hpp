@@ -292,6 +292,7 @@ struct JackLoad {
   /// Another cell shows that it has gone on, by at least so much [N].
   void leave_unread(Scalar by) {
     at.sd = larger(at.sd, by);
+    at.come_sd = larger(at.come_sd, by);
     at.refused = true;
   }
   /// It lies between these [N], by what another cell reads.
@@ -401,10 +402,14 @@ struct JackLoad {
     // have gone as far again.
     if (at.refused && std::isfinite(reading))
       at.sd = larger(at.sd, std::fabs(reading - at.load) / (since > JumpGuard<Scalar>::far_apart ? 1 : 2));
-    if (at.refused)
+    if (at.refused) {
       turning.miss(since);
-    else
+      // Friction stands where the load is, perhaps elsewhere.
+      at.come = at.load;
+      at.come_sd = at.sd;
+    } else {
       turning.add(reading, since, filter.sd());
+    }
     if (at.reversed) find_reversal(cell);
     raw = given.force;
     if (cell.has_branches()) {
