@@ -10,7 +10,8 @@ namespace taut {
 
 /// By how much `force` of a segment [N] and that of a neighbour are farther apart than the joint between them
 /// holds, with friction two standard deviations higher than it is known, the larger of both, Eq. (67); not
-/// below zero. Zero in second-order theory, where what a joint holds changes with the bend. Cost: that of
+/// below zero. Zero before the start, of a cable that is alone and has no load patterns beside it, whatever
+/// the capacity, and in second-order theory, where what a joint holds changes with the bend. Cost: that of
 /// EstimatorParts::force() twice, and a pass over the cables.
 template <class Parts>
 typename Parts::Scalar beyond_friction(const Parts& parts, int segment, typename Parts::Scalar force) {
@@ -18,6 +19,7 @@ typename Parts::Scalar beyond_friction(const Parts& parts, int segment, typename
   using Real = typename Parts::Condensed::Real;
   if constexpr (Parts::TrackerType::Model::has_level) return 0;
   constexpr Scalar deviations = 2, rounding = Scalar(1e-5);
+  if (!parts.tracker.is_started() || (parts.model().cables.size() == 1 && parts.patterns() == 0)) return 0;
   const int c = parts.cable_of(segment);
   const auto& cable = parts.model().cables[c];
   const auto& prior = parts.filter.prior();
