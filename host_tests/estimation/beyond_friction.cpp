@@ -1,5 +1,5 @@
-// Forces that other loads have changed while friction was not known well:
-// neighbours stay within what friction holds, or bars reach there.
+// Forces that other loads have changed while friction was not known well: neighbours stay within what
+// friction holds, or bars reach there.
 #include "taut/estimation/beyond_friction.hpp"
 
 #include <doctest/doctest.h>
@@ -18,12 +18,10 @@ namespace {
 
 struct Said {
   Score forces;
-  int apart = 0;  ///< neighbours whose forces no friction that is likely holds
-                  ///< apart so far, bars and all
+  int apart = 0;  ///< neighbours whose forces no friction that is likely holds apart so far, bars and all
 };
 
-/// Whether forces of neighbours are farther apart than their bars and friction
-/// three deviations higher allow.
+/// How many neighbours are farther apart than their bars, and friction three deviations higher, allow.
 template <class Estimator>
 int count_apart(const Estimator& estimator, const Plane& scene,
                 const taut::FrictionPrior<double, PlaneCapacity>& prior) {
@@ -43,28 +41,20 @@ Said jack_beside_a_roof() {
   static Ground ground;
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
     Random random(seed);
-    taut::Cable<double> cable = support::steel_cable(0.2);
-    cable.mu_sd = 0.06;
-    cable.shared_mu = true;
-    support::truss_string(ground.known, cable, 6);
-    ground.set_true_mu(std::vector<double>(16, std::fmax(0.02, 0.2 + 0.06 * gaussian(random))));
-    Instruments instruments;
-    const auto site = std::make_unique<Site<double>>(ground, instruments, full, seed);
+    truss_of_unknown_mu(ground, 0.06, random);
+    const auto site = std::make_unique<Site<double>>(ground, Instruments(), full, seed);
     taut::FrictionPrior<double, PlaneCapacity> prior;
     taut::find_friction_prior(ground.known, prior);
     Deed deed;
     const auto go = [&](double force, double factor, int rows) {
-      const Deed from = deed;
-      for (int i = 1; i <= rows; ++i) {
-        deed.force[1] = from.force[1] + (force * full - from.force[1]) * i / rows;
-        deed.factor = from.factor + (factor - from.factor) * i / rows;
+      go_on(deed, force, factor, rows, [&] {
         site->advance(deed);
         for (int s = 0; s < site->segments(); ++s) {
           const auto found = site->estimator().estimate(s);
           said.forces.add((found.force - site->true_force(s)) / found.deviation);
         }
         said.apart += count_apart(site->estimator(), ground.known, prior);
-      }
+      });
       REQUIRE(site->good());
     };
     double load = 0, factor = 0;
@@ -84,9 +74,7 @@ Said jack_beside_a_roof() {
 
 }  // namespace
 
-TEST_CASE(
-    "bars reach to where friction can hold neighbouring forces apart, "
-    "whatever other loads did") {
+TEST_CASE("bars reach to where friction can hold neighbouring forces apart, whatever other loads did") {
   const Said said = jack_beside_a_roof();
   MESSAGE("seeds 1 to 150: ", 100 * said.forces.share(), " % held, rms ", said.forces.rms(), ", worst ",
           said.forces.worst, "; apart ", said.apart);

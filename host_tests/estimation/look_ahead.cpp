@@ -32,13 +32,8 @@ std::vector<Deed> two_visits() {
   std::vector<Deed> rows;
   Deed at;
   const auto go = [&](double force, double factor, bool locked, int samples) {
-    const Deed from = at;
-    for (int i = 1; i <= samples; ++i) {
-      at.force[1] = from.force[1] + (force * full - from.force[1]) * i / samples;
-      at.factor = from.factor + (factor - from.factor) * i / samples;
-      at.locked[1] = locked;
-      rows.push_back(at);
-    }
+    at.locked[1] = locked;
+    go_on(at, force, factor, samples, [&] { rows.push_back(at); });
   };
   go(0.7, 0, false, 40);
   go(0.7, 0, false, 10);

@@ -128,22 +128,13 @@ TEST_CASE_TEMPLATE("the error bars hold while other loads change in holds and ra
     std::array<Tally, 4> tallies;
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
       Random random(seed);
-      taut::Cable<double> cable = support::steel_cable(0.2);
-      cable.mu_sd = 0.03;
-      cable.shared_mu = true;
-      support::truss_string(ground.known, cable, 6);
-      ground.set_true_mu(std::vector<double>(16, std::fmax(0.02, 0.2 + 0.03 * gaussian(random))));
+      truss_of_unknown_mu(ground, 0.03, random);
       Instruments instruments;
       instruments.has_cell = has_cell;
       const auto site = std::make_unique<Site<Scalar>>(ground, instruments, full, seed);
       Deed deed;
       const auto go = [&](double force, double factor, int rows) {
-        const Deed from = deed;
-        for (int i = 1; i <= rows; ++i) {
-          deed.force[1] = from.force[1] + (force * full - from.force[1]) * i / rows;
-          deed.factor = from.factor + (factor - from.factor) * i / rows;
-          site->advance(deed);
-        }
+        go_on(deed, force, factor, rows, [&] { site->advance(deed); });
         REQUIRE(site->good());
       };
       go(0.6, 0, 80);
@@ -184,19 +175,12 @@ TEST_CASE_TEMPLATE("loads that begin to change with the jack on its way do so fr
       CAPTURE(seed);
       const auto site = std::make_unique<Site<Scalar>>(ground, instruments, full, seed);
       Deed at;
-      const auto go = [&](double force, double factor, int count) {
-        const Deed from = at;
-        for (int i = 1; i <= count; ++i) {
-          at.force[1] = from.force[1] + (force * full - from.force[1]) * i / count;
-          at.factor = from.factor + (factor - from.factor) * i / count;
-          site->advance(at);
-        }
-      };
-      go(0.6, 0, 60);
-      if (way < 0) go(0.4, 0, 20);
+      const auto advance = [&] { site->advance(at); };
+      go_on(at, 0.6, 0, 60, advance);
+      if (way < 0) go_on(at, 0.4, 0, 20, advance);
       for (int row = 1; row <= 3; ++row) {
         CAPTURE(row);
-        go(at.force[1] / full + 0.01 * way, 0.1 * row, 1);
+        go_on(at, at.force[1] / full + 0.01 * way, 0.1 * row, 1, advance);
         for (int i = 0; i < site->segments(); ++i) {
           CAPTURE(i);
           CHECK(std::fabs(site->error(i)) < 6 * instruments.jack * full);

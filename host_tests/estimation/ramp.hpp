@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "estimation/site.hpp"
 
@@ -26,6 +27,26 @@ void ramp(Site<Scalar>& site, double from, double to, int samples, const Check& 
 template <class Scalar>
 void ramp(Site<Scalar>& site, double from, double to, int samples) {
   ramp(site, from, to, samples, [] {});
+}
+
+/// Takes `deed` on, evenly, to these parts of the full force and of the other load; visit() in every row.
+template <class Visit>
+void go_on(Deed& deed, double force, double factor, int rows, const Visit& visit) {
+  const Deed from = deed;
+  for (int i = 1; i <= rows; ++i) {
+    deed.force[1] = from.force[1] + (force * full - from.force[1]) * i / rows;
+    deed.factor = from.factor + (factor - from.factor) * i / rows;
+    visit();
+  }
+}
+
+/// A truss string with six struts, whose joints share a mu that is known to be 0.2, to `mu_sd`.
+inline void truss_of_unknown_mu(Ground& ground, double mu_sd, Random& random) {
+  taut::Cable<double> cable = support::steel_cable(0.2);
+  cable.mu_sd = mu_sd;
+  cable.shared_mu = true;
+  support::truss_string(ground.known, cable, 6);
+  ground.set_true_mu(std::vector<double>(16, std::fmax(0.02, 0.2 + mu_sd * gaussian(random))));
 }
 
 /// How many alarms are of this kind.

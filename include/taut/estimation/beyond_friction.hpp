@@ -17,7 +17,9 @@ template <class Parts>
 typename Parts::Scalar beyond_friction(const Parts& parts, int segment, typename Parts::Scalar force) {
   using Scalar = typename Parts::Scalar;
   using Real = typename Parts::Condensed::Real;
-  if constexpr (Parts::TrackerType::Model::has_level) return 0;
+  // Else nothing moves the cable but its own jacks.
+  constexpr bool may_have_others = Parts::has_several || Parts::Cap::loads > 0;
+  if constexpr (!may_have_others || Parts::TrackerType::Model::has_level) return 0;
   constexpr Scalar deviations = 2, rounding = Scalar(1e-5);
   if (!parts.tracker.is_started() || (parts.model().cables.size() == 1 && parts.patterns() == 0)) return 0;
   const int c = parts.cable_of(segment);

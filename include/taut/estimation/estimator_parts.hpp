@@ -77,8 +77,6 @@ struct EstimatorParts : CondensedType::Capacity::Account {
     bool is_known = false;
   };
   static constexpr bool has_several = Cap::cables > 1;
-  /// Whether forces may change though the cable's own jack rests.
-  static constexpr bool has_others = has_several || Cap::loads > 0;
   /// Whether it may be unknown how far a wedge is drawn in.
   static constexpr bool has_seating = Cap::seating;
   /// Only strokes are compared all along it.
@@ -206,8 +204,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
     if (far_ends.ends().size() == 0 || turned.has_gone_on(segment, estimate.force))
       kept = turned.deviation_by_loads(segment, estimate.force);
     estimate.deviation = larger(estimate.deviation, larger(reached, kept));
-    if constexpr (has_others)
-      estimate.deviation = larger(estimate.deviation, beyond_friction(*this, segment, estimate.force));
+    estimate.deviation = larger(estimate.deviation, beyond_friction(*this, segment, estimate.force));
     if (misfits) {
       const Scalar misfit = far_ends.misfit(cable_of(segment));
       estimate.deviation = std::sqrt(estimate.deviation * estimate.deviation + misfit * misfit);

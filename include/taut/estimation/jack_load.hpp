@@ -437,8 +437,8 @@ struct JackLoad {
     const int readings = filter.run_length();
     return taught < readings ? static_cast<Scalar>(taught) / static_cast<Scalar>(readings) : Scalar(1);
   }
-  /// Other loads change: where friction comes to rest, it remembers the load as it is, not as far as it is
-  /// confirmed to have come.
+  /// Other loads change: where friction comes to rest, it remembers the load as far as it has probably come,
+  /// not as far as it is confirmed to have come.
   void come_to_best(const LoadCell<Scalar>& cell) {
     come_sd = at.behind ? larger(at.come_sd, std::fabs(at.come - at.confirmed)) : at.come_sd;
     if (!is_new || (at.behind && frozen < 0)) return;

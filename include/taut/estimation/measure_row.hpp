@@ -67,12 +67,12 @@ bool measure_far_end(Parts& parts, int e, typename Parts::Scalar reading, bool g
   if (gathers && far_ends.mixes(parts.filter, parts.jacks)) learn_waiting(parts);
   const int readings = gathers ? far_ends.waiting() + 1 : 1;
   if (!gathers && !parts.is_ahead) follow_sliding(parts);
-  const Update update = parts.is_corrected(end.cable()) ? correct_held(parts, e, reading)
-                        : parts.is_ahead
-                            ? far_ends.compare(e, reading, parts.tracker, parts.filter, parts.jacks)
-                        : gathers ? far_ends.gather(reading, parts.tracker, parts.filter, parts.jacks)
-                                  : far_ends.measure(e, reading, parts.tracker, parts.filter, parts.jacks,
-                                                     [&](int c) { return parts.teaches(c); });
+  const auto teaches = [&](int c) { return parts.teaches(c); };
+  const Update update =
+      parts.is_corrected(end.cable()) ? correct_held(parts, e, reading)
+      : parts.is_ahead                ? far_ends.compare(e, reading, parts.tracker, parts.filter, parts.jacks)
+      : gathers                       ? far_ends.gather(reading, parts.tracker, parts.filter, parts.jacks)
+                : far_ends.measure(e, reading, parts.tracker, parts.filter, parts.jacks, teaches);
   // Once, as long as it lasts; and where friction is known there is nothing to be told.
   const bool is_told =
       update == Update::no_information && (watch.is_told || !parts.filter.belief().has_friction());
