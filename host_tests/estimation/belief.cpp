@@ -147,6 +147,21 @@ TEST_CASE("a reading is refused beyond five sigma of its innovation, and then no
   }
 }
 
+TEST_CASE("a row that corrects some unknowns alone says nothing of the jacks' errors") {
+  Belief belief;
+  begin(belief, Vector::Constant(unknowns, 1.0));
+  const auto prediction = prediction_of(0, Vector::Constant(unknowns, 1.0), Vector::Constant(jacks, 0.5));
+  Belief::JackReadings readings;
+  for (int k = 0; k < jacks; ++k) readings.add({0, 4});
+  belief.begin_row();
+  REQUIRE(belief.innovate(prediction, readings, {1, 1, 0}));
+  belief.update_alone([](int p) { return p == 0; });
+  CHECK_FALSE(belief.has_errors());
+  REQUIRE(belief.innovate(prediction, readings, {1, 1, 0}));
+  belief.update(readings);
+  CHECK(belief.has_errors());
+}
+
 TEST_CASE("a mean stays within its bounds") {
   Belief belief;
   begin(belief, Vector::Constant(unknowns, 1.0));

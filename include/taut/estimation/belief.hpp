@@ -172,6 +172,8 @@ class Belief {
   /// that taught anything, Eq. (66). As long as one row is like another it is that with the error of every
   /// row.
   Scalar with_load(int p, int k) const { return state_.with_load[k][p]; }
+  /// Whether something of the row has taught it, so that with_load() is of this row: update_alone() does not.
+  bool has_errors() const { return has_errors_; }
   /// Variance S P S^T, Eq. (20), of a force whose derivative by unknown `p` is derivative(p). Cost: half the
   /// square of the unknowns in use.
   template <class Derivatives>

@@ -11,7 +11,8 @@ void note(Parts& parts, Update update, const Alarm& contradiction, int readings 
   if (update == Update::updated) {
     parts.is_belief_fine = false;
     parts.learned(contradiction, readings, parts.filter);
-    for (int k = 0; k < parts.jacks.size(); ++k) parts.jacks[k].teach(readings);
+    for (int k = 0; k < parts.jacks.size() && parts.filter.belief().has_errors(); ++k)
+      parts.jacks[k].teach(readings);
   } else if (update == Update::contradiction) {
     parts.alarms.add(contradiction);
   } else if (update == Update::no_information) {
