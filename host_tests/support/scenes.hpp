@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -85,15 +86,15 @@ void rigid_saddles(SceneType& scene, const taut::Cable<double>& cable,
   scene.add_cable(cable, path.data(), static_cast<int>(path.size()));
 }
 
-/// A chain of at most 8 segments, all of different lengths and turning angles. Joint j turns by
+/// A chain of at most 10 segments, all of different lengths and turning angles. Joint j turns by
 /// chain_turn[j].
-constexpr double chain_turn[] = {0.35, 0.2, 0.5, 0.1, 0.42, 0.3, 0.25};
+constexpr std::array<double, 9> chain_turn = {0.35, 0.2, 0.5, 0.1, 0.42, 0.3, 0.25, 0.38, 0.15};
 constexpr double chain_length(int segment) { return 2 + 0.7 * segment; }
 inline std::vector<PlanePoint> chain_points(int segments) {
   std::vector<PlanePoint> points{{0, 0}};
   double angle = -1;
   for (int i = 0; i < segments; ++i) {
-    if (i > 0) angle += chain_turn[i - 1];
+    if (i > 0) angle += chain_turn.at(static_cast<std::size_t>(i) - 1);
     const PlanePoint last = points.back();
     points.push_back(
         {last[0] + chain_length(i) * std::cos(angle), last[1] + chain_length(i) * std::sin(angle)});
