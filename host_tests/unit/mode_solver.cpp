@@ -269,6 +269,42 @@ TEST_CASE_TEMPLATE("a hoop whose joints all give way the same way ends on a ray 
   CHECK(decision.solver.last_pair() >= 0);
 }
 
+TEST_CASE_TEMPLATE("slips that begin the wrong way turn round, or stop", On, Structure, Saddles) {
+  using Decider = Decision<typename On::Capacity>;
+  int turned = 0, stopped = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    const AnyCable<typename On::Capacity> cable(random, 3 + random.below(3), false, On::coupled);
+    // Pulled at its end from zero: both limits of every joint hold.
+    Problem<typename On::Capacity> problem(cable);
+    problem.follow.push_back(cable.extension(1));
+    problem.due.push_back(random.between(0.1, 1));
+    std::vector<taut::ActiveConstraint> begun;
+    for (int j = 0; j < cable.model.joints; ++j) {
+      for (const bool forward : {true, false}) problem.pairs.push_back(cable.slip(j, forward));
+      begun.push_back(cable.slip(j, random.coin()));
+    }
+    problem.least.resize(problem.pairs.size(), 0);
+    problem.stuck = Vector::Zero(cable.n());
+    const auto found = problem.all_rates();
+    Decider decision;
+    const auto outcome = decision.decide(problem, true, begun);
+    CHECK(outcome == (found.empty() ? Decider::Outcome::ray : Decider::Outcome::solved));
+    if (outcome != Decider::Outcome::solved) continue;
+    CHECK(decision.is_among(problem, found));
+    decision.check_sides(problem);
+    for (int j = 0; j < cable.model.joints; ++j) {
+      const bool was_forward = begun[static_cast<std::size_t>(j)].sense > 0;
+      turned += decision.solver.is_active(2 * j + (was_forward ? 1 : 0)) ? 1 : 0;
+      stopped += !decision.solver.is_active(2 * j) && !decision.solver.is_active(2 * j + 1) ? 1 : 0;
+    }
+  }
+  CHECK(turned >= 100);
+  // Between saddles all slide toward the jack.
+  CHECK((stopped >= 20 || !On::coupled));
+}
+
 TEST_CASE("where nothing is violated nothing slides") {
   Random random(5);
   const AnyCable<OnStructure> cable(random, 4, false, true);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "taut/numerics/axpy.hpp"
+#include "taut/numerics/bits.hpp"
 #include "taut/numerics/larger.hpp"
 #include "taut/scene/fixed_list.hpp"
 
@@ -55,7 +56,10 @@ class BorderedLu {
   /// Solves A x = b in place: 2 n^2 operations.
   template <class Vector>
   void solve(Vector& x) const {
-    for (int k = 0; k + 1 < size_; ++k) axpy(size_ - 1 - k, -x[k], &at(k, k) + 1, &x[k] + 1);
+    // Most often little is due, and where nothing is, nothing follows.
+    int first = 0;
+    while (first < size_ && bits_of(x[first]) == 0) ++first;
+    for (int k = first; k + 1 < size_; ++k) axpy(size_ - 1 - k, -x[k], &at(k, k) + 1, &x[k] + 1);
     for (int k = size_ - 1; k >= 0; --k) {
       x[k] *= at(k, k);
       axpy(k, -x[k], &at(0, k), &x[0]);

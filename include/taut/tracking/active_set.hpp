@@ -175,11 +175,9 @@ class ActiveSet {
 
   // A structure.
 
-  Real entry(const Laws& laws, int law, const ActiveConstraint& active) const {
-    const TensionConstraint<Real> row = laws.of(active_[law]);
-    const SlipVariable& variable = active.variable;
-    const Real by = resistance(*model_, row, variable);
-    return (is_held() ? by + held_ * alone(row, variable) : by) * flexibility(variable);
+  Real entry(const TensionConstraint<Real>& law, const SlipVariable& variable) const {
+    const Real by = resistance(*model_, law, variable);
+    return (is_held() ? by + held_ * alone(law, variable) : by) * flexibility(variable);
   }
   /// What a slip variable changes a law by through the segments' own stiffness.
   Real alone(const TensionConstraint<Real>& law, const SlipVariable& variable) const {
@@ -194,8 +192,9 @@ class ActiveSet {
   bool append_row(const Laws& laws, const ActiveConstraint& active, Real least_pivot) {
     const int n = size();
     active_.add(active);
-    const Real pivot = factors_.append([&](int i) { return entry(laws, i, active); },
-                                       [&](int i) { return entry(laws, n, active_[i]); });
+    const TensionConstraint<Real> law = laws.of(active);
+    const Real pivot = factors_.append([&](int i) { return entry(laws.of(active_[i]), active.variable); },
+                                       [&](int i) { return entry(law, active_[i].variable); });
     if ((is_to_resist(active) ? signed_by_law(laws, active, pivot) : std::fabs(pivot)) > least_pivot)
       return true;
     truncate(n);
@@ -224,14 +223,12 @@ class ActiveSet {
     Real before = (std::numeric_limits<Real>::max)();
     for (int pass = 0; pass < passes; ++pass) {
       Values change;
-      Real most = 0, off = 0;
-      for (int i = 0; i < size(); ++i) {
-        change[i] = due[i] - laws.of(active_[i]).of(T);
+      for (int i = 0; i < size(); ++i) change[i] = due[i] - laws.of(active_[i]).of(T);
+      if (passes > 1) {
+        const Real off = largest(size(), &change[0]);
+        if (pass > 0 && (off <= epsilon * largest(model_->segments, &T[0]) || off > before / 4)) return;
+        before = off;
       }
-      off = largest(size(), &change[0]);
-      if (pass > 0) most = largest(model_->segments, &T[0]);
-      if (pass > 0 && (off <= epsilon * most || off > before / 4)) return;
-      before = off;
       factors_.solve(change);
       Tensions e;
       e.fill(Real(0));

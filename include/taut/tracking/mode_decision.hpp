@@ -347,13 +347,7 @@ class ModeDecision {
       if (!zero[r]) continue;
       state_.slack[r] = false;
       state_.moved.slack_length[r] = 0;
-      // From the jacks outward: the joints that leave first are the last of the set, and little is made anew.
-      for (const std::size_t end : {std::size_t(0), std::size_t(1)})
-        for (int k = 0; slides && k < spans_[r].count; ++k) {
-          const int i = end == 0 ? k : spans_[r].count - 1 - k;
-          const Pull pull = pull_on(spans_[r], i, false);
-          if (pull.jack != nullptr && pull.jack->end == end) slide_toward(pull, r, i);
-        }
+      if (slides) slide_toward_jacks(r);
     }
     cables_.drop_set();
     if (constraints_.set_up_soundly() && go_on(modes, false, &zero)) {
@@ -365,8 +359,18 @@ class ModeDecision {
     cables_.drop_set();
     return false;
   }
-  void slide_toward(const Pull& pull, int r, int segment) {
-    for_each_joint_toward(*pull.jack, spans_[r], segment, [&](int joint, JointState way) {
+  void slide_toward_jacks(int r) {
+    FixedArray<const JackedEnd*, Cap::segments> toward;
+    for (int i = 0; i < spans_[r].count; ++i) toward[i] = pull_on(spans_[r], i, false).jack;
+    // From the jacks outward: the joints that leave first are the last of the set, and little is made anew.
+    for (const std::size_t end : {std::size_t(0), std::size_t(1)})
+      for (int k = 0; k < spans_[r].count; ++k) {
+        const int i = end == 0 ? k : spans_[r].count - 1 - k;
+        if (toward[i] != nullptr && toward[i]->end == end) slide_toward(*toward[i], r, i);
+      }
+  }
+  void slide_toward(const JackedEnd& jack, int r, int segment) {
+    for_each_joint_toward(jack, spans_[r], segment, [&](int joint, JointState way) {
       if (cables_.glides(joint) || state_.slides[joint] == way) return;
       if (state_.slides[joint] == JointState::stick) state_.order.add(static_cast<std::int16_t>(joint));
       state_.slides[joint] = way;

@@ -87,10 +87,10 @@ class ModeSolver {
 
   /// Solves for the rates `stuck` that tensions have with every joint stuck; `due` are the rates of the laws
   /// in the set. Rates below `none` are zero. `go_on`: slips in the set that have their sign stay, those that
-  /// have not leave, and only the limits that are violated then are covered: an ordinary event is one pivot.
-  /// Otherwise the set has no slips and the problem is solved from zero.
+  /// have not turn round or leave, and only the limits that are violated then are covered: an ordinary event
+  /// is one pivot. Otherwise the set has no slips and the problem is solved from zero.
   ///
-  /// At most most_pivots() of all pairs, each with two or three solutions of the set. On success the set has
+  /// At most most_pivots() of all pairs, each with one to three solutions of the set. On success the set has
   /// the slips that slide and the segments that go slack.
   Outcome solve(const Tensions& stuck, const Values& due, Real none, bool go_on) {
     const Outcome outcome = begin_path(
@@ -114,8 +114,9 @@ class ModeSolver {
     place_.fill(inactive);
     equalities_ = 0;
     while (equalities_ < set_->size() && (*set_)[equalities_].sense == 0) ++equalities_;
+    const Real softest = Real(1) / stiffest_;
     for (int p = 0; p < pairs_.size(); ++p)
-      scale_[segment_of(p)] = std::sqrt(static_cast<float>(stiffness(active_of(p)) / stiffest_));
+      scale_[segment_of(p)] = std::sqrt(static_cast<float>(stiffness(active_of(p)) * softest));
     if (go_on) {
       bool any = false;
       if (!keep_what_goes_on(due, find_stuck, find_known, any)) return Outcome::singular;
@@ -135,9 +136,14 @@ class ModeSolver {
   static constexpr std::int16_t inactive = -1;
   /// Pivots of the set, relative to its entries: below, the slip waits until another makes room for it.
   static constexpr Real least_pivot = Real(1e-10);
+  /// A guess is worth no less.
+  static constexpr Real sound_pivot = Real(1e-4);
 
   /// Of the covering variable along the path: less is rounding.
   static constexpr Real least_slope = Real(1e-13);
+  /// The response to the covering variable is carried on while its rounding has grown no more than that:
+  /// less than the least rate that counts.
+  static constexpr Real most_growth = 4096;
   /// A covering variable that is so small a part of what it was at first is zero.
   static constexpr Real rounding = Real(1e-12);
 
@@ -159,8 +165,6 @@ class ModeSolver {
     return pair.is_segment() ? T[pair.index] : laws_->limit(pair.slip()).of(T);
   }
   Real stiffness(const ActiveConstraint& active) const { return set_->stiffness(active.variable); }
-  /// The elongation of a segment that changes its own tension by one [m/N].
-  Real unit(int p) const { return set_->flexibility(active_of(p).variable); }
   /// Symmetric scaling to a unit diagonal: what a unit of the covering variable adds to a row [-].
   Real cover(int p) const {
     if (!covers_[p]) return 0;
@@ -173,7 +177,17 @@ class ModeSolver {
     return pairs_[p].is_segment() ? pairs_[p].index : laws_->sides(pairs_[p].index)[0];
   }
   Real perturbation(int p) const { return scale(p) * taut::perturbation<Real>(p); }
-  static Real sign(const ActiveConstraint& active) { return active.sense < 0 ? Real(-1) : Real(1); }
+  /// What a variable's value, in the sense in which it slides, is in its own segment [N].
+  Real along(const ActiveConstraint& active, Real value) const {
+    return signed_by(active, value) * stiffness(active);
+  }
+  /// The value that is one there [m/N].
+  Real unit(const ActiveConstraint& active) const {
+    return signed_by(active, set_->flexibility(active.variable));
+  }
+  static Real signed_by(const ActiveConstraint& active, Real value) {
+    return active.sense < 0 ? -value : value;
+  }
 
   // The start.
 
@@ -191,43 +205,47 @@ class ModeSolver {
     keep_values(values, value_, Real(1));
     return true;
   }
-  /// `any`: whether a limit is violated then.
+  /// Slips in the set whose rates have the wrong sign leave, and enter the other way, once, where that limit
+  /// holds too. `any`: whether a limit is violated then.
   template <class FindStuck, class FindKnown>
   [[gnu::noinline]] bool keep_what_goes_on(const Values& due, const FindStuck& find_stuck,
                                            const FindKnown& find_known, bool& any) {
     covers_.fill(false);
-    for (int i = equalities_; i < set_->size(); ++i) name((*set_)[i], i);
+    FixedArray<bool, max_pairs> has_left;
+    has_left.fill(false);
+    name_all();
     bool is_first = true;
-    for (int rounds = set_->size() - equalities_; rounds >= 0; --rounds) {
+    for (int rounds = 2 * (set_->size() - equalities_); rounds >= 0; --rounds) {
       Values values;
       values.fill(Real(0));
       if (!is_first || !find_known(T_, values)) {
         find_stuck(T_);
         set_->settle(*laws_, due, T_, values);
       }
-      is_first = false;
-      // From the last one on, so that the factors of the first are kept.
-      int gone = set_->size();
-      any = false;
-      for (int i = set_->size() - 1; i >= equalities_; --i) {
-        const ActiveConstraint& active = (*set_)[i];
-        if (sign(active) * values[i] * stiffness(active) >= -none_) continue;
-        any = true;
-        gone = i;
+      is_first = any = false;
+      FixedArray<bool, Set::capacity> leaves;
+      for (int i = 0; i < set_->size(); ++i) {
+        leaves[i] = i >= equalities_ && along((*set_)[i], values[i]) < -none_;
+        any = any || leaves[i];
       }
       if (!any) {
         keep_values(values, value_, Real(1));
         break;
       }
-      FixedArray<bool, Set::capacity> leaves;
-      leaves.fill(false);
-      for (int i = gone; i < set_->size(); ++i) {
-        const ActiveConstraint& active = (*set_)[i];
-        leaves[i] = sign(active) * values[i] * stiffness(active) < -none_;
+      FixedArray<bool, max_pairs> turns;
+      turns.fill(false);
+      for (int i = equalities_; i < set_->size(); ++i) {
+        const int p = leaves[i] ? (*set_)[i].pair : -1;
+        if (p < 0) continue;
+        has_left[p] = true;
+        const int other = other_way(p);
+        if (other >= 0) turns[other] = !has_left[other];
       }
       if (!set_->remove_if(*laws_, [&](int i) { return leaves[i]; })) return false;
       place_.fill(inactive);
-      for (int i = equalities_; i < set_->size(); ++i) name((*set_)[i], i);
+      name_all();
+      for (int p = 0; p < pairs_.size(); ++p)
+        if (turns[p]) static_cast<void>(enter(p, sound_pivot));
     }
     any = false;
     for (int p = 0; p < pairs_.size(); ++p) {
@@ -236,19 +254,28 @@ class ModeSolver {
     }
     return true;
   }
-  /// Finds the pair of a slip that is in the set.
-  void name(const ActiveConstraint& active, int at) {
+  /// Finds the pairs of the slips that are in the set.
+  void name_all() {
+    for (int i = equalities_; i < set_->size(); ++i) {
+      const ActiveConstraint& active = (*set_)[i];
+      const int p = find(active.variable.index, active.sense > 0);
+      if (p < 0) continue;
+      set_->set_pair(i, p);
+      place_[p] = 0;
+    }
+  }
+  int other_way(int p) const { return find(pairs_[p].index, pairs_[p].way != JointState::forward); }
+  int find(int joint, bool forward) const {
     for (int p = 0; p < pairs_.size(); ++p)
-      if (!pairs_[p].is_segment() && pairs_[p].index == active.variable.index &&
-          (pairs_[p].way == JointState::forward) == (active.sense > 0)) {
-        set_->set_pair(at, p);
-        place_[p] = 0;
-      }
+      if (!pairs_[p].is_segment() && pairs_[p].index == joint &&
+          (pairs_[p].way == JointState::forward) == forward)
+        return p;
+    return -1;
   }
   void keep_values(const Values& values, FixedArray<Real, max_pairs>& of_pair, Real times) {
     for (int i = equalities_; i < set_->size(); ++i) {
       const ActiveConstraint& active = (*set_)[i];
-      if (active.pair >= 0) of_pair[active.pair] += times * sign(active) * values[i] * stiffness(active);
+      if (active.pair >= 0) of_pair[active.pair] += times * along(active, values[i]);
     }
   }
   /// The second part of all values.
@@ -256,7 +283,8 @@ class ModeSolver {
     T_tie_.fill(Real(0));
     if (covers_all_) {
       for (int p = 0; p < pairs_.size(); ++p)
-        if (pairs_[p].is_segment()) set_->carry(pairs_[p].index, -perturbation(p) * unit(p), T_tie_);
+        if (pairs_[p].is_segment())
+          set_->carry(pairs_[p].index, -perturbation(p) * unit(active_of(p)), T_tie_);
       Values values, dues;
       values.fill(Real(0));
       dues.fill(Real(0));
@@ -274,8 +302,10 @@ class ModeSolver {
   /// At first the response to the covering variable alone: there is one storage for both.
   struct Direction : Response {
     Real z = 0, entering = 0, pending = 0;
-    bool enters = false;  // the entering variable, rather than its row
+    bool enters = false;       // the entering variable, rather than its row
+    bool is_of_cover = false;  // the response of the present set to a unit of the covering variable
     int pair = -1;
+    Real growth = 1;  // of its rounding since it was worked out through the factors
   };
   Real tie_of_row(int p) const {
     const Real of_tensions = row(p, T_tie_);
@@ -288,7 +318,7 @@ class ModeSolver {
 
   void respond(const ActiveConstraint& to, Response& response) const {
     response.T.fill(Real(0));
-    set_->carry(to.variable, sign(to) * set_->flexibility(to.variable), response.T);
+    set_->carry(to.variable, unit(to), response.T);
     settle_rates(response, false);
   }
   void respond_to_cover(Response& response) const {
@@ -302,7 +332,7 @@ class ModeSolver {
     if (!any) return;
     if (covers_all_)
       for (int p = 0; p < pairs_.size(); ++p)
-        if (pairs_[p].is_segment()) set_->carry(pairs_[p].index, -cover(p) * unit(p), response.T);
+        if (pairs_[p].is_segment()) set_->carry(pairs_[p].index, -cover(p) * unit(active_of(p)), response.T);
     settle_rates(response, true);
   }
   void settle_rates(Response& response, bool is_cover) const {
@@ -321,7 +351,11 @@ class ModeSolver {
   /// Along which the laws of the set hold, that of the pending slip, and that of the entering one.
   bool find(Direction& direction) {
     Response other;  // one storage: what is pending is worked out twice where something else enters
-    respond_to_cover(direction);
+    if (!direction.is_of_cover) {
+      respond_to_cover(direction);
+      direction.growth = 1;
+    }
+    direction.is_of_cover = false;
     const int e = direction.pair, k = pending_;
     const Real rz = row(e, direction.T) + direct(e);
     Real by_z = 0, by_entering = 0, by_pending = 0;
@@ -392,32 +426,34 @@ class ModeSolver {
     const Real largest_rate = largest(model_->segments, &direction.T[0], std::fabs(direction.z));
     const Real least_rate = Real(1e-11) * largest_rate, zero = Real(1e-13) * largest_ + none_;
     Blocking blocking;
-    const auto consider = [&](Real value, Real tie, Real rate, Leaves what, int pair) {
+    const auto consider = [&](Real rate, Leaves what, int pair) {
       if (!(rate < -least_rate)) return;
-      const Real step = value > zero ? value / -rate : Real(0), step_tie = tie / -rate;
+      const Real value = what == Leaves::row ? value_of_row(pair) : value_[pair];
+      const Real step = value > zero ? value / -rate : Real(0);
       const Real same = Real(1e-13) * larger(step, blocking.step) + zero;
-      const bool is_first = blocking.what == Leaves::nothing || step < blocking.step - same ||
-                            (step <= blocking.step + same && step_tie < blocking.step_tie);
-      if (is_first) blocking = {what, pair, step, step_tie, value / -rate};
+      if (blocking.what != Leaves::nothing && !(step <= blocking.step + same)) return;
+      const Real step_tie = (what == Leaves::row ? tie_of_row(pair) : tie_[pair]) / -rate;
+      if (blocking.what == Leaves::nothing || step < blocking.step - same || step_tie < blocking.step_tie)
+        blocking = {what, pair, step, step_tie};
     };
     for (int i = equalities_; i < set_->size(); ++i) {
       const ActiveConstraint& active = (*set_)[i];
       if (active.pair < 0) continue;
-      const Real rate = sign(active) * direction.values[i] * stiffness(active);
-      consider(value_[active.pair], tie_[active.pair], rate, Leaves::active, active.pair);
+      const Real rate = along(active, direction.values[i]);
+      consider(rate, Leaves::active, active.pair);
     }
-    if (is_pending_) consider(value_[pending_], tie_[pending_], direction.pending, Leaves::pending, pending_);
+    if (is_pending_) consider(direction.pending, Leaves::pending, pending_);
     for (int p = 0; p < pairs_.size(); ++p) {
       if (place_[p] != inactive || p == direction.pair) continue;
       const Real rate = row(p, direction.T) + direct(p) * direction.z;
-      consider(value_of_row(p), tie_of_row(p), rate, Leaves::row, p);
+      consider(rate, Leaves::row, p);
     }
     // Among ties the cover leaves: the problem is solved.
     if (direction.z < 0) {
       const Real step = z_ / -direction.z;
       const Real same = Real(1e-13) * larger(step, blocking.step) + zero;
       if (blocking.what == Leaves::nothing || step <= blocking.step + same)
-        blocking = {Leaves::cover, -1, step, Real(0), step};
+        blocking = {Leaves::cover, -1, step, Real(0)};
     }
     if (blocking.what == Leaves::nothing) {
       const Real most = largest(model_->segments, &direction.T[0]);
@@ -432,7 +468,7 @@ class ModeSolver {
   struct Blocking {
     Leaves what = Leaves::nothing;
     int pair = -1;
-    Real step = 0, step_tie = 0, exact = 0;
+    Real step = 0, step_tie = 0;
   };
   void step_along(const Direction& direction, const Blocking& blocking) {
     axpy(model_->segments, blocking.step, &direction.T[0], &T_[0]);
@@ -451,6 +487,7 @@ class ModeSolver {
     }
   }
   Outcome change_sides(Direction& direction, const Blocking& blocking) {
+    const bool was_pending = is_pending_;
     int waiting[2] = {-1, -1}, count = 0;
     if (is_pending_ && blocking.what != Leaves::pending) waiting[count++] = pending_;
     if (direction.enters) waiting[count++] = direction.pair;
@@ -488,9 +525,24 @@ class ModeSolver {
       place_[pending_] = inactive;
       return Outcome::solved;
     }
+    if (blocking.what == Leaves::row && !was_pending && !is_pending_) carry_cover(direction);
     direction.pair = blocking.pair;
     direction.enters = blocking.what == Leaves::row;
     return Outcome::pivots;
+  }
+  /// What entered keeps its row at zero along the direction, and nothing left: by a unit of the covering
+  /// variable that is the response of the new set.
+  void carry_cover(Direction& direction) {
+    direction.growth /= std::fabs(direction.z);
+    if (!(direction.growth <= most_growth)) return;
+    const Real by = Real(1) / direction.z;
+    for (int i = 0; i < model_->segments; ++i) direction.T[i] *= by;
+    for (int i = 0; i < set_->size(); ++i) direction.values[i] *= by;
+    if (direction.enters) {
+      const int last = set_->size() - 1;
+      direction.values[last] = unit((*set_)[last]) * direction.entering * by;
+    }
+    direction.is_of_cover = true;
   }
   bool enter(int p, Real least = Real(1e-12)) {
     if (!set_->append(*laws_, active_of(p), least)) return false;
@@ -550,7 +602,7 @@ auto ModeSolver<CondensedType, Laws>::follow_path() -> Outcome {
   for (int i = equalities_; i < set_->size(); ++i) {
     const ActiveConstraint& active = (*set_)[i];
     if (active.pair < 0) continue;
-    const Real by = sign(active) * direction.values[i] * stiffness(active);
+    const Real by = along(active, direction.values[i]);
     if (value_[active.pair] < -none_ && by > 0 &&
         is_first(value_[active.pair], tie_[active.pair], by, needed, needed_tie)) {
       leaving = active.pair;
@@ -560,9 +612,9 @@ auto ModeSolver<CondensedType, Laws>::follow_path() -> Outcome {
   if (leaving < 0) return Outcome::solved;
   largest_ = needed;
   direction.z = 1;
-  step_along(direction, {Leaves::cover, -1, needed, needed_tie, needed});
+  step_along(direction, {Leaves::cover, -1, needed, needed_tie});
   direction.pair = leaving;
-  direction.enters = !leaves_set;
+  direction.enters = direction.is_of_cover = !leaves_set;
   if (leaves_set && !leave(leaving)) return Outcome::singular;
 
   for (pivots_ = 1; pivots_ <= most_pivots(pairs_.size()); ++pivots_) {
