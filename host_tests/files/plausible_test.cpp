@@ -2,8 +2,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "files/result_table.hpp"
 #include "files/run_program.hpp"
@@ -148,6 +150,33 @@ TEST_CASE("forces in kN or MN without their unit are refused; 1 kN on a strand i
   check_taken({}, "estimate", ramp("time,C.end", 20, [](int i) { return up_to(1000, 20, i); }));
   check_taken({}, "estimate", "time,C.end\n1,0\n2,0\n3,0\n4,0\n");
   check_taken({}, "simulate", "time,C.end\n1,1\n2,2\n3,3\n4,4\n");
+}
+
+TEST_CASE("load stages in kN without their unit are refused, and thousands after a comma; noise is taken") {
+  // Stages are on no line, and what they scatter by is as large as they are.
+  const std::vector<int> stages = {0, 13, 30, 55, 47, 65, 95, 105, 130, 90, 120};
+  const int rows = static_cast<int>(stages.size());
+  const auto stage = [&](int i) { return std::to_string(stages.at(static_cast<std::size_t>(i - 1))); };
+  const std::string message =
+      "no jack strains its cable by as much as 1e-5 in the whole log; write the unit "
+      "of the column after its name, as in C.end [kN]";
+  check_refused({}, "estimate", ramp("time,C.end", rows, [&](int i) { return stage(i); }),
+                "log.csv: line 1, column 2 (C.end): " + message + "; if");
+  const auto semicolons = [](std::string log) {
+    log.replace(log.find("time,C"), 6, "time;C");
+    for (std::size_t at = log.find('\n'); at != std::string::npos; at = log.find('\n', at + 1))
+      if (const std::size_t comma = log.find(',', at); comma != std::string::npos) log[comma] = ';';
+    return log;
+  };
+  check_refused({}, "estimate",
+                semicolons(ramp("time,C.end", rows, [&](int i) { return stage(i) + (i > 1 ? ",000" : ""); })),
+                message + ", or leave out commas that stand for thousands; if");
+  check_taken({}, "estimate", ramp("time,C.end", rows, [&](int i) { return stage(i) + "000"; }));
+  std::uint32_t random = 1;
+  check_taken({}, "estimate", ramp("time,C.end", 30, [&](int) {
+                random = random * 1664525U + 1013904223U;
+                return std::to_string(static_cast<int>(random >> 24) - 128);
+              }));
 }
 
 TEST_CASE("strokes in mm without the unit are refused; from any mark and with a wrong one they are taken") {

@@ -46,8 +46,8 @@ void PlausibleLog::Strokes::take(const Stroke& stroke) {
 }
 
 double PlausibleLog::Jack::pull() const {
-  if (within.readings() < least_readings || within.largest() <= clear_of_noise * within.scatter()) return 0;
-  return within.largest();
+  const bool is_clear = within.largest() > clear_of_noise * within.scatter() || within.goes_somewhere();
+  return within.readings() >= least_readings && is_clear ? within.largest() : 0;
 }
 
 PlausibleLog::PlausibleLog(const SceneDescription& scene) : scene_(scene), cables_(scene.cables.size()) {}
@@ -119,7 +119,8 @@ void PlausibleLog::require_units_of_jacks(const LogReader& log, const std::strin
   const CableDescription& cable = scene_.cables[first_cable];
   refuse(path, log.place(log.header_line(), column_of(cable, first_end)),
          "no jack strains its cable by as much as 1e-5 in the whole log",
-         unit_remedy(cable, first_end, "kN"));
+         unit_remedy(cable, first_end, "kN") +
+             (log.takes_decimal_commas() ? ", or leave out commas that stand for thousands" : ""));
 }
 
 void PlausibleLog::require_strokes(std::size_t c, std::size_t end, const LogReader& log,

@@ -91,6 +91,8 @@ class LogReader {
   bool has(const std::string& column) const;
   /// The columns in the order of the file.
   const std::vector<std::string>& names() const { return names_; }
+  /// Whether a comma in a number is a decimal one.
+  bool takes_decimal_commas() const { return separator_ == ';'; }
   /// The line that the header is in.
   std::size_t header_line() const { return header_line_; }
   /// A place for a message: the line, and the column with this name, which the log has.
