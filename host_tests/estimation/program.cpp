@@ -278,6 +278,39 @@ TEST_CASE("what the scene does not say is assumed with a remark") {
   CHECK(outcome.err.find("hysteresis sd 0.01") != std::string::npos);
 }
 
+TEST_CASE(
+    "load stages show no noise: cells that nobody described are trusted, with the noise of ordinary ones") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0.05, "shared": true)", ""));
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  const double most = 2e5;
+  int trusted = 0, rows = 0, far = 0;
+  for (int jacking = 0; jacking < 10; ++jacking) {
+    const double mu = 0.2 + 0.05 * normal(random);
+    std::string log = "time,C.start,C.end\n0,0,0\n";
+    for (int stage = 1; stage <= 16; ++stage) {
+      const double force = most * stage / 16, at_far_end = far_end(force, mu);
+      log += std::to_string(90 * stage) + ',' + std::to_string(at_far_end + 0.002 * most * normal(random));
+      log += ',' + std::to_string(force + 0.002 * most * normal(random)) + '\n';
+    }
+    write(scratch, "log.csv", log);
+    const Outcome outcome = estimate(scratch);
+    REQUIRE(outcome.status == 0);
+    const Table table(outcome.out);
+    for (std::size_t row = 1; row <= 16; ++row) {
+      const double truth = far_end(most * static_cast<double>(row) / 16, mu);
+      trusted += table.at(row, "verdict") == "trust" ? 1 : 0;
+      far += std::fabs(table.number(row, "C.T1") - truth) > 2 * table.number(row, "C.sd1") ? 1 : 0;
+      ++rows;
+    }
+  }
+  // With a noise of 1e-4 of the largest, the least that is taken, 147.
+  MESSAGE(trusted << " of " << rows << " trusted, " << far << " farther than two deviations");
+  CHECK(trusted >= 0.95 * rows);
+  CHECK(far <= 0.08 * rows);
+}
+
 TEST_CASE("with everything known estimate gives what simulate gives") {
   const Scratch scratch;
   write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0)", exact_jack));

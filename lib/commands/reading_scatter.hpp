@@ -16,7 +16,10 @@ class ReadingScatter {
     high_ = readings_ == 0 ? reading : std::max(high_, reading);
     low_ = readings_ == 0 ? reading : std::min(low_, reading);
     if (in_a_row_ >= 1) way_ += std::fabs(reading - last_);
-    if (in_a_row_ >= 2) keep(std::fabs(reading - 2 * last_ + before_));
+    if (in_a_row_ >= 2) {
+      keep(std::fabs(reading - 2 * last_ + before_));
+      ++readings_on_lines_;
+    }
     before_ = last_;
     last_ = reading;
     ++readings_;
@@ -43,6 +46,8 @@ class ReadingScatter {
     return *middle / (0.6745 * std::sqrt(6.0));
   }
   std::size_t readings() const { return readings_; }
+  /// How many readings could be compared with a line through the two before.
+  std::size_t on_lines() const { return readings_on_lines_; }
   /// Whether they come further than noise does on its way: of so many readings of white noise, eight at
   /// least, fewer than one series in a hundred would. Load stages are on no line that scatter() knows.
   bool goes_somewhere() const {
@@ -66,7 +71,7 @@ class ReadingScatter {
   std::vector<double> bends_;
   double largest_ = 0, expected_ = 0, last_ = 0, before_ = 0;
   double high_ = 0, low_ = 0, way_ = 0;  // way_: there and back
-  std::size_t readings_ = 0, in_a_row_ = 0, every_ = 1;
+  std::size_t readings_ = 0, readings_on_lines_ = 0, in_a_row_ = 0, every_ = 1;
 };
 
 }  // namespace taut::host

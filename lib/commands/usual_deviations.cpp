@@ -16,7 +16,8 @@ namespace taut::host {
 namespace {
 
 constexpr double usual_mu_sd = 0.5, usual_gain_sd = 0.01, usual_zero_sd = 0.002, usual_hysteresis_sd = 0.01,
-                 least_noise = 1e-4, expected_noise = 1e-3, usual_stroke_sd = 1e-3;
+                 least_noise = 1e-4, expected_noise = 1e-3, usual_noise_of_stage = 3e-3,
+                 usual_stroke_sd = 1e-3;
 // Of a tendon when it is tensioned, and of a strut.
 constexpr double usual_strain = 0.005, usual_strain_of_strut = 0.001;
 
@@ -107,10 +108,9 @@ void fill_in_strokes(const LogReader& log, SceneDescription& scene, std::vector<
 }
 
 // What the readings of a load cell say of it. The noise level begins low and needs some hundred rows to come
-// up; the scatter needs few, but takes noise with a memory for less than it is. It says nothing of load
-// stages.
+// up; the scatter needs few, but takes noise with a memory for less than it is. Load stages tell neither.
 struct CellReadings {
-  static constexpr std::size_t enough = 16;  // for a median
+  static constexpr std::size_t enough = 14;  // for a median
 
   double largest = 0;
   NoiseLevel<double> noise;
@@ -123,7 +123,11 @@ struct CellReadings {
     largest = expected;
     noise.start(expected_noise * expected);
   }
-  double sd() const { return std::max(noise.sd(), scatter.readings() < enough ? 0 : scatter.scatter()); }
+  bool tells_noise() const { return scatter.on_lines() >= enough; }
+  double sd() const {
+    if (tells_noise()) return std::max(noise.sd(), scatter.scatter());
+    return count > 0 ? std::max(noise.sd(), usual_noise_of_stage * largest) : noise.sd();
+  }
   void take(double reading, double at) {
     noise.take(reading, at - time);
     if (count > 0 && at - time > JumpGuard<double>::far_apart) scatter.interrupt();
@@ -193,7 +197,7 @@ Sentence fill_in(const CellReadings& readings, bool has_constants, InstrumentDes
   const double noise = std::max(readings.sd(), least_noise * readings.largest),
                zero = usual_zero_sd * readings.largest;
   take(instrument.sd, noise,
-       Sentence(readings.count > 0 ? "sd {1} N as its readings scatter" : "sd {1} N", {digits(noise)}));
+       Sentence(readings.tells_noise() ? "sd {1} N as its readings scatter" : "sd {1} N", {digits(noise)}));
   if (!has_constants) return taken;
   take(instrument.gain_sd, usual_gain_sd, Sentence("gain_sd {1}", {digits(usual_gain_sd)}));
   take(instrument.zero_sd, zero, Sentence("zero_sd {1} N", {digits(zero)}));
