@@ -23,7 +23,7 @@ struct Alarm {
     segment,         ///< the measured force of a segment contradicts the model by more than five sigma
     unknown_past,    ///< the cable was under load before the first reading, and has not slid enough since
     misfit,  ///< readings at an anchored end are off what the model says for longer than chance allows
-    frozen,  ///< a load cell keeps one value although the load moves
+    frozen,  ///< a load cell keeps one value although the load moves, or it had noise: see StandingCell
     gain,    ///< the load cells at the anchored end and at the jack of a cable surely differ in gain
   } kind = Kind::outlier;
   std::int16_t cable = 0;  ///< -1: `place` is a strut

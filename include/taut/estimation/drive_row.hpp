@@ -60,6 +60,7 @@ template <class Parts>
     if (jacks[k].take(locked, given, readings.dt, parts.cell(k), parts.most_force(k), held, corners,
                       [&] { return sees_rise(parts, k, given.force, beside); }))
       parts.alarms.add(Parts::alarm_at(Alarm::Kind::outlier, jacks.end(k)));
+    if (jacks[k].standing.is_frozen()) parts.alarms.add(Parts::alarm_at(Alarm::Kind::frozen, jacks.end(k)));
     if (jacks[k].is_new) jacks[k].beside = beside.force;
     has_more |= given.has_stroke | (jacks[k].locked & given.has_force);
   }

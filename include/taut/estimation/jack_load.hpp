@@ -16,6 +16,7 @@
 #include "taut/estimation/load_moves.hpp"
 #include "taut/estimation/noise_level.hpp"
 #include "taut/estimation/readings.hpp"
+#include "taut/estimation/standing_cell.hpp"
 #include "taut/estimation/turning_point.hpp"
 #include "taut/numerics/larger.hpp"
 #include "taut/scene/load_cell.hpp"
@@ -55,6 +56,8 @@ struct JackLoad {
   JumpGuard<Scalar> guard;
   NoiseLevel<Scalar> noise;
   LoadMoves<Scalar> moves;
+  StandingCell<Scalar> standing;
+  Scalar fastest_seen = 0;  ///< that the load has surely gone [N/s]
   TurningPoint<Scalar> turning;
   ConditionedLoad<Scalar> at{};
   Jack<Scalar> driven{};  ///< where the tracker was driven to
@@ -162,6 +165,7 @@ struct JackLoad {
     at.behind = false;
     filter.start(filter.sd());
     turning.clear();
+    standing = {};
     elongation.begin_leg();
     below = 0;
   }
@@ -346,8 +350,12 @@ struct JackLoad {
       lie_locked();
       return false;
     }
-    if (!given.has_force) {
+    const bool rests = step_by <= filter.sd() / 2;
+    const bool is_frozen = given.has_force && cell.sd > 0 && !locked && standing.take(given.force, dt, rests);
+    if (!given.has_force || is_frozen) {
       if (!locked && cell.sd > 0) go_unread(cell);
+      // Two standard deviations are as far as it can have gone since.
+      if (is_frozen) leave_unread(-larger(-most, -fastest_seen * standing.stood()) / 2);
       return false;
     }
     is_unread = false;
@@ -420,6 +428,7 @@ struct JackLoad {
     if (first == 0 && at.load > 0) first = Scalar(1e-3) * cell.sd;
     step_by = std::fabs(at.load - load_before);
     stride = since;
+    if (goes_on && step_by > fastest_seen * stride) fastest_seen = step_by / stride;
     since = 0;
     is_new = !at.refused;
     if (taught > filter.run_length()) taught = filter.run_length();
