@@ -325,3 +325,34 @@ TEST_CASE("a path of short pieces is no noise: ramps and holds of thirty reading
   // A few readings in a row are off by chance.
   CHECK(wrong < 0.01 * all);
 }
+
+TEST_CASE("the steps of a display are no memory: the load stays near what is shown, however often it turns") {
+  const double step = 1000, noise = 20;
+  taut::LoadCell<double> cell;
+  cell.sd = std::sqrt(step * step / 12 + noise * noise);
+  double farthest = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    CAPTURE(seed);
+    support::Random random(seed);
+    taut::JackLoad<double, 2> jack;
+    jack.start(cell);
+    double from = 0;
+    for (int leg = 0; leg < 12; ++leg) {
+      const double part = random.between(0, 1), to = leg % 2 == 1 ? 2e4 + 1e4 * part : 3.5e4 + 1.5e4 * part;
+      const int moves = 20 + random.below(40), holds = 10 + random.below(40);
+      for (int i = 1; i <= moves + holds; ++i) {
+        const double load = i < moves ? from + (to - from) * i / moves : to;
+        taut::EndReading<double> given;
+        given.has_force = true;
+        given.force = step * std::round((load + noise * support::gaussian(random)) / step);
+        taut::Corners<double> corners;
+        static_cast<void>(jack.take(false, given, 1, cell, 1e7, {}, corners));
+        if (!jack.at.refused) farthest = std::fmax(farthest, std::fabs(jack.at.load - given.force) / step);
+      }
+      from = to;
+    }
+  }
+  // Where r was asked of readings most of whose neighbours stood on one step, 7.4.
+  MESSAGE("at most " << farthest << " steps from what is shown");
+  CHECK(farthest < 3.5);
+}

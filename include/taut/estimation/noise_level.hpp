@@ -73,8 +73,8 @@ class NoiseLevel {
       explained = larger(explained, white);
     }
     const Scalar lasting = larger(rounding, Scalar(1.4142136) * swings);
-    // That neighbours are alike where nothing changes any more is no memory.
-    if (on_line_ > rests || distant_.learned < few || !distant_.exceeds(explained, 6))
+    // That neighbours are alike where nothing changes, or on the steps of a display, is no memory.
+    if (on_line_ > display || distant_.learned < few || !distant_.exceeds(explained, 6))
       return {white, lasting};
     const Scalar r = remembered(distant_.sd / larger(near, beside_.sd));
     return {larger(white, r * std::sqrt(r) * distant_.sd), lasting};
