@@ -276,6 +276,16 @@ TEST_CASE("what the scene does not say is assumed with a remark") {
     CHECK(outcome.err.find("the load cell " + cell + " is taken for an ordinary one") != std::string::npos);
   CHECK(outcome.err.find("gain_sd 0.01, zero_sd 320 N") != std::string::npos);
   CHECK(outcome.err.find("hysteresis sd 0.01") != std::string::npos);
+  // A cell of which something is said has no ram, but what is calibrated has, unless that is said.
+  const auto takes_ram = [&](const std::string& jack) {
+    write(scratch, "scene.json", scene(R"("mu": 0.2)", "\"C.end\": { " + jack + " }"));
+    const Outcome described = estimate(scratch);
+    REQUIRE(described.status == 0);
+    return described.err.find("hysteresis sd 0.01") != std::string::npos;
+  };
+  CHECK_FALSE(takes_ram(R"("sd": 300)"));
+  CHECK(takes_ram(R"("calibration": [[0, 0], [100000, 100000]])"));
+  CHECK_FALSE(takes_ram(R"("calibration": [[0, 0], [100000, 100000]], "hysteresis": { "part": 0 })"));
 }
 
 TEST_CASE(

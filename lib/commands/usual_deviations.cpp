@@ -227,7 +227,9 @@ void fill_in_cells(const CellTable& cells, SceneDescription& scene, std::vector<
       if (cell.exact || cells[c][end].largest == 0) continue;
       const bool has_constants = (cable.is_jacked(end) ? at_jacks : others) <= most_unknown_cells;
       Sentence taken = fill_in(cells[c][end], has_constants, cell);
-      if (cable.is_jacked(end) && !cell.is_given && has_constants) {
+      // What has a table is the gauge of a ram's pressure.
+      const bool has_ram = !cell.is_given || (!cell.calibration.empty() && !cell.has_hysteresis);
+      if (cable.is_jacked(end) && has_ram && has_constants) {
         cell.part_sd = usual_hysteresis_sd;
         taken = listed(taken, Sentence("hysteresis sd {1}", {digits(usual_hysteresis_sd)}));
       }

@@ -31,6 +31,7 @@ double part(const Field& field, const std::string& meaning, double below) {
 
 void read_hysteresis(const Field& field, InstrumentDescription& instrument) {
   field.require_keys(hysteresis_keys, "the friction of a ram: { \"part\": ..., \"calibrated\": \"mean\" }");
+  instrument.has_hysteresis = true;
   instrument.part = part(field.at("part"), "the part of the force that friction takes", 0.5);
   instrument.part_sd = instrument.part / 2;
   if (const auto sd = field.find("sd")) instrument.part_sd = part(*sd, "its standard deviation", 0.5);
