@@ -428,7 +428,7 @@ struct JackLoad {
     if (first == 0 && at.load > 0) first = Scalar(1e-3) * cell.sd;
     step_by = std::fabs(at.load - load_before);
     stride = since;
-    if (goes_on && step_by > fastest_seen * stride) fastest_seen = step_by / stride;
+    if (filter.goes_on() && stride > 0 && step_by > fastest_seen * stride) fastest_seen = step_by / stride;
     since = 0;
     is_new = !at.refused;
     if (taught > filter.run_length()) taught = filter.run_length();
