@@ -48,10 +48,11 @@ class ReadingScatter {
   std::size_t readings() const { return readings_; }
   /// How many readings could be compared with a line through the two before.
   std::size_t on_lines() const { return readings_on_lines_; }
-  /// Whether they come further than noise does on its way: of so many readings of white noise, eight at
-  /// least, fewer than one series in a hundred would. Load stages are on no line that scatter() knows.
+  /// Whether they come further than noise does on its way: of white noise fewer than one series in a hundred
+  /// would. Load stages are on no line that scatter() knows; they are no more than these.
   bool goes_somewhere() const {
-    return readings_ >= 8 && way_ <= static_cast<double>(readings_ - 1) / 6 * (high_ - low_);
+    const bool are_stages = readings_ >= 8 && readings_ <= 64;
+    return are_stages && way_ <= static_cast<double>(readings_ - 1) / 6 * (high_ - low_);
   }
 
  private:
