@@ -126,6 +126,18 @@ struct Decision {
     return solver.solve(stuck, due, none, go_on);
   }
 
+  /// Goes on from slips that are in the set: what is decided is one of `found`, and a ray if there is none.
+  /// Returns whether it was solved.
+  bool check_going_on(const Problem<Cap>& problem, const std::vector<Rates>& found,
+                      const std::vector<taut::ActiveConstraint>& begun) {
+    const Outcome outcome = decide(problem, true, begun);
+    CHECK(outcome == (found.empty() ? Outcome::ray : Outcome::solved));
+    if (outcome != Outcome::solved) return false;
+    CHECK(is_among(problem, found));
+    check_sides(problem);
+    return true;
+  }
+
   /// What was decided is one of these.
   bool is_among(const Problem<Cap>& problem, const std::vector<Rates>& found) const {
     const int n = problem.cable.n();
@@ -218,11 +230,7 @@ TEST_CASE_TEMPLATE(
     for (const auto& begun : {std::vector<taut::ActiveConstraint>{}, before}) {
       CAPTURE(begun.size());
       Decider decision;
-      const auto outcome = decision.decide(problem, true, begun);
-      CHECK(outcome == (found.empty() ? Decider::Outcome::ray : Decider::Outcome::solved));
-      if (outcome != Decider::Outcome::solved) continue;
-      CHECK(decision.is_among(problem, found));
-      decision.check_sides(problem);
+      if (!decision.check_going_on(problem, found, begun)) continue;
       sliding += decision.set.size() > static_cast<int>(problem.follow.size()) ? 1 : 0;
     }
   }
@@ -287,13 +295,8 @@ TEST_CASE_TEMPLATE("slips that begin the wrong way turn round, or stop", On, Str
     }
     problem.least.resize(problem.pairs.size(), 0);
     problem.stuck = Vector::Zero(cable.n());
-    const auto found = problem.all_rates();
     Decider decision;
-    const auto outcome = decision.decide(problem, true, begun);
-    CHECK(outcome == (found.empty() ? Decider::Outcome::ray : Decider::Outcome::solved));
-    if (outcome != Decider::Outcome::solved) continue;
-    CHECK(decision.is_among(problem, found));
-    decision.check_sides(problem);
+    if (!decision.check_going_on(problem, problem.all_rates(), begun)) continue;
     for (int j = 0; j < cable.model.joints; ++j) {
       const bool was_forward = begun[static_cast<std::size_t>(j)].sense > 0;
       turned += decision.solver.is_active(2 * j + (was_forward ? 1 : 0)) ? 1 : 0;
