@@ -37,7 +37,7 @@ void check_stroke(Parts& parts, int k, typename Parts::Scalar stroke) {
   if (jack.locked) return;
   if (!parts.is_bedded(k)) return jack.elongation.begin_leg();
   // Where a load may have turned, or was not read, so is the extension.
-  const bool is_known = !jack.at.behind && !jack.at.refused && std::isfinite(stroke);
+  const bool is_known = !jack.is_in_doubt() && std::isfinite(stroke);
   if (is_known ? jack.elongation.take(stroke, expected_extension(parts, k), parts.limits)
                : jack.elongation.is_off())
     parts.alarms.add(Parts::alarm_at(Alarm::Kind::elongation, parts.jacks.end(k)));

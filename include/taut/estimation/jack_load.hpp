@@ -213,6 +213,7 @@ struct JackLoad {
   void note_farthest(Scalar beyond) {
     constexpr Scalar surely = 6;
     Scalar come = at.load;
+    if (at.alone) return;
     goes_on = at.reversed || (filter.goes_on() && short_of_farthest(at.load) == 0);
     if (at.reversed) {
       turn_sd = at.reversal_sd > 0 ? at.reversal_sd : larger(sd_before, back(at.reversal));
@@ -229,7 +230,7 @@ struct JackLoad {
   /// Whether the one reading that was refused before this one was a peak of the load: the load has come at
   /// least half-way there.
   bool was_peak(Scalar reading) const {
-    if (!(at.refused && refusals == 1)) return false;
+    if (at.is_sure() || refusals != 1) return false;
     const Scalar far = std::fabs(refused - believed), left = std::fabs(refused - reading),
                  come = std::fabs(reading - believed);
     return left > 5 * filter.sd() && left < come && come < far;
@@ -261,17 +262,19 @@ struct JackLoad {
 
   /// A reading was refused, or not. Returns whether one was surely wrong: it cannot be a force at all, it is
   /// not the only one and they do not go on as a load that begins to move, or the next one shows that the
-  /// load did not go there. A single one at the end of a steep ramp lies between its neighbours.
-  [[nodiscard]] bool finds_outlier(Scalar reading, bool can_be) {
+  /// load did not go there. A single one at the end of a steep ramp lies between its neighbours. One that was
+  /// believed, `was_alone`, may have been by chance where a load at rest looks like one that moves.
+  [[nodiscard]] bool finds_outlier(Scalar reading, bool can_be, bool was_alone) {
     constexpr std::uint8_t many = 2;
-    if (at.refused) {
-      const bool is_surely = (refusals > 0 && !guard.may_go_on()) || !can_be;
+    constexpr Scalar apart = 5, surely_apart = 8;
+    if (!at.is_sure()) {
+      const bool is_surely = (refusals > 0 && !was_alone && !guard.may_go_on()) || !can_be;
       refusals = is_surely ? many : 1;
       refused = reading;
       return is_surely;
     }
-    const Scalar near = 5 * filter.sd(), least = -larger(-believed, -reading) - near,
-                 most = larger(believed, reading) + near;
+    const Scalar near = (was_alone ? surely_apart : apart) * filter.sd(),
+                 least = -larger(-believed, -reading) - near, most = larger(believed, reading) + near;
     const bool was_wrong = refusals == 1 && !(refused >= least && refused <= most);
     refusals = 0;
     believed = reading;
@@ -391,6 +394,7 @@ struct JackLoad {
     if (guard.has_moved()) filter.lose();
     if (was_peak(reading)) come_to_refused();
     const int run_length = filter.run_length();
+    const bool was_alone = at.alone && refusals == 1;
     new (&at) ConditionedLoad<Scalar>(filter.take(reading, since));
     if (at.refused && std::isfinite(reading) && is_seen()) {
       filter.lose();
@@ -410,13 +414,16 @@ struct JackLoad {
     // have gone as far again.
     if (at.refused && std::isfinite(reading))
       at.sd = larger(at.sd, std::fabs(reading - at.load) / (since > JumpGuard<Scalar>::far_apart ? 1 : 2));
-    if (at.refused) {
+    // The load has gone where one reading alone had left its line; else it is back on that.
+    if (was_alone && at.is_sure() && filter.run_length() <= 2) turning.add(refused, 0, filter.sd());
+    if (at.is_sure())
+      turning.add(reading, since, filter.sd());
+    else
       turning.miss(since);
+    if (at.refused) {
       // Friction stands where the load is, perhaps elsewhere.
       at.come = at.load;
       at.come_sd = at.sd;
-    } else {
-      turning.add(reading, since, filter.sd());
     }
     if (at.reversed) find_reversal(cell);
     raw = given.force;
@@ -428,13 +435,14 @@ struct JackLoad {
     if (first == 0 && at.load > 0) first = Scalar(1e-3) * cell.sd;
     step_by = std::fabs(at.load - load_before);
     stride = since;
-    if (filter.goes_on() && stride > 0 && step_by > fastest_seen * stride) fastest_seen = step_by / stride;
+    if (!at.alone && filter.goes_on() && stride > 0 && step_by > fastest_seen * stride)
+      fastest_seen = step_by / stride;
     since = 0;
-    is_new = !at.refused;
+    is_new = at.is_sure();
     if (taught > filter.run_length()) taught = filter.run_length();
     corners.reverses |= at.reversed;
     if (at.reversed) elongation.begin_leg();
-    return finds_outlier(given.force, std::isfinite(possible(given.force, most)));
+    return finds_outlier(given.force, std::isfinite(possible(given.force, most)), was_alone);
   }
   /// Unknowns were learned with so many of its readings, the one of this row among them.
   void teach(int readings) {
@@ -497,7 +505,7 @@ struct JackLoad {
   bool leads() const { return !locked && !at.behind && !stays_taken(); }
   /// What slides and what sticks in its cable is in doubt: the load may have reversed, or the reading of this
   /// row was none, and the load is where it was last read, or elsewhere.
-  bool is_in_doubt() const { return at.behind || (!locked && at.refused); }
+  bool is_in_doubt() const { return at.behind || (!locked && !at.is_sure()); }
   /// How far a load may have come back to `from` without being confirmed to have turned: the forces that
   /// friction holds did not follow. Zero within three standard deviations, as it is by chance [N].
   Scalar back(Scalar from) const {
@@ -563,7 +571,7 @@ struct JackLoad {
   [[nodiscard]] bool lifts_off(Scalar reading, Scalar most, Scalar held, const Deviation& deviation) {
     const ConditionedLoad<Scalar> pull = filter.take(possible(reading, most), since);
     since = 0;
-    if (pull.refused) return false;
+    if (!pull.is_sure()) return false;
     if (below == confirmed_below) {
       if (pull.load < held) return false;
       below = 0;

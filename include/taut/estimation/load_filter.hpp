@@ -29,7 +29,11 @@ struct ConditionedLoad {
   Scalar reversal = 0;  ///< best estimate of where [N], if it has
   Scalar reversal_sd = 0;  ///< its standard deviation [N], or zero if TurningPoint does not tell
   bool refused = false;    ///< the reading was taken for an outlier: the load is held
-  bool behind = false;     ///< the estimate has not come as far as `confirmed`: the load may have reversed
+  /// This reading is the first that left a line of many: the load is taken to be there, but whether it has
+  /// gone there, and nobody misread, the next one tells. Until then nothing is confirmed.
+  bool alone = false;
+  bool is_sure() const { return !refused && !alone; }
+  bool behind = false;  ///< the estimate has not come as far as `confirmed`: the load may have reversed
 };
 
 /// Friction remembers every peak, those of noise too: fed with raw readings, a model is dragged along by
@@ -169,6 +173,8 @@ class LoadFilter : LoadFilterTuning {
     // Where nothing surprises, it does not matter where exactly a line begins.
     if (since_birth_ >= pause || surprises) begin_line({surprises, has_no_slope}, step, step, y, Level(1));
     const int before = best_;
+    const bool may_be_alone = at(hypotheses_.run_length, before) >= Hypotheses::established &&
+                              at(hypotheses_.outliers_in_a_row, before) == 0;
     const Level innovation =
         (y - at(hypotheses_.level, best_)) / std::sqrt(at(hypotheses_.level_variance, best_) + 1);
     hypotheses_.update(y, 1);
@@ -178,7 +184,7 @@ class LoadFilter : LoadFilterTuning {
       block_.drift = 0;
     else if (accepted)
       block_.follow(innovation);
-    return conclude(accepted, total, y, told);
+    return conclude(accepted, total, y, told, may_be_alone && at(hypotheses_.run_length, best_) == 1);
   }
   /// The time since the last reading that was one; zero if it is not known.
   Level time_of(Level dt) const {
@@ -357,6 +363,7 @@ class LoadFilter : LoadFilterTuning {
                          at(hypotheses_.run_length, best_) > long_ago;
     calm_ = is_calm ? calm_enough : std::int8_t{0};
     now.reversed = way_ != way;
+    now.alone &= !now.reversed;
     if (now.reversed)
       now.reversal = way < 0 ? -larger(-reversal, -told) : larger(reversal, told);
     else if (now.refused || ahead(confirmed_, told) > 0)
@@ -514,8 +521,9 @@ class LoadFilter : LoadFilterTuning {
     return {told.level, std::sqrt(variance + gone * gone)};
   }
   /// `total` is the sum of the weights; it becomes one. `told` is where the load stays if the reading `y` is
-  /// not accepted.
-  ConditionedLoad<Scalar> conclude(bool accepted, Level total, Level y, const Told& told = {}) {
+  /// not accepted; one that is `alone` confirms nothing.
+  ConditionedLoad<Scalar> conclude(bool accepted, Level total, Level y, const Told& told = {},
+                                   bool alone = false) {
     Estimate estimate = estimate_load(hypotheses_, best_, total);
     const Level unit = 1 / total;
     for (int k = 0; k < hypotheses_.size; ++k) {
@@ -526,7 +534,8 @@ class LoadFilter : LoadFilterTuning {
     off_best_ = estimate.level - at(hypotheses_.level, best_);
     beside_best_ = estimate.sd * estimate.sd - at(hypotheses_.level_variance, best_);
     ConditionedLoad<Scalar> now;
-    if (accepted) {
+    now.alone = accepted && alone;
+    if (accepted && !alone) {
       if (has_reversed(estimate, beyond_confirmed(estimate))) reverse(now);
       confirm(estimate, beyond_confirmed(estimate), [&](Level way) { return least_mean(estimate, way, y); });
     }

@@ -1,0 +1,133 @@
+// A single reading off the line of those before it: a load that begins to move, or a mistake.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+
+#include "estimation/jacked_chain.hpp"
+#include "support/random.hpp"
+#include "taut/estimation/jack_load.hpp"
+
+namespace {
+
+constexpr double noise = 100, held = 1e5;  // [N]
+
+/// A jack that is read once a second, or less often.
+class Read {
+ public:
+  explicit Read(double step = 1) : step_(step) {
+    cell_.sd = noise;
+    jack_.start(cell_);
+  }
+  /// A ramp of twenty rows, and so many at rest.
+  Read(double step, int rows, support::Random& random) : Read(step) {
+    for (int i = 1; i <= 20 + rows; ++i) CHECK_FALSE(tells(std::fmin(i, 20) * held / 20, random));
+  }
+  /// Whether the row tells an outlier.
+  bool tells(double reading) {
+    taut::EndReading<double> given;
+    given.has_force = true;
+    given.force = reading;
+    taut::Corners<double> corners;
+    return jack_.take(false, given, step_, cell_, 1e7, {}, corners);
+  }
+  bool tells(double load, support::Random& random) { return tells(load + noise * support::gaussian(random)); }
+  const taut::ConditionedLoad<double>& at() const { return jack_.at; }
+  /// Where friction follows it.
+  double followed() const { return jack_.target(); }
+  bool rises() const { return jack_.rises; }
+
+ private:
+  double step_;
+  taut::LoadCell<double> cell_;
+  taut::JackLoad<double, 2> jack_;
+};
+
+}  // namespace
+
+TEST_CASE("a single reading off a hold is not followed, nor does the load turn, and the next row tells") {
+  int followed = 0, turned = 0, untold = 0, all = 0;
+  for (const double step : {0.2, 1.0, 10.0, 60.0})
+    for (const double off : {-30.0, -10.0, 10.0, 12.0, 30.0, 150.0})
+      for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+        CAPTURE(step);
+        CAPTURE(off);
+        CAPTURE(seed);
+        support::Random random(seed);
+        Read read(step, 8 + static_cast<int>(seed), random);
+        const double before = read.followed();
+        const bool rose = read.rises();
+        CHECK_FALSE(read.tells(held + off * noise));
+        followed += std::fabs(read.followed() - before) > noise ? 1 : 0;
+        untold += read.tells(held, random) ? 0 : 1;
+        for (int i = 0; i < 10; ++i) CHECK_FALSE(read.tells(held, random));
+        CHECK(std::fabs(read.at().load - held) < 4 * noise);
+        turned += read.rises() != rose || std::fabs(read.followed() - held) > 5 * noise ? 1 : 0;
+        ++all;
+      }
+  MESSAGE("seeds from 1: of ", all, " followed ", followed, ", turned ", turned, ", not told ", untold);
+  // Where the reading before is off by three deviations that way, two are the beginning of a ramp.
+  CHECK(followed <= all / 50);
+  CHECK(turned <= all / 100);
+  CHECK(untold <= all / 25);
+}
+
+TEST_CASE("a load that begins to move is where it is read at once, and followed from the next row on") {
+  for (const double way : {-1.0, 1.0})
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      CAPTURE(way);
+      CAPTURE(seed);
+      support::Random random(seed);
+      Read read(1, 30, random);
+      double load = held;
+      CHECK_FALSE(read.tells(load += way * 8 * noise, random));
+      CHECK(read.at().alone);
+      CHECK(std::fabs(read.at().load - load) < 4 * noise);
+      for (int i = 0; i < 8; ++i) {
+        CHECK_FALSE(read.tells(load += way * 8 * noise, random));
+        CHECK(read.at().is_sure());
+        CHECK(read.rises() == (way > 0));
+        CHECK(std::fabs(read.followed() - load) < 11 * noise);
+      }
+    }
+}
+
+TEST_CASE("a peak of a single reading, from which the load comes half-way back, is a turn") {
+  Read read;
+  for (int i = 0; i < 20; ++i) CHECK_FALSE(read.tells(held));
+  CHECK_FALSE(read.tells(held + 12.5 * noise));
+  REQUIRE(read.at().alone);
+  CHECK_FALSE(read.tells(held + 7 * noise));
+  CHECK(read.at().reversed);
+  CHECK(read.at().reversal == doctest::Approx(held + 12.5 * noise).epsilon(0.002));
+}
+
+TEST_CASE("forces that friction holds are, after a single wrong reading, what they were in truth") {
+  using estimation::Chain;
+  using estimation::full;
+  using estimation::jack_sd;
+  using estimation::Jacked;
+  using estimation::segments;
+  for (const double off : {-12.0, -8.0, 8.0, 12.0, 100.0})
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      CAPTURE(off);
+      CAPTURE(seed);
+      support::Random random(seed);
+      estimation::Said said;
+      said.jack_sd = 200 * jack_sd;
+      const auto jacked = std::make_unique<Jacked>(0, said);
+      Chain chain(estimation::mu);
+      const auto row = [&](double load, double error) {
+        chain.pull(load);
+        jacked->row(load + said.jack_sd * error, false, 1, -1);
+      };
+      for (int i = 1; i <= 60; ++i) row(full * std::fmin(i, 40) / 40, support::gaussian(random));
+      const double before = (*jacked)[0].force;
+      row(full, off);
+      for (int i = 0; i < 10; ++i) row(full, support::gaussian(random));
+      // The load is known to a fifth of its noise; a reading that is believed moves them by eight and more.
+      CHECK(std::fabs((*jacked)[0].force - before) < said.jack_sd);
+    }
+}
