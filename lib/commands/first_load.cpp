@@ -52,13 +52,27 @@ FirstLoad::Held FirstLoad::held_by_wedges(const LogRow& row, std::size_t c) cons
   return wedges ? held : Held::no;
 }
 
+// As tells_load() of a device has it.
+bool FirstLoad::tells(const LogRow& row) const {
+  bool wedges = false;
+  for (std::size_t c = 0; c < jacks_.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const auto& given = row.cables[c][end];
+      const bool is_jacked = scene_.cables[c].is_jacked(end);
+      if (is_jacked ? !given.locked : given.reading.has_value()) return true;
+      wedges = wedges || is_jacked;
+    }
+  return !wedges;
+}
+
 void FirstLoad::take(const LogRow& row) {
   ++rows_;
-  for (std::size_t c = 0; c < jacks_.size() && rows_ == 1; ++c) {
+  if (telling_ > 0 || tells(row)) ++telling_;
+  if (telling_ <= 1) unread_.clear();
+  for (std::size_t c = 0; c < jacks_.size() && telling_ <= 1; ++c) {
     const Held held = held_by_wedges(row, c);
     is_held_ = is_held_ || held == Held::under_load;
-    if (held == Held::unread)
-      taken_for_unloaded_ += (taken_for_unloaded_.empty() ? "" : ", ") + quote(scene_.cables[c].name);
+    if (held == Held::unread) unread_ += (unread_.empty() ? "" : ", ") + quote(scene_.cables[c].name);
   }
   for (std::size_t c = 0; c < jacks_.size(); ++c)
     for (std::size_t end = 0; end < 2; ++end) {
@@ -66,7 +80,7 @@ void FirstLoad::take(const LogRow& row) {
       if (!scene_.cables[c].is_jacked(end) || !reading || !rules_.is_possible_force(c, *reading)) continue;
       Jack& jack = jacks_[c][end];
       if (!jack.first)
-        jack.first = rows_ == 1 ? *reading : 0;
+        jack.first = telling_ == 1 ? *reading : 0;
       else if (!jack.second)
         jack.second = *reading;
       jack.largest = std::max(jack.largest, *reading);
@@ -79,7 +93,7 @@ bool FirstLoad::is_under_load() const {
 }
 
 bool FirstLoad::is_open() const {
-  return rows_ == 0 || (!is_held_ && any(jacks_, [](const Jack& jack) { return jack.goes_on(); }));
+  return telling_ == 0 || (!is_held_ && any(jacks_, [](const Jack& jack) { return jack.goes_on(); }));
 }
 
 FirstLoad first_load_of(const std::string& path, const LogRules& rules, const SceneDescription& scene) {

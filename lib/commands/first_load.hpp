@@ -1,4 +1,4 @@
-// Whether cables were under load before the first row of a log.
+// Whether cables were under load before the first row of a log that tells.
 #pragma once
 
 #include <array>
@@ -12,7 +12,8 @@
 
 namespace taut::host {
 
-/// The jacks from the first row on.
+/// The jacks from the first row on that tells of loads: in those before, wedges hold all that a jack can
+/// pull, and no load cell is read.
 class FirstLoad {
  public:
   /// The scene has what fill_in_deviations() gives it.
@@ -20,16 +21,21 @@ class FirstLoad {
 
   /// Rows in their order.
   void take(const LogRow& row);
-  /// Whether some jack pulls in the first row more than 5 % of what it ever does, and did not come there from
+  /// Whether some jack pulls in that row more than 5 % of what it ever does, and did not come there from
   /// zero in one stage: the next row goes on by less than 0.8 of that. What noise and zero of its cell can
-  /// show is no load. Or whether only wedges hold some cable in the first row, and a load cell at its other
-  /// end says that they do. As far as rows have been taken.
+  /// show is no load. Or whether only wedges hold some cable in it, and a load cell at its other end says
+  /// that they do. As far as rows have been taken.
   bool is_under_load() const;
+  /// Rows from the first one on that tells.
+  std::size_t telling() const { return telling_; }
+  /// Whether no row tells anything so far: nobody knows what wedges hold.
+  bool is_silent() const { return rows_ > 0 && telling_ == 0; }
   /// Whether further rows can say so.
   bool is_open() const;
-  /// After the first row: the cables that only wedges hold, where no load cell reads what they hold, quoted
-  /// and with commas between. They are taken to be without load, as are those whose turn has not come.
-  const std::string& taken_for_unloaded() const { return taken_for_unloaded_; }
+  /// The cables that only wedges hold in the first row that tells, or in all if none does, where no load cell
+  /// reads what they hold, quoted and with commas between. If others tell, these are taken to be without
+  /// load, as are those whose turn has not come.
+  const std::string& unread() const { return unread_; }
 
  private:
   enum class Held { no, unread, under_load };
@@ -43,13 +49,14 @@ class FirstLoad {
   };
 
   Held held_by_wedges(const LogRow& row, std::size_t c) const;
+  bool tells(const LogRow& row) const;
 
   const LogRules& rules_;
   const SceneDescription& scene_;
   std::vector<std::array<Jack, 2>> jacks_;
   bool is_held_ = false;
-  std::string taken_for_unloaded_;
-  std::size_t rows_ = 0;
+  std::string unread_;
+  std::size_t rows_ = 0, telling_ = 0;
 };
 
 /// Of a whole log.

@@ -43,6 +43,13 @@ Sentence taken_for_unloaded(const std::string& cables) {
       {cables});
 }
 
+Sentence held_unread(const std::string& cables) {
+  return Sentence(
+      "only wedges hold {1}, and no load cell reads what they hold: nothing is known of their forces until a "
+      "jack pulls; --state FILE goes on from the log before",
+      {cables});
+}
+
 LogRules rules_for(const RunOptions& options, const SceneDescription& scene) {
   LogRules rules;
   rules.are_readings = options.method == Method::estimate;
@@ -197,8 +204,8 @@ void LogFollower::begin() {
     model_->doubt_past();
   } else {
     const FirstLoad load = first_load_of(options_.log, rules_, scene_);
-    if (!load.is_under_load()) return remark_on_unloaded(load);
-    remark(under_load());
+    if (!load.is_silent() && !load.is_under_load()) return remark_on_unloaded(load);
+    remark(load.is_silent() ? held_unread(load.unread()) : under_load());
     model_->forget_past();
   }
 }
@@ -347,11 +354,13 @@ void LogFollower::warn_of_bend(const LogRow& row, const Answer& answer) {
 // Before the row is followed.
 void LogFollower::take_first_load(const LogRow& row) {
   first_load_->take(row);
-  if (!first_load_->is_under_load()) {
+  if (first_load_->is_silent()) {
+    if (followed_ == 0) remark(held_unread(first_load_->unread()));
+  } else if (!first_load_->is_under_load()) {
     remark_on_unloaded(*first_load_);
     model_->deny_past();
     first_load_.reset();
-  } else if (followed_ == 1 && model_->has_unknown_past()) {
+  } else if (first_load_->telling() == 2 && model_->has_unknown_past()) {
     remark(under_load());
   } else if (followed_ > 0 && !model_->has_unknown_past()) {
     first_load_.reset();
@@ -360,7 +369,7 @@ void LogFollower::take_first_load(const LogRow& row) {
 
 // Where no cable is known to be under load: else the past of all is doubted.
 void LogFollower::remark_on_unloaded(const FirstLoad& load) {
-  if (!load.taken_for_unloaded().empty()) remark(taken_for_unloaded(load.taken_for_unloaded()));
+  if (!load.unread().empty()) remark(taken_for_unloaded(load.unread()));
 }
 
 void LogFollower::remark_on_left_out(const LogReader& log) {

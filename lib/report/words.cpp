@@ -534,6 +534,12 @@ constexpr Translation translations[] = {
      "记录开始时已有荷载：在索滑过所有节点之前，其力可为任何经过所致；--state FILE 可接续上一份记录",
      "das Protokoll beginnt unter Last: bis die Seile über alle Umlenkungen geglitten sind, gelten ihre "
      "Kräfte für jede Vergangenheit; --state FILE setzt das vorige Protokoll fort"},
+    {"only wedges hold {1}, and no load cell reads what they hold: nothing is known of their forces until a "
+     "jack pulls; --state FILE goes on from the log before",
+     "{1} 仅由夹片锚固，且没有测力计读取其力：千斤顶张拉之前其力未知；--state FILE 可接续上一份记录",
+     "nur Keile halten {1}, und kein Messwert sagt, was sie halten: ihre Kräfte sind unbekannt, bis eine "
+     "Presse "
+     "zieht; --state FILE setzt das vorige Protokoll fort"},
     {"only wedges hold {1} in the first row, and no load cell reads what they hold: they are taken to be "
      "without load; if they were pulled before, --state FILE goes on from the log before",
      "第一行中 {1} 仅由夹片锚固，且没有测力计读取其力：视为无荷载；若此前已张拉，--state FILE "

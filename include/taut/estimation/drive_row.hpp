@@ -125,23 +125,33 @@ Progress<typename Parts::Scalar> come_down_to(Parts& parts, const typename Parts
   using Scalar = typename Parts::Scalar;
   auto& jacks = parts.jacks;
   auto to = first.sample, above = to;
+  const auto most = [&](int k) { return Scalar(0.99) * parts.most_force(k); };
   for (int k = 0; k < jacks.size(); ++k) {
     const EndReading<Scalar>& given = jacks.in(first.ends, k);
-    const int c = jacks.end(k).cable();
-    const Scalar held = held_over(parts.tracker, c), most = Scalar(0.99) * parts.most_force(k);
-    auto& highest = jacks.in(above.jack, k);
-    if (highest.locked) {
-      const auto beside = read_beside(parts, first, c);
-      const Scalar load = beside.force + 5 * beside.deviation;
-      highest = {load < most * held ? larger(load, Scalar(0)) / held : most, false};
-      jacks[k].lie_locked();
+    if (jacks.in(to.jack, k).locked || !given.has_force || !(given.force > 0) ||
+        !(given.force <= parts.most_force(k)))
       continue;
-    }
-    if (!given.has_force || !(given.force > 0) || !(given.force <= parts.most_force(k))) continue;
     jacks[k].come_down(given.force, parts.cell(k));
     change_errors(parts, k);
-    const Scalar load = jacks.in(to.jack, k).force = jacks[k].at.load, square = held * held;
-    highest.force = Scalar(1.02) * load < most * square ? Scalar(1.02) * load / square : most;
+    const Scalar load = jacks.in(to.jack, k).force = jacks[k].at.load,
+                 held = held_over(parts.tracker, jacks.end(k).cable()), square = held * held;
+    jacks.in(above.jack, k).force =
+        Scalar(1.02) * load < most(k) * square ? Scalar(1.02) * load / square : most(k);
+  }
+  for (int k = 0; k < jacks.size(); ++k) {
+    if (!jacks.in(to.jack, k).locked) continue;
+    const auto& end = jacks.end(k);
+    const int c = end.cable(), other = jacks.find(c, 1 - end.end);
+    auto& highest = jacks.in(above.jack, k);
+    jacks[k].lie_locked();
+    // A wedge holds no more than the jack at the other end, once all has slid back to that.
+    if (other >= 0 && !jacks.in(to.jack, other).locked) {
+      highest = {jacks.in(above.jack, other).force, false};
+      continue;
+    }
+    const auto beside = read_beside(parts, first, c);
+    const Scalar held = held_over(parts.tracker, c), load = beside.force + 5 * beside.deviation;
+    highest = {load < most(k) * held ? larger(load, Scalar(0)) / held : most(k), false};
   }
   auto progress = parts.tracker.advance(above);
   // Wedges are seated already: none is drawn in any more.

@@ -20,8 +20,8 @@ namespace taut {
 /// Whether cables are under load in these readings: some jack pulls more than five standard deviations of the
 /// zero and the noise of its load cell, which it would not say without load, and not more than the cable can
 /// carry; a jack that is not read pulls nothing. Or only wedges hold some cable, and a load cell at its other
-/// end says that they do: where none is read they hold nothing. For who has nothing but the first row to tell
-/// whether cables were under load before.
+/// end says that they do: where none is read they hold nothing, see tells_load(). For who has nothing but one
+/// row to tell whether cables were under load before.
 template <class CondensedType, class PriorType, class Readings>
 bool is_under_load(const CondensedType& condensed, const PriorType& prior, const Readings& readings) {
   const auto& cables = linear_part(condensed).cables;
@@ -48,6 +48,22 @@ bool is_under_load(const CondensedType& condensed, const PriorType& prior, const
   return is_loaded;
 }
 
+/// Whether these readings can tell that: some jack is not locked, or some load cell is read. If not, and
+/// wedges hold a cable, nobody knows.
+template <class CondensedType, class Readings>
+bool tells_load(const CondensedType& condensed, const Readings& readings) {
+  const auto& cables = linear_part(condensed).cables;
+  bool tells = false, wedges = false;
+  for (int c = 0; c < cables.size(); ++c)
+    for (std::size_t end = 0; end < 2 && !cables[c].closed; ++end) {
+      const bool is_jacked = cables[c].ends[end] == End::jacked,
+                 is_locked = is_jacked && readings.sample.jack[c][end].locked;
+      wedges |= is_locked;
+      tells |= is_jacked ? !is_locked : readings.ends[c][end].has_force;
+    }
+  return tells || !wedges;
+}
+
 /// Beside an Estimator whose loads came up from zero, a second one whose loads came down from so high that
 /// every joint slid back: between the two lie the forces of every past of the jacks, for a joint's clamp
 /// between rho T and T / rho keeps the order of two pasts. Between rigid saddles that is exact; on a
@@ -70,7 +86,8 @@ class UnknownPast {
     unread,  ///< no row has been seen
     begins,  ///< it is not known; the estimator from above has yet to begin
     open,    ///< it is not known; both go on
-    known    ///< there was none, or it is wiped out
+    known,   ///< there was none, or it is wiped out
+    silent   ///< as `open`, and no row has told yet whether cables are under load: see tells_load()
   };
 
   // What is known of it.
@@ -79,17 +96,23 @@ class UnknownPast {
   void reset() { phase_ = Phase::unread; }
   /// Before the first row: cables are under load in it.
   void forget() { phase_ = Phase::begins; }
-  /// Before every row: of the first one, is_under_load() decides.
+  /// Before every row: of the first one that tells, is_under_load() decides; until then it is not known.
   template <class CondensedType, class PriorType>
   void look(const CondensedType& condensed, const PriorType& prior, const Readings& readings) {
-    if (phase_ != Phase::unread) return;
-    phase_ = is_under_load(condensed, prior, readings) ? Phase::begins : Phase::known;
+    if (phase_ != Phase::unread && phase_ != Phase::silent) return;
+    const bool tells = tells_load(condensed, readings);
+    if (tells && !is_under_load(condensed, prior, readings))
+      phase_ = Phase::known;
+    else if (phase_ == Phase::unread)
+      phase_ = Phase::begins;
+    else if (tells)
+      phase_ = Phase::open;
   }
   /// Whether forces still depend on a past that is not known.
-  bool is_unknown() const { return phase_ == Phase::begins || phase_ == Phase::open; }
+  bool is_unknown() const { return phase_ == Phase::begins || has_above(phase_); }
   Phase phase() const { return phase_; }
-  /// Whether there is something to save().
-  static constexpr bool has_above(Phase phase) { return phase == Phase::open; }
+  /// Whether there is something to save(): both estimators go on.
+  static constexpr bool has_above(Phase phase) { return phase == Phase::open || phase == Phase::silent; }
 
   // A row of readings.
 
@@ -111,15 +134,15 @@ class UnknownPast {
   Progress<Scalar> advance(const CondensedType& condensed, const PriorType& prior, const Limits& limits,
                            const Gauges& gauges, const Readings& readings,
                            int event_budget = EstimatorType::TrackerType::default_budget) {
-    if (phase_ == Phase::open) return above_.advance(readings, event_budget);
+    if (has_above(phase_)) return above_.advance(readings, event_budget);
     Progress<Scalar> progress = above_.start(condensed, prior, limits, gauges);
     if (progress.status) progress = above_.come_down(readings);
-    if (progress.status) phase_ = Phase::open;
+    if (progress.status) phase_ = tells_load(condensed, readings) ? Phase::open : Phase::silent;
     return progress;
   }
   /// At the end of a row: nothing is unknown any more once both agree everywhere.
   void settle(const EstimatorType& below) {
-    bool is_all = phase_ == Phase::open;
+    bool is_all = has_above(phase_);
     if (!is_all) return;
     for (const auto& cable : model().cables) is_all = is_all && is_wiped_out(below, cable);
     if (is_all) phase_ = Phase::known;
@@ -131,18 +154,18 @@ class UnknownPast {
   /// both.
   ForceEstimate<Scalar> estimate(const EstimatorType& below, int segment) const {
     const ForceEstimate<Scalar> a = below.estimate(segment);
-    return phase_ == Phase::open ? either(a, above_.estimate(segment), Scalar(0)) : a;
+    return has_above(phase_) ? either(a, above_.estimate(segment), Scalar(0)) : a;
   }
   /// The same of a strut; see Estimator::estimate_strut().
   template <class StrutRows>
   ForceEstimate<Scalar> estimate_strut(const EstimatorType& below, const StrutRows& rows, int strut) const {
     const ForceEstimate<Scalar> a = below.estimate_strut(rows, strut);
-    if (phase_ != Phase::open) return a;
+    if (!has_above(phase_)) return a;
     return either(a, above_.estimate_strut(rows, strut), std::numeric_limits<Scalar>::lowest());
   }
   /// Puts these tensions, and what follows from them, into a response of the other estimator.
   void respond(const EstimatorType& below, Response<Scalar, Cap>& response) const {
-    if (phase_ != Phase::open) return;
+    if (!has_above(phase_)) return;
     for (int i = 0; i < model().segments; ++i) response.tension[i] = estimate(below, i).force;
     model().resolve_joints(response);
   }
@@ -150,7 +173,7 @@ class UnknownPast {
   /// their deviation or by rounding.
   template <class CableLayout>
   bool is_wiped_out(const EstimatorType& below, const CableLayout& cable) const {
-    if (phase_ != Phase::open) return phase_ != Phase::begins;
+    if (!has_above(phase_)) return phase_ != Phase::begins;
     for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i) {
       const ForceEstimate<Scalar> a = below.estimate(i), b = above_.estimate(i);
       if (std::fabs(a.force - b.force) > Scalar(0.2) * a.deviation + Scalar(1e-5) * a.force) return false;
