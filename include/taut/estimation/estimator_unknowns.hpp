@@ -53,7 +53,7 @@ template <class Parts>
 JackError<typename Parts::Scalar> resting_error(const Parts& parts, int k) {
   using Scalar = typename Parts::Scalar;
   const auto& at = parts.jacks.end(k);
-  return {parts.jacks[k].frozen, static_cast<std::int16_t>(2 * at.cable() + static_cast<int>(at.end)),
+  return {parts.jacks[k].at_rest, static_cast<std::int16_t>(2 * at.cable() + static_cast<int>(at.end)),
           Scalar(1), Scalar(0)};
 }
 
@@ -65,7 +65,7 @@ void for_each_load_error(const Parts& parts, int k, const Visit& visit) {
       .at(at.cable(), at.end)
       .for_each_error(parts.cell(k), 2 * at.cable() + static_cast<int>(at.end), parts.jacks[k].erred_up,
                       visit);
-  if (parts.jacks[k].frozen >= 0) visit(resting_error(parts, k));
+  if (parts.jacks[k].at_rest >= 0) visit(resting_error(parts, k));
 }
 
 /// The unknowns that forces of jacks depend on.

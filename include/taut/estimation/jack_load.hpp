@@ -98,7 +98,7 @@ struct JackLoad {
   std::int16_t seating = 0;   ///< the unknown of its wedge's draw-in, or -1
   Scalar come_sd = 0;         ///< standard deviation of the load where come_to_best() was [N]
   Scalar lasts = 0;           ///< what its readings are off by together, NoiseLevel::Found::lasting [N]
-  std::int16_t frozen = 0;    ///< the one of `memory` that its error is while other loads change, or -1
+  std::int16_t at_rest = 0;   ///< the one of `memory` that its error is while other loads change, or -1
   bool rests_beside = false;  ///< other loads change, and friction comes to rest at the load that it has
   Scalar rested_at = 0;       ///< where the tracker was when they ceased to [N]
 
@@ -142,7 +142,7 @@ struct JackLoad {
   void start(const LoadCell<Scalar>& cell) {
     *this = JackLoad();
     pulls = erred_up = rises = true;
-    at_turn = seating = frozen = -1;
+    at_turn = seating = at_rest = -1;
     rested_at = -1;
     filter.start(cell.sd);
     noise.start(cell.sd);
@@ -194,7 +194,7 @@ struct JackLoad {
   /// has come to rest at the load that was taken for the farthest by then, and remembers the error of that
   /// one. Cost: that of turn_beside().
   void find_reversal(const LoadCell<Scalar>& cell) {
-    if (frozen >= 0 || driven.force == rested_at) return turning.clear();
+    if (at_rest >= 0 || driven.force == rested_at) return turning.clear();
     const bool was_highest = !filter.goes_up();
     auto turn = turn_beside(at.reversal, was_highest);
     if (!turn.is_known) return;
@@ -458,14 +458,14 @@ struct JackLoad {
   /// not as far as it is confirmed to have come.
   void come_to_best(const LoadCell<Scalar>& cell) {
     come_sd = at.behind ? larger(at.come_sd, std::fabs(at.come - at.confirmed)) : at.come_sd;
-    if (!is_new || (at.behind && frozen < 0)) return;
+    if (!is_new || (at.behind && at_rest < 0)) return;
     // Where a ramp ends, the estimate overshoots at first.
     const bool goes_up = at.come > at.confirmed;
     const Scalar noise_sd = filter.sd() / branch(cell), most = goes_up ? raw + noise_sd : raw - noise_sd;
     const bool overshoots = goes_up ? at.come > most : at.come < most;
     const Scalar to = overshoots ? most : at.come, further = goes_up ? to - at.confirmed : at.confirmed - to;
     if (overshoots) come_sd = larger(at.come_sd, noise_sd);
-    if (!(further > (frozen < 0 ? Scalar(0) : at.come_sd))) return;
+    if (!(further > (at_rest < 0 ? Scalar(0) : at.come_sd))) return;
     filter.come_to(to * branch(cell));
     at.confirmed = to;
   }
@@ -481,7 +481,7 @@ struct JackLoad {
   }
   /// Beside other jacks: whether friction may have come to rest at its load. Where it goes on, it has not;
   /// but it may have turned, and where another jack has, until it surely goes on.
-  bool may_rest() const { return !moves.is_fast() || may_be_back() || (frozen >= 0 && !moves.has_gone()); }
+  bool may_rest() const { return !moves.is_fast() || may_be_back() || (at_rest >= 0 && !moves.has_gone()); }
   /// Beside other jacks: after take(), whether it goes on.
   void follow_moves(Scalar dt, const LoadCell<Scalar>& cell) {
     if (is_new)
@@ -492,7 +492,7 @@ struct JackLoad {
   /// Whether its readings could be those of a jack that does not pull.
   bool may_idle() const { return !locked && at.load < 5 * filter.sd(); }
   /// Whether it begins to rest beside other loads in this row, or ceases to.
-  bool changes_rest() const { return rests_beside != (frozen >= 0); }
+  bool changes_rest() const { return rests_beside != (at_rest >= 0); }
   /// Whether the load went up until it reversed in this row.
   bool had_risen() const { return locks_now ? rises : !rises; }
   /// Whether it went up where it is locked in this row.

@@ -88,14 +88,14 @@ class JackLoads {
   void count_once(const ByJack& by_jack, ByUnknown& H) const {
     if constexpr (Reversals > 2)
       for (int k = 0; k < size(); ++k)
-        if (state_.jack[k].frozen >= 0) H[state_.jack[k].frozen] -= by_jack[k];
+        if (state_.jack[k].at_rest >= 0) H[state_.jack[k].at_rest] -= by_jack[k];
   }
   /// What count_once() takes from the derivative by unknown `p`.
   template <class ByJack>
   Scalar counted_elsewhere(int p, const ByJack& by_jack) const {
     if constexpr (Reversals > 2)
       for (int k = 0; k < size(); ++k)
-        if (state_.jack[k].frozen == p) return by_jack[k];
+        if (state_.jack[k].at_rest == p) return by_jack[k];
     return 0;
   }
   /// Where the tracker is driven to for a row.

@@ -78,11 +78,11 @@ void leave(Parts& parts, const typename Parts::SampleType& to) {
 template <class Parts>
 void forget_other_loads(Parts& parts, int k) {
   auto& jack = parts.jacks[k];
-  if (jack.frozen < 0) return;
+  if (jack.at_rest < 0) return;
   leave_turns_of(parts, [](int) { return true; });
   // A failure shows on the way on.
-  static_cast<void>(parts.tracker.end_load_error(jack.frozen));
-  jack.frozen = -1;
+  static_cast<void>(parts.tracker.end_load_error(jack.at_rest));
+  jack.at_rest = -1;
   jack.rested_at = static_cast<typename Parts::Scalar>(parts.jacks.in(parts.tracker.loads().jack, k).force);
 }
 
@@ -93,11 +93,11 @@ template <class Parts>
 void remember_turn(Parts& parts, int k, typename Parts::Scalar sd) {
   using Scalar = typename Parts::Scalar;
   auto& jack = parts.jacks[k];
-  const bool loads_change = jack.frozen >= 0;
+  const bool loads_change = jack.at_rest >= 0;
   if (loads_change) {
     // What slides follows the load as it is here.
-    parts.tracker.change_load_error({jack.frozen, -1, Scalar(0), Scalar(0)});
-    jack.frozen = -1;
+    parts.tracker.change_load_error({jack.at_rest, -1, Scalar(0), Scalar(0)});
+    jack.at_rest = -1;
   }
   if (!jack.locked && (parts.far_ends.ends().size() > 0 || parts.gauges.size() > 0))
     parts.filter.come_to_what_is_known(parts.tracker);
@@ -106,7 +106,7 @@ void remember_turn(Parts& parts, int k, typename Parts::Scalar sd) {
   jack.turned_at = static_cast<Scalar>(parts.jacks.in(parts.tracker.loads().jack, k).force);
   parts.is_belief_fine = false;
   if (loads_change && !jack.locked && jack.rests_beside) {
-    std::swap(jack.frozen, jack.at_turn);
+    std::swap(jack.at_rest, jack.at_turn);
     parts.filter.remember_load(parts.tracker, resting_error(parts, k), sd);
   } else {
     parts.filter.renew(parts.tracker, jack.at_turn, sd);
@@ -148,12 +148,12 @@ void follow_other_loads(Parts& parts, const typename Parts::ReadingsType& readin
                meets_turn = is_beside && corners.reverses && !jack.has_reversed() && !jack.stays_taken(),
                rests = is_beside && jack.may_rest(),
                changes = factors_change || meets_turn || (rests && another_has_gone(parts, k));
-    if (meets_turn && jack.frozen < 0)
+    if (meets_turn && jack.at_rest < 0)
       jack.come_to_farthest(parts.cell(k));
     else if (changes)
       jack.come_to_best(parts.cell(k));
-    if (changes && jack.frozen >= 0) parts.filter.widen(jack.frozen, jack.come_sd);
-    jack.rests_beside = changes || (rests && jack.frozen >= 0);
+    if (changes && jack.at_rest >= 0) parts.filter.widen(jack.at_rest, jack.come_sd);
+    jack.rests_beside = changes || (rests && jack.at_rest >= 0);
     corners.loads |= jack.changes_rest();
   }
 }
@@ -166,7 +166,7 @@ void remember_load(Parts& parts, int k) {
   if (jack.locked || jack.memory[0] < 0 || !jack.changes_rest()) return;
   if (!jack.rests_beside) return forget_other_loads(parts, k);
   jack.at_turn = -1;
-  jack.frozen = static_cast<std::int16_t>(next_memory(parts, k));
+  jack.at_rest = static_cast<std::int16_t>(next_memory(parts, k));
   parts.filter.remember_load(parts.tracker, resting_error(parts, k), jack.come_sd);
   parts.is_belief_fine = false;
 }
