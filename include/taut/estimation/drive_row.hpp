@@ -118,8 +118,8 @@ template <class Parts>
 
 /// After start(): the loads of first readings, those of jacks having come down from so high that every joint
 /// slid back, see Estimator::come_down(). What a wedge holds is as much as leaves at the other end what is
-/// read there; where nothing is, as much as the cable can carry. Fails as Tracker::advance() does. Cost: two
-/// paths.
+/// read there, of a jack too; where nothing is, as much as the cable can carry. Fails as Tracker::advance()
+/// does. Cost: two paths.
 template <class Parts>
 Progress<typename Parts::Scalar> come_down_to(Parts& parts, const typename Parts::ReadingsType& first) {
   using Scalar = typename Parts::Scalar;

@@ -87,7 +87,7 @@ class UnknownPast {
     begins,  ///< it is not known; the estimator from above has yet to begin
     open,    ///< it is not known; both go on
     known,   ///< there was none, or it is wiped out
-    silent   ///< as `open`, and no row has told yet whether cables are under load: see tells_load()
+    silent   ///< no row has told yet whether cables are under load, see tells_load()
   };
 
   // What is known of it.
@@ -99,20 +99,17 @@ class UnknownPast {
   /// Before every row: of the first one that tells, is_under_load() decides; until then it is not known.
   template <class CondensedType, class PriorType>
   void look(const CondensedType& condensed, const PriorType& prior, const Readings& readings) {
-    if (phase_ != Phase::unread && phase_ != Phase::silent) return;
-    const bool tells = tells_load(condensed, readings);
-    if (tells && !is_under_load(condensed, prior, readings))
-      phase_ = Phase::known;
-    else if (phase_ == Phase::unread)
-      phase_ = Phase::begins;
-    else if (tells)
-      phase_ = Phase::open;
+    if (phase_ == Phase::known || has_above(phase_)) return;
+    if (!tells_load(condensed, readings))
+      phase_ = Phase::silent;
+    else if (phase_ != Phase::begins)
+      phase_ = is_under_load(condensed, prior, readings) ? Phase::begins : Phase::known;
   }
   /// Whether forces still depend on a past that is not known.
-  bool is_unknown() const { return phase_ == Phase::begins || has_above(phase_); }
+  bool is_unknown() const { return phase_ == Phase::begins || phase_ == Phase::silent || has_above(phase_); }
   Phase phase() const { return phase_; }
-  /// Whether there is something to save(): both estimators go on.
-  static constexpr bool has_above(Phase phase) { return phase == Phase::open || phase == Phase::silent; }
+  /// Whether there is something to save().
+  static constexpr bool has_above(Phase phase) { return phase == Phase::open; }
 
   // A row of readings.
 
@@ -135,45 +132,55 @@ class UnknownPast {
                            const Gauges& gauges, const Readings& readings,
                            int event_budget = EstimatorType::TrackerType::default_budget) {
     if (has_above(phase_)) return above_.advance(readings, event_budget);
+    if (phase_ == Phase::silent) return {Status::success(), Scalar(1), 0};
     Progress<Scalar> progress = above_.start(condensed, prior, limits, gauges);
     if (progress.status) progress = above_.come_down(readings);
-    if (progress.status) phase_ = tells_load(condensed, readings) ? Phase::open : Phase::silent;
+    if (progress.status) phase_ = Phase::open;
     return progress;
   }
   /// At the end of a row: nothing is unknown any more once both agree everywhere.
   void settle(const EstimatorType& below) {
     bool is_all = has_above(phase_);
     if (!is_all) return;
-    for (const auto& cable : model().cables) is_all = is_all && is_wiped_out(below, cable);
+    for (const auto& cable : below.tracker().model().cables) is_all = is_all && is_wiped_out(below, cable);
     if (is_all) phase_ = Phase::known;
   }
 
   // The answers.
 
   /// The middle of all that a force can be, with the deviation whose 95 % interval holds the intervals of
-  /// both.
+  /// both; while no row has told anything, all that the cable can carry.
   ForceEstimate<Scalar> estimate(const EstimatorType& below, int segment) const {
     const ForceEstimate<Scalar> a = below.estimate(segment);
+    if (phase_ == Phase::silent) return either(a, {most(below, segment), Scalar(0)}, Scalar(0));
     return has_above(phase_) ? either(a, above_.estimate(segment), Scalar(0)) : a;
   }
-  /// The same of a strut; see Estimator::estimate_strut().
+  /// The same of a strut; see Estimator::estimate_strut(). While no row has told anything, either way as much
+  /// as the strongest cable can carry.
   template <class StrutRows>
   ForceEstimate<Scalar> estimate_strut(const EstimatorType& below, const StrutRows& rows, int strut) const {
+    constexpr Scalar least = std::numeric_limits<Scalar>::lowest();
     const ForceEstimate<Scalar> a = below.estimate_strut(rows, strut);
-    if (!has_above(phase_)) return a;
-    return either(a, above_.estimate_strut(rows, strut), std::numeric_limits<Scalar>::lowest());
+    if (phase_ == Phase::silent) {
+      Scalar strongest = 0;
+      for (int c = 0; c < below.tracker().model().cables.size(); ++c)
+        strongest = larger(strongest, static_cast<Scalar>(below.tracker().model().most_force[c]));
+      return either({-strongest, Scalar(0)}, {strongest, Scalar(0)}, least);
+    }
+    return has_above(phase_) ? either(a, above_.estimate_strut(rows, strut), least) : a;
   }
   /// Puts these tensions, and what follows from them, into a response of the other estimator.
   void respond(const EstimatorType& below, Response<Scalar, Cap>& response) const {
-    if (!has_above(phase_)) return;
-    for (int i = 0; i < model().segments; ++i) response.tension[i] = estimate(below, i).force;
-    model().resolve_joints(response);
+    if (phase_ != Phase::silent && !has_above(phase_)) return;
+    const auto& model = below.tracker().model();
+    for (int i = 0; i < model.segments; ++i) response.tension[i] = estimate(below, i).force;
+    model.resolve_joints(response);
   }
   /// Whether the forces of a cable depend on no past: both agree in all of its segments, within a fifth of
   /// their deviation or by rounding.
   template <class CableLayout>
   bool is_wiped_out(const EstimatorType& below, const CableLayout& cable) const {
-    if (!has_above(phase_)) return phase_ != Phase::begins;
+    if (!has_above(phase_)) return !is_unknown();
     for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i) {
       const ForceEstimate<Scalar> a = below.estimate(i), b = above_.estimate(i);
       if (std::fabs(a.force - b.force) > Scalar(0.2) * a.deviation + Scalar(1e-5) * a.force) return false;
@@ -198,7 +205,14 @@ class UnknownPast {
   }
 
  private:
-  const auto& model() const { return above_.tracker().model(); }
+  /// What the cable of a segment can carry [N].
+  static Scalar most(const EstimatorType& below, int segment) {
+    const auto& model = below.tracker().model();
+    for (int c = 0; c < model.cables.size(); ++c)
+      if (segment < model.cables[c].first_segment + model.cables[c].segments())
+        return static_cast<Scalar>(model.most_force[c]);
+    return 0;
+  }
   /// Not below `least`.
   static ForceEstimate<Scalar> either(const ForceEstimate<Scalar>& a, const ForceEstimate<Scalar>& b,
                                       Scalar least) {
