@@ -1001,9 +1001,10 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("rows in which wedges hold all and nothing is read tell nothing: the first one after them does") {
+TEST_CASE(
+    "rows in which wedges hold all and nothing is read tell nothing: the first reading after them does") {
   const std::string friction = R"("mu": 0.2, "mu_sd": 0.02, "shared": true)",
-                    silent = "time,C.end,C.end.locked\n1,,1\n2,,1\n3,,1\n";
+                    silent = "time,C.end,C.end.locked\n1,,1\n2,,1\n3,,0\n";
   for (const bool was_pulled : {false, true})
     for (const bool stream : {false, true}) {
       CAPTURE(was_pulled);

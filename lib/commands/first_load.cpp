@@ -54,20 +54,20 @@ FirstLoad::Held FirstLoad::held_by_wedges(const LogRow& row, std::size_t c) cons
 
 // As tells_load() of a device has it.
 bool FirstLoad::tells(const LogRow& row) const {
-  bool wedges = false;
+  bool wedges = is_silent();
   for (std::size_t c = 0; c < jacks_.size(); ++c)
     for (std::size_t end = 0; end < 2; ++end) {
       const auto& given = row.cables[c][end];
-      const bool is_jacked = scene_.cables[c].is_jacked(end);
-      if (is_jacked ? !given.locked : given.reading.has_value()) return true;
-      wedges = wedges || is_jacked;
+      const bool is_jacked = scene_.cables[c].is_jacked(end), is_locked = is_jacked && given.locked;
+      wedges = wedges || is_locked;
+      if (!is_locked && (given.reading.has_value() || (is_jacked && !is_silent()))) return true;
     }
   return !wedges;
 }
 
 void FirstLoad::take(const LogRow& row) {
-  ++rows_;
   if (telling_ > 0 || tells(row)) ++telling_;
+  ++rows_;
   if (telling_ <= 1) unread_.clear();
   for (std::size_t c = 0; c < jacks_.size() && telling_ <= 1; ++c) {
     const Held held = held_by_wedges(row, c);

@@ -49,17 +49,18 @@ bool is_under_load(const CondensedType& condensed, const PriorType& prior, const
 }
 
 /// Whether these readings can tell that: some jack is not locked, or some load cell is read. If not, and
-/// wedges hold a cable, nobody knows.
+/// wedges hold a cable, nobody knows. A jack that is not read pulls nothing, but one that `were_held` until
+/// now tells nothing before it is read.
 template <class CondensedType, class Readings>
-bool tells_load(const CondensedType& condensed, const Readings& readings) {
+bool tells_load(const CondensedType& condensed, const Readings& readings, bool were_held) {
   const auto& cables = linear_part(condensed).cables;
-  bool tells = false, wedges = false;
+  bool tells = false, wedges = were_held;
   for (int c = 0; c < cables.size(); ++c)
     for (std::size_t end = 0; end < 2 && !cables[c].closed; ++end) {
       const bool is_jacked = cables[c].ends[end] == End::jacked,
                  is_locked = is_jacked && readings.sample.jack[c][end].locked;
       wedges |= is_locked;
-      tells |= is_jacked ? !is_locked : readings.ends[c][end].has_force;
+      tells |= !is_locked && (readings.ends[c][end].has_force || (is_jacked && !were_held));
     }
   return tells || !wedges;
 }
@@ -100,7 +101,7 @@ class UnknownPast {
   template <class CondensedType, class PriorType>
   void look(const CondensedType& condensed, const PriorType& prior, const Readings& readings) {
     if (phase_ == Phase::known || has_above(phase_)) return;
-    if (!tells_load(condensed, readings))
+    if (!tells_load(condensed, readings, phase_ == Phase::silent))
       phase_ = Phase::silent;
     else if (phase_ != Phase::begins)
       phase_ = is_under_load(condensed, prior, readings) ? Phase::begins : Phase::known;
