@@ -93,10 +93,22 @@ TEST_CASE("a cell that was off and is zeroed leaves no doubt once it pulls") {
   CHECK_FALSE(doubts_past(device.ask(sample(3, {0.0F, 10000}))));
 }
 
-TEST_CASE("an end that is locked and not read tells of no load") {
-  Doubting device;
-  device.ask("L " + number_field(0) + " " + number_field(1));
-  CHECK_FALSE(doubts_past(device.ask(sample_of(1, {0.0F, none, none, none}))));
+TEST_CASE(
+    "an end that is locked and not read tells nothing, through a power failure too: the first reading does") {
+  // At commit 1763c67 it told of no load.
+  for (const float first : {0.0F, 100000.0F}) {
+    CAPTURE(first);
+    Doubting device;
+    device.ask("L " + number_field(0) + " " + number_field(1));
+    const Fields silent = device.ask(sample_of(1, {0.0F, none, none, none}));
+    CHECK(quality(silent) == 'g');
+    CHECK(doubts_past(silent));
+    CHECK(tension(silent, 0) + 1.96F * deviation(silent, 0) > 100000);
+    device.boot();
+    CHECK(state(device.ask("P")) == state(silent));
+    device.ask("J " + number_field(0) + " " + number_field(1));
+    CHECK(doubts_past(device.ask(sample(2, {0.0F, first}))) == (first > 0));
+  }
 }
 
 TEST_CASE("while the past is not known, a power failure after any sample changes no bit") {
