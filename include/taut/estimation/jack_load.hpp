@@ -414,6 +414,7 @@ struct JackLoad {
     // have gone as far again.
     if (at.refused && std::isfinite(reading))
       at.sd = larger(at.sd, std::fabs(reading - at.load) / (since > JumpGuard<Scalar>::far_apart ? 1 : 2));
+    if (at.alone) at.sd = at.come_sd = larger(at.sd, std::fabs(reading - believed) / 2);
     // The load has gone where one reading alone had left its line; else it is back on that.
     if (was_alone && at.is_sure() && filter.run_length() <= 2) turning.add(refused, 0, filter.sd());
     if (at.is_sure())
