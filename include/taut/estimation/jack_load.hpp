@@ -410,18 +410,18 @@ struct JackLoad {
     at.come_sd = larger(at.come_sd, lasts);
     // Two standard deviations are as far as the load can have gone.
     if (is_held) at.sd = larger(at.sd, guard.reach() / 2);
-    // A single reading far off may well be a load that begins to move; in a row a load stage the jack may
-    // have gone as far again.
-    if (at.refused && std::isfinite(reading))
-      at.sd = larger(at.sd, std::fabs(reading - at.load) / (since > JumpGuard<Scalar>::far_apart ? 1 : 2));
-    if (at.alone) at.sd = at.come_sd = larger(at.sd, std::fabs(reading - believed) / 2);
-    // The load has gone where one reading alone had left its line; else it is back on that.
-    if (was_alone && at.is_sure() && filter.run_length() <= 2) turning.add(refused, 0, filter.sd());
-    if (at.is_sure())
+    if (at.is_sure()) {
+      // The load has gone where one reading alone had left its line; else it is back on that.
+      if (was_alone && filter.run_length() <= 2) turning.add(refused, 0, filter.sd());
       turning.add(reading, since, filter.sd());
-    else
+    } else {
       turning.miss(since);
-    if (at.refused) {
+      // A single reading far off may well be a load that begins to move, or a mistake; one that is refused in
+      // a row a load stage says that the jack may have gone as far again.
+      const Scalar from = at.alone ? load_before * branch(cell) : at.load;
+      if (std::isfinite(reading))
+        at.sd = larger(
+            at.sd, std::fabs(reading - from) / (at.refused && since > JumpGuard<Scalar>::far_apart ? 1 : 2));
       // Friction stands where the load is, perhaps elsewhere.
       at.come = at.load;
       at.come_sd = at.sd;

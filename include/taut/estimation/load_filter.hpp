@@ -32,7 +32,7 @@ struct ConditionedLoad {
   /// This reading is the first that left a line of many: the load is taken to be there, but whether it has
   /// gone there, and nobody misread, the next one tells. Until then nothing is confirmed.
   bool alone = false;
-  bool is_sure() const { return !refused && !alone; }
+  [[gnu::always_inline]] bool is_sure() const { return !refused && !alone; }
   bool behind = false;  ///< the estimate has not come as far as `confirmed`: the load may have reversed
 };
 
