@@ -32,8 +32,10 @@ struct ConditionedLoad {
   /// This reading is the first that left a line of many: the load is taken to be there, but whether it has
   /// gone there, and nobody misread, the next one tells. Until then nothing is confirmed.
   bool alone = false;
-  [[gnu::always_inline]] bool is_sure() const { return !refused && !alone; }
   bool behind = false;  ///< the estimate has not come as far as `confirmed`: the load may have reversed
+
+  /// The reading was believed, and so is where the load has gone.
+  [[gnu::always_inline]] bool is_sure() const { return !refused && !alone; }
 };
 
 /// Friction remembers every peak, those of noise too: fed with raw readings, a model is dragged along by
