@@ -1029,3 +1029,31 @@ TEST_CASE(
       if (was_pulled) CHECK(table.number(3, "C.T1") + 2 * table.number(3, "C.sd1") > 80000);
     }
 }
+
+TEST_CASE(
+    "a cable that wedges hold while another one tells is taken to be without load, and a remark names it") {
+  const std::string one = scene(R"("mu": 0.2, "mu_sd": 0.02, "shared": true)", both_cells),
+                    second = R"(, { "name": "D", "path": ["a", "c", "e"], "E": 1.95e11, "A": 8e-4,
+    "start": "anchored", "end": "jacked", "friction": { "law": "point", "mu": 0.2 } } ],
+  "sensors")",
+                    end = " ],\n  \"sensors\"";
+  const std::size_t at = one.find(end);
+  REQUIRE(at != std::string::npos);
+  for (const bool stream : {false, true}) {
+    CAPTURE(stream);
+    const Scratch scratch;
+    write(scratch, "scene.json", one.substr(0, at) + second + one.substr(at + end.size()));
+    write(scratch, "log.csv", "time,C.end,D.end,D.end.locked\n1,0,,1\n2,1000,,1\n");
+    const Outcome outcome = stream ? run_taut(scratch, "estimate " + scratch.quoted("scene.json") + " - < " +
+                                                           scratch.quoted("log.csv"))
+                                   : estimate(scratch);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK(Table(outcome.out).at(1, "alarms").find("unknown-past") == std::string::npos);
+    // At commit 7ac2946 nothing said that no load was taken.
+    CHECK(outcome.err.find(
+              "only wedges hold \"D\" in the first row, and no load cell reads what they hold: they "
+              "are taken to be without load; if they were pulled before, --state FILE goes on from "
+              "the log before\n") != std::string::npos);
+  }
+}
