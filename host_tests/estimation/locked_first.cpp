@@ -13,6 +13,21 @@ using namespace estimation;
 
 namespace {
 
+/// Both estimators of a past follow a row.
+template <class Past, class Model, class Prior, class EstimatorType>
+void follow_row(Past& past, EstimatorType& below, const Model& model, const Prior& prior,
+                taut::Readings<double, PlaneCapacity> readings) {
+  past.look(model, prior, readings);
+  past.withhold(model, readings);
+  REQUIRE(below.advance(readings).is_complete());
+  if (!past.is_unknown()) return;
+  const auto progress =
+      past.advance(model, prior, taut::AlarmLimits<double>(), typename EstimatorType::NoGauges(), readings);
+  CHECK(progress.status.ok());
+  REQUIRE(progress.is_complete());
+  past.settle(below);
+}
+
 /// A second visit without what the first one knew.
 class SecondVisit {
  public:
@@ -43,15 +58,8 @@ class SecondVisit {
   SaddleSite site;
 
  private:
-  void follow(taut::Readings<double, PlaneCapacity> readings) {
-    past_.look(site.model, site.prior, readings);
-    past_.withhold(site.model, readings);
-    REQUIRE(below_.advance(readings).is_complete());
-    if (!past_.is_unknown()) return;
-    REQUIRE(
-        past_.advance(site.model, site.prior, taut::AlarmLimits<double>(), Estimator::NoGauges(), readings)
-            .is_complete());
-    past_.settle(below_);
+  void follow(const taut::Readings<double, PlaneCapacity>& readings) {
+    follow_row(past_, below_, site.model, site.prior, readings);
   }
 
   Random random_;
@@ -137,15 +145,7 @@ TEST_CASE("of two jacks one is read in the first row, and a wedge holds the othe
       taut::Readings<double, PlaneCapacity> readings;
       readings.sample.jack[0][0].locked = true;
       readings.ends[0][1] = {true, false, load + jack_sd * gaussian(random), 0};
-      past->look(*model, prior, readings);
-      past->withhold(*model, readings);
-      REQUIRE(below->advance(readings).is_complete());
-      if (!past->is_unknown()) return;
-      const auto progress =
-          past->advance(*model, prior, taut::AlarmLimits<double>(), Jacked::Estimator::NoGauges(), readings);
-      CHECK(progress.status.ok());
-      REQUIRE(progress.is_complete());
-      past->settle(*below);
+      follow_row(*past, *below, *model, prior, readings);
     };
     const double at = chain[segments - 1];
     for (int i = 0; i < 5; ++i) row(at);

@@ -7,42 +7,27 @@
 #include <memory>
 
 #include "estimation/jacked_chain.hpp"
+#include "estimation/read_jack.hpp"
 #include "support/random.hpp"
-#include "taut/estimation/jack_load.hpp"
 
 namespace {
 
 constexpr double noise = 100, held = 1e5;  // [N]
 
-/// A jack that is read once a second, or less often.
-class Read {
+/// A ramp of twenty rows, and so many at rest.
+class Held {
  public:
-  explicit Read(double step = 1) : step_(step) {
-    cell_.sd = noise;
-    jack_.start(cell_);
-  }
-  /// A ramp of twenty rows, and so many at rest.
-  Read(double step, int rows, support::Random& random) : Read(step) {
+  Held(double step, int rows, support::Random& random) : step_(step) {
     for (int i = 1; i <= 20 + rows; ++i) CHECK_FALSE(tells(std::fmin(i, 20) * held / 20, random));
   }
   /// Whether the row tells an outlier.
-  bool tells(double reading) {
-    taut::EndReading<double> given;
-    given.has_force = true;
-    given.force = reading;
-    taut::Corners<double> corners;
-    return jack_.take(false, given, step_, cell_, 1e7, {}, corners);
-  }
   bool tells(double load, support::Random& random) { return tells(load + noise * support::gaussian(random)); }
-  const taut::ConditionedLoad<double>& at() const { return jack_.at; }
-  /// Where friction follows it.
-  double followed() const { return jack_.target(); }
-  bool rises() const { return jack_.rises; }
+  bool tells(double reading) { return read.tells(reading, step_); }
+
+  estimation::Read read{noise};
 
  private:
   double step_;
-  taut::LoadCell<double> cell_;
-  taut::JackLoad<double, 2> jack_;
 };
 
 }  // namespace
@@ -56,15 +41,17 @@ TEST_CASE("a single reading off a hold is not followed, nor does the load turn, 
         CAPTURE(off);
         CAPTURE(seed);
         support::Random random(seed);
-        Read read(step, 8 + static_cast<int>(seed), random);
-        const double before = read.followed();
-        const bool rose = read.rises();
-        CHECK_FALSE(read.tells(held + off * noise));
-        followed += std::fabs(read.followed() - before) > noise ? 1 : 0;
-        untold += read.tells(held, random) ? 0 : 1;
-        for (int i = 0; i < 10; ++i) CHECK_FALSE(read.tells(held, random));
-        CHECK(std::fabs(read.at().load - held) < 4 * noise);
-        turned += read.rises() != rose || std::fabs(read.followed() - held) > 5 * noise ? 1 : 0;
+        Held jack(step, 8 + static_cast<int>(seed), random);
+        const double before = jack.read.followed();
+        const bool had_turned = jack.read.has_turned();
+        CHECK_FALSE(jack.tells(held + off * noise));
+        followed += std::fabs(jack.read.followed() - before) > noise ? 1 : 0;
+        untold += jack.tells(held, random) ? 0 : 1;
+        for (int i = 0; i < 10; ++i) CHECK_FALSE(jack.tells(held, random));
+        CHECK(std::fabs(jack.read.load() - held) < 4 * noise);
+        turned += jack.read.has_turned() != had_turned || std::fabs(jack.read.followed() - held) > 5 * noise
+                      ? 1
+                      : 0;
         ++all;
       }
   MESSAGE("seeds from 1: of ", all, " followed ", followed, ", turned ", turned, ", not told ", untold);
@@ -80,22 +67,22 @@ TEST_CASE("a load that begins to move is where it is read at once, and followed 
       CAPTURE(way);
       CAPTURE(seed);
       support::Random random(seed);
-      Read read(1, 30, random);
+      Held jack(1, 30, random);
       double load = held;
-      CHECK_FALSE(read.tells(load += way * 8 * noise, random));
-      CHECK(read.at().alone);
-      CHECK(std::fabs(read.at().load - load) < 4 * noise);
+      CHECK_FALSE(jack.tells(load += way * 8 * noise, random));
+      CHECK(jack.read.at().alone);
+      CHECK(std::fabs(jack.read.load() - load) < 4 * noise);
       for (int i = 0; i < 8; ++i) {
-        CHECK_FALSE(read.tells(load += way * 8 * noise, random));
-        CHECK(read.at().is_sure());
-        CHECK(read.rises() == (way > 0));
-        CHECK(std::fabs(read.followed() - load) < 11 * noise);
+        CHECK_FALSE(jack.tells(load += way * 8 * noise, random));
+        CHECK(jack.read.at().is_sure());
+        CHECK(jack.read.has_turned() == (way < 0));
+        CHECK(std::fabs(jack.read.followed() - load) < 11 * noise);
       }
     }
 }
 
 TEST_CASE("a peak of a single reading, from which the load comes half-way back, is a turn") {
-  Read read;
+  estimation::Read read(noise);
   for (int i = 0; i < 20; ++i) CHECK_FALSE(read.tells(held));
   CHECK_FALSE(read.tells(held + 12.5 * noise));
   REQUIRE(read.at().alone);
