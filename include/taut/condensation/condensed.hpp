@@ -137,6 +137,12 @@ struct Condensed {
   FixedArray<Scalar, Cap::cables> most_force;  ///< of a jack of every cable: a tenth of its E A [N]
   FixedArray<Scalar, Cap::loads> most_factor;  ///< that alone gives a segment a hundred times that
 
+  /// The cable of a segment.
+  constexpr int cable_of(int segment) const {
+    int c = 0;
+    while (segment >= cables[c].first_segment + cables[c].segments()) ++c;
+    return c;
+  }
   constexpr bool is_self_locking(int joint) const { return !is_one_span<Cap> && !(rho[joint] > 0); }
 
   /// Contact and friction forces of all joints from the tensions of the response:

@@ -22,7 +22,7 @@ typename Parts::Scalar beyond_friction(const Parts& parts, int segment, typename
   if constexpr (!may_have_others || Parts::TrackerType::Model::has_level) return 0;
   constexpr Scalar deviations = 2, rounding = Scalar(1e-5);
   if (!parts.tracker.is_started() || (parts.model().cables.size() == 1 && parts.patterns() == 0)) return 0;
-  const int c = parts.cable_of(segment);
+  const int c = parts.model().cable_of(segment);
   const auto& cable = parts.model().cables[c];
   const auto& prior = parts.filter.prior();
   Real most = 0;

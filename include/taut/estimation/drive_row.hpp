@@ -125,7 +125,11 @@ Progress<typename Parts::Scalar> come_down_to(Parts& parts, const typename Parts
   using Scalar = typename Parts::Scalar;
   auto& jacks = parts.jacks;
   auto to = first.sample, above = to;
-  const auto most = [&](int k) { return Scalar(0.99) * parts.most_force(k); };
+  // Of jack `k`, where friction holds all but the part `held` back: no more than the cable can carry.
+  const auto highest_with = [&](Scalar load, Scalar held, int k) {
+    const Scalar most = Scalar(0.99) * parts.most_force(k);
+    return load < most * held ? load / held : most;
+  };
   for (int k = 0; k < jacks.size(); ++k) {
     const EndReading<Scalar>& given = jacks.in(first.ends, k);
     if (jacks.in(to.jack, k).locked || !given.has_force || !(given.force > 0) ||
@@ -134,9 +138,8 @@ Progress<typename Parts::Scalar> come_down_to(Parts& parts, const typename Parts
     jacks[k].come_down(given.force, parts.cell(k));
     change_errors(parts, k);
     const Scalar load = jacks.in(to.jack, k).force = jacks[k].at.load,
-                 held = held_over(parts.tracker, jacks.end(k).cable()), square = held * held;
-    jacks.in(above.jack, k).force =
-        Scalar(1.02) * load < most(k) * square ? Scalar(1.02) * load / square : most(k);
+                 held = held_over(parts.tracker, jacks.end(k).cable());
+    jacks.in(above.jack, k).force = highest_with(Scalar(1.02) * load, held * held, k);
   }
   for (int k = 0; k < jacks.size(); ++k) {
     if (!jacks.in(to.jack, k).locked) continue;
@@ -150,8 +153,8 @@ Progress<typename Parts::Scalar> come_down_to(Parts& parts, const typename Parts
       continue;
     }
     const auto beside = read_beside(parts, first, c);
-    const Scalar held = held_over(parts.tracker, c), load = beside.force + 5 * beside.deviation;
-    highest = {load < most(k) * held ? larger(load, Scalar(0)) / held : most(k), false};
+    const Scalar load = larger(beside.force + 5 * beside.deviation, Scalar(0));
+    highest = {highest_with(load, held_over(parts.tracker, c), k), false};
   }
   auto progress = parts.tracker.advance(above);
   // Wedges are seated already: none is drawn in any more.

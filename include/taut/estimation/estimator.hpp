@@ -342,7 +342,7 @@ void Estimator<CondensedType, Parameters, Further>::take_stroke(int cable, std::
 template <class CondensedType, int Parameters, int Further>
 void Estimator<CondensedType, Parameters, Further>::take_segment(int segment, Scalar reading, Gauge gauge) {
   if (!parts_.gauges.has(gauge)) return;
-  const int c = parts_.cable_of(segment);
+  const int c = parts_.model().cable_of(segment);
   take_gauge<WhileSliding>(
       parts_, foretell_segment(parts_, segment), reading, gauge,
       Alarm::of(Alarm::Kind::segment, c, segment - parts_.model().cables[c].first_segment));

@@ -112,11 +112,6 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   int patterns() const { return load_patterns(model()); }
   /// Of a jack.
   int corners() const { return remembered_corners(patterns(), jacks.size()); }
-  int cable_of(int segment) const {
-    int c = 0;
-    while (segment >= model().cables[c].first_segment + model().cables[c].segments()) ++c;
-    return c;
-  }
   static Alarm alarm_at(Alarm::Kind kind, const EndType& at) {
     return Alarm::of(kind, at.cable(), static_cast<int>(at.end));
   }
@@ -206,7 +201,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
     estimate.deviation = larger(estimate.deviation, larger(reached, kept));
     estimate.deviation = larger(estimate.deviation, beyond_friction(*this, segment, estimate.force));
     if (misfits) {
-      const Scalar misfit = far_ends.misfit(cable_of(segment));
+      const Scalar misfit = far_ends.misfit(model().cable_of(segment));
       estimate.deviation = std::sqrt(estimate.deviation * estimate.deviation + misfit * misfit);
     }
     return estimate;

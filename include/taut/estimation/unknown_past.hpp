@@ -107,7 +107,7 @@ class UnknownPast {
       phase_ = is_under_load(condensed, prior, readings) ? Phase::begins : Phase::known;
   }
   /// Whether forces still depend on a past that is not known.
-  bool is_unknown() const { return phase_ == Phase::begins || phase_ == Phase::silent || has_above(phase_); }
+  bool is_unknown() const { return phase_ != Phase::unread && phase_ != Phase::known; }
   Phase phase() const { return phase_; }
   /// Whether there is something to save().
   static constexpr bool has_above(Phase phase) { return phase == Phase::open; }
@@ -152,23 +152,27 @@ class UnknownPast {
   /// The middle of all that a force can be, with the deviation whose 95 % interval holds the intervals of
   /// both; while no row has told anything, all that the cable can carry.
   ForceEstimate<Scalar> estimate(const EstimatorType& below, int segment) const {
+    const auto& model = below.tracker().model();
+    if (phase_ == Phase::silent)
+      return between(Scalar(0), static_cast<Scalar>(model.most_force[model.cable_of(segment)]));
     const ForceEstimate<Scalar> a = below.estimate(segment);
-    if (phase_ == Phase::silent) return either(a, {most(below, segment), Scalar(0)}, Scalar(0));
     return has_above(phase_) ? either(a, above_.estimate(segment), Scalar(0)) : a;
   }
   /// The same of a strut; see Estimator::estimate_strut(). While no row has told anything, either way as much
   /// as the strongest cable can carry.
   template <class StrutRows>
   ForceEstimate<Scalar> estimate_strut(const EstimatorType& below, const StrutRows& rows, int strut) const {
-    constexpr Scalar least = std::numeric_limits<Scalar>::lowest();
-    const ForceEstimate<Scalar> a = below.estimate_strut(rows, strut);
+    const auto& model = below.tracker().model();
     if (phase_ == Phase::silent) {
       Scalar strongest = 0;
-      for (int c = 0; c < below.tracker().model().cables.size(); ++c)
-        strongest = larger(strongest, static_cast<Scalar>(below.tracker().model().most_force[c]));
-      return either({-strongest, Scalar(0)}, {strongest, Scalar(0)}, least);
+      for (int c = 0; c < model.cables.size(); ++c)
+        strongest = larger(strongest, static_cast<Scalar>(model.most_force[c]));
+      return between(-strongest, strongest);
     }
-    return has_above(phase_) ? either(a, above_.estimate_strut(rows, strut), least) : a;
+    const ForceEstimate<Scalar> a = below.estimate_strut(rows, strut);
+    return has_above(phase_)
+               ? either(a, above_.estimate_strut(rows, strut), std::numeric_limits<Scalar>::lowest())
+               : a;
   }
   /// Puts these tensions, and what follows from them, into a response of the other estimator.
   void respond(const EstimatorType& below, Response<Scalar, Cap>& response) const {
@@ -206,21 +210,16 @@ class UnknownPast {
   }
 
  private:
-  /// What the cable of a segment can carry [N].
-  static Scalar most(const EstimatorType& below, int segment) {
-    const auto& model = below.tracker().model();
-    for (int c = 0; c < model.cables.size(); ++c)
-      if (segment < model.cables[c].first_segment + model.cables[c].segments())
-        return static_cast<Scalar>(model.most_force[c]);
-    return 0;
+  static constexpr Scalar interval = Scalar(1.96);
+
+  static ForceEstimate<Scalar> between(Scalar least, Scalar most) {
+    return {(least + most) / 2, (most - least) / (2 * interval)};
   }
   /// Not below `least`.
   static ForceEstimate<Scalar> either(const ForceEstimate<Scalar>& a, const ForceEstimate<Scalar>& b,
                                       Scalar least) {
-    constexpr Scalar interval = Scalar(1.96);
     least = larger(-larger(-(a.force - interval * a.deviation), -(b.force - interval * b.deviation)), least);
-    const Scalar most = larger(a.force + interval * a.deviation, b.force + interval * b.deviation);
-    return {(least + most) / 2, (most - least) / (2 * interval)};
+    return between(least, larger(a.force + interval * a.deviation, b.force + interval * b.deviation));
   }
 
   EstimatorType above_;
