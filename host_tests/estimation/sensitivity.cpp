@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/run.hpp"
+#include "support/saddles.hpp"
 #include "support/scenes.hpp"
 #include "taut/taut.hpp"
 
@@ -212,6 +213,92 @@ TEST_CASE(
 }
 
 }  // namespace
+
+namespace {
+
+struct InFloat {
+  double worst = 0, squares = 0;
+  int compared = 0;
+  double rms() const { return std::sqrt(squares / compared); }
+};
+
+/// Differences between derivatives of trackers in float and in double with a mu a joint, relative to the
+/// largest force, along random logs on scenes of make(random, scene).
+template <class SceneType, class Make>
+InFloat in_float(const Make& make) {
+  using Cap = typename SceneType::Capacity;
+  static SceneType scene;
+  static taut::Condensed<float, Cap> rounded_model;
+  static taut::Condensed<double, Cap> model;
+  static taut::Tracker<taut::Condensed<float, Cap>, most_parameters> follower;
+  static taut::Tracker<taut::Condensed<double, Cap>, most_parameters> exact;
+  InFloat found;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    auto cable = steel_cable(random.between(0.02, 0.8));
+    cable.law = random.coin() ? taut::FrictionLaw::point : taut::FrictionLaw::capstan;
+    cable.seating = random.coin() ? 0.004 : 0;
+    make(random, cable, scene);
+    REQUIRE(support::condense<float>(scene, rounded_model, nullptr, nullptr).ok());
+    REQUIRE(support::condense<double>(scene, model, nullptr, nullptr).ok());
+    taut::FrictionPrior<double, Cap> known;
+    taut::find_friction_prior(scene, known);
+    const auto friction = [&](int j) {
+      const auto limit = known.limit(0, j, known.mu[j]);
+      return taut::JointFriction<double>{limit.rho, j, limit.slope};
+    };
+    REQUIRE(follower.start(rounded_model, friction).status.ok());
+    REQUIRE(exact.start(model, friction).status.ok());
+    taut::Sample<double, Cap> row;
+    auto& jack = row.jack[0][1];
+    for (int i = 0; i < 40; ++i) {
+      if (i > 0 && random.below(8) == 0)
+        jack.locked = !jack.locked;
+      else if (!jack.locked)
+        jack.force = 1000 * (1 + random.below(400));
+      REQUIRE(exact.advance(row).status.ok());
+      REQUIRE(follower.advance(rounded<float>(row)).status.ok());
+      for (int p = 0; p < model.joints; ++p)
+        for (int k = 0; k < model.segments; ++k) {
+          const double off =
+              std::fabs(static_cast<double>(follower.sensitivity(p, k)) - exact.sensitivity(p, k)) /
+              exact.peak();
+          found.worst = std::fmax(found.worst, off);
+          found.squares += off * off;
+          ++found.compared;
+        }
+    }
+  }
+  MESSAGE("off by " << found.rms() << " of the largest force, rms, at most by " << found.worst);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a tracker in float has the derivatives of one in double: between rigid saddles") {
+  const InFloat found =
+      in_float<Saddles>([](Random& random, const taut::Cable<double>& cable, Saddles& scene) {
+        saddles(scene, cable, chain_points(3 + random.below(7)));
+      });
+  // With all of it in double, at commit be9fff1, 0.7e-8.
+  CHECK(found.rms() < 3e-8);
+  CHECK(found.worst < 1e-6);
+  CHECK(found.compared > 100000);
+}
+
+TEST_CASE("a tracker in float has the derivatives of one in double: on structures, however soft or stiff") {
+  const InFloat found = in_float<Plane>([](Random& random, const taut::Cable<double>& cable, Plane& scene) {
+    const Variation vary(random);
+    truss_string(scene, cable, 3 + random.below(5), vary);
+    const double stiffer = std::pow(10.0, random.between(-4, 4));
+    for (int i = 0; i < scene.struts.size(); ++i) scene.struts[i].E *= stiffer;
+  });
+  // With all of it in double, at commit be9fff1, 0.9e-8.
+  CHECK(found.rms() < 2e-7);
+  CHECK(found.worst < 2e-5);
+  CHECK(found.compared > 100000);
+}
 
 TEST_CASE(
     "adjusted in the row in which a load came to depend on another unknown, it is where it would be else") {

@@ -26,14 +26,14 @@ struct OnEither : OnStructure {
 };
 
 /// A condensed scene of one cable of n segments, with random numbers of order one.
-template <class Cap>
+template <class Cap, class Scalar = double>
 struct AnyCable {
-  using Model = taut::Condensed<double, Cap>;
+  using Model = taut::Condensed<Scalar, Cap>;
   using Laws = taut::JointConstraints<Model>;
   using Tensions = taut::FixedArray<double, most>;
 
   AnyCable(Random& random, int n, bool closed, bool coupled) {
-    taut::CableLayout<double> cable;
+    taut::CableLayout<Scalar> cable;
     cable.closed = closed;
     cable.ends = {taut::End::jacked, taut::End::jacked};
     cable.nodes = closed ? n : n + 1;

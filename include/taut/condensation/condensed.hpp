@@ -32,14 +32,15 @@ struct ElasticCoupling {
 
   constexpr Scalar operator()(int i, int k) const { return entries[k * Segments + i]; }
   constexpr void set(int i, int k, Scalar value) { entries[k * Segments + i] = value; }
-  /// T += coupling x e, for n segments.
+  /// T += coupling x e, for n segments, in the numbers of e.
   template <class Vector>
   void add(int n, const Vector& e, Vector& T) const {
+    constexpr bool takes_four = takes_several && std::is_same<decltype(e[0]), const Scalar&>::value;
     FixedArray<int, 4> some;
     int count = 0;
     for (int k = 0; k < n; ++k) {
       if (bits_of(e[k]) == 0) continue;
-      if constexpr (!takes_several) {
+      if constexpr (!takes_four) {
         add(n, k, e[k], T);
       } else {
         some[count++] = k;
@@ -51,8 +52,8 @@ struct ElasticCoupling {
     for (int i = 0; i < count; ++i) add(n, some[i], e[some[i]], T);
   }
   /// The same where segment k alone is lengthened.
-  template <class Vector>
-  void add(int n, int k, Scalar by, Vector& T) const {
+  template <class Number, class Vector>
+  void add(int n, int k, Number by, Vector& T) const {
     axpy(n, by, &entries[k * Segments], &T[0]);
   }
 
@@ -82,11 +83,11 @@ struct NoCoupling {
   }
   template <class Vector>
   void add(int n, const Vector& e, Vector& T) const {
-    for (int i = 0; i < n; ++i) T[i] += axial[i] * e[i];
+    for (int i = 0; i < n; ++i) add(n, i, e[i], T);
   }
-  template <class Vector>
-  void add(int, int k, Scalar by, Vector& T) const {
-    T[k] += axial[k] * by;
+  template <class Number, class Vector>
+  void add(int, int k, Number by, Vector& T) const {
+    T[k] += static_cast<Number>(axial[k]) * by;
   }
 };
 

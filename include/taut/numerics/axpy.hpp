@@ -12,9 +12,9 @@ constexpr bool takes_several = false;
 
 /// y += a x for the first n entries, which must not overlap. Every entry is one product and one sum: the same
 /// bits on every machine, however many are taken at a time.
-template <class Scalar>
-void axpy(int n, Scalar a, const Scalar* __restrict x, Scalar* __restrict y) {
-  for (int i = 0; i < n; ++i) y[i] += a * x[i];
+template <class Scalar, class Other>
+void axpy(int n, Scalar a, const Other* __restrict x, Scalar* __restrict y) {
+  for (int i = 0; i < n; ++i) y[i] += a * static_cast<Scalar>(x[i]);
 }
 
 }  // namespace taut

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 #include "taut/numerics/axpy.hpp"
 #include "taut/numerics/bits.hpp"
@@ -53,15 +54,16 @@ class BorderedLu {
     return largest > 0 ? pivot / largest : Scalar(0);
   }
 
-  /// Solves A x = b in place: 2 n^2 operations.
+  /// Solves A x = b in place, in the numbers of x: 2 n^2 operations.
   template <class Vector>
   void solve(Vector& x) const {
+    using Number = std::decay_t<decltype(x[0])>;
     // Most often little is due, and where nothing is, nothing follows.
     int first = 0;
     while (first < size_ && bits_of(x[first]) == 0) ++first;
     for (int k = first; k + 1 < size_; ++k) axpy(size_ - 1 - k, -x[k], &at(k, k) + 1, &x[k] + 1);
     for (int k = size_ - 1; k >= 0; --k) {
-      x[k] *= at(k, k);
+      x[k] *= static_cast<Number>(at(k, k));
       axpy(k, -x[k], &at(0, k), &x[0]);
     }
   }

@@ -23,12 +23,17 @@ namespace taut {
 template <class CondensedType, class Laws>
 class ActiveSet {
  public:
+  using Scalar = typename CondensedType::Scalar;
   using Real = typename CondensedType::Real;
   using Cap = typename CondensedType::Capacity;
   /// Laws are linear in the tensions: no more of them can be independent.
   static constexpr int capacity = Cap::segments;
-  using Tensions = FixedArray<Real, Cap::segments>;
-  using Values = FixedArray<Real, capacity>;
+  template <class Number>
+  using Along = FixedArray<Number, Cap::segments>;  ///< the segments
+  template <class Number>
+  using By = FixedArray<Number, capacity>;  ///< slip variable
+  using Tensions = Along<Real>;
+  using Values = By<Real>;
   using ActiveConstraints = FixedList<ActiveConstraint, capacity>;
 
   /// Begins with an empty set, and looks the model through once. The model must outlive it.
@@ -99,16 +104,26 @@ class ActiveSet {
   /// change. At most `passes` of iterative refinement; each O(size^2 + segments^2), between saddles
   /// O(segments).
   void settle(const Laws& laws, const Values& due, Tensions& T, Values& values, int passes = 1) const {
-    if (size() == 0) return;
-    const Real most = largest(size(), &due[0], largest(model_->segments, &T[0]));
-    if (is_chains())
-      settle_chains(laws, due, T, values);
-    else
-      settle_all(laws, due, T, values, passes);
-    // What a law gives outright has no rounding. More than rounding must be seen by whoever tests the laws.
-    for (int i = 0; i < size(); ++i) {
-      Real& on = T[active_[i].slides() ? 0 : active_[i].on];
-      if (!active_[i].slides() && std::fabs(on - due[i]) <= Real(4096) * epsilon * most) on = due[i];
+    settle_by(laws, LinksOf<Real>{*this, laws}, due, T, values, passes);
+  }
+  /// Calls visit(Number(), settle), where settle(due, T, values) is as above with one pass, in Number: for
+  /// derivatives, of which there are many for the same slips. They are kept in Scalar, and are as good in it
+  /// unless laws all but depend on one another: then Number is Real.
+  template <class Visit>
+  void settle_derivatives(const Laws& laws, Visit visit) const {
+    const auto visit_with = [&](auto zero, const auto& links) {
+      using Number = decltype(zero);
+      visit(zero, [&](const By<Number>& due, Along<Number>& T, By<Number>& values) {
+        settle_by(laws, links, due, T, values, 1);
+      });
+    };
+    if constexpr (has_chains)
+      if (is_chains()) return visit_with(Scalar(), KeptLinks<Scalar>(*this, laws));
+    if constexpr (has_rows) {
+      if (size() == 0 || is_sound_[size() - 1])
+        visit_with(Scalar(), LinksOf<Scalar>{*this, laws});
+      else
+        visit_with(Real(), LinksOf<Real>{*this, laws});
     }
   }
 
@@ -118,10 +133,12 @@ class ActiveSet {
   void hold(Real part) { held_ = is_chains() ? Real(0) : part; }
   bool is_held() const { return is_positive(held_); }
   /// Adds the tensions that elongations make.
-  void carry(const Tensions& e, Tensions& T) const {
+  template <class Number>
+  void carry(const Along<Number>& e, Along<Number>& T) const {
     model_->coupling.add(model_->segments, e, T);
     if (held_ == 0) return;
-    for (int i = 0; i < model_->segments; ++i) T[i] += held_ * model_->coupling(i, i) * e[i];
+    for (int i = 0; i < model_->segments; ++i)
+      T[i] += static_cast<Number>(held_ * model_->coupling(i, i)) * e[i];
   }
   /// Adds the tensions that a slip variable makes.
   void carry(const SlipVariable& variable, Real by, Tensions& T) const {
@@ -153,9 +170,9 @@ class ActiveSet {
   Real stiffest() const { return stiffest_; }
 
  private:
-  static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
-  /// Pivots, relative to their row and column: no digit is left; the next one would be better first.
-  static constexpr Real singular = Real(1e-12), small = Real(1e-4);
+  /// Pivots, relative to their row and column: no digit is left; the next one would be better first; enough
+  /// are left in a float.
+  static constexpr Real singular = Real(1e-12), small = Real(1e-4), sound = Real(1e-3);
 
   static constexpr bool may_be_either = Cap::saddles && !has_rigid_saddles<Cap>;
   static constexpr bool has_chains = has_rigid_saddles<Cap> || may_be_either;
@@ -171,6 +188,23 @@ class ActiveSet {
       for (int k = 0; k < i; ++k)
         if (model_->coupling(i, k) != 0) return false;
     return true;
+  }
+
+  template <class Number, class Links>
+  void settle_by(const Laws& laws, const Links& links, const By<Number>& due, Along<Number>& T,
+                 By<Number>& values, int passes) const {
+    if (size() == 0) return;
+    const Number most = largest(size(), &due[0], largest(model_->segments, &T[0]));
+    if (is_chains())
+      settle_chains(links, due, T, values);
+    else
+      settle_all(laws, due, T, values, passes);
+    // What a law gives outright has no rounding. More than rounding must be seen by whoever tests the laws.
+    constexpr Number rounding = Number(4096) * std::numeric_limits<Number>::epsilon();
+    for (int i = 0; i < size(); ++i) {
+      Number& on = T[active_[i].slides() ? 0 : active_[i].on];
+      if (!active_[i].slides() && std::fabs(on - due[i]) <= rounding * most) on = due[i];
+    }
   }
 
   // A structure.
@@ -195,6 +229,7 @@ class ActiveSet {
     const TensionConstraint<Real> law = laws.of(active);
     const Real pivot = factors_.append([&](int i) { return entry(laws.of(active_[i]), active.variable); },
                                        [&](int i) { return entry(law, active_[i].variable); });
+    is_sound_[n] = (n == 0 || is_sound_[n - 1]) && std::fabs(pivot) > sound;
     if ((is_to_resist(active) ? signed_by_law(laws, active, pivot) : std::fabs(pivot)) > least_pivot)
       return true;
     truncate(n);
@@ -219,21 +254,23 @@ class ActiveSet {
     return later.empty();
   }
   /// Once with the springs, or, to the last digit, without them: iterative refinement.
-  void settle_all(const Laws& laws, const Values& due, Tensions& T, Values& values, int passes) const {
-    Real before = (std::numeric_limits<Real>::max)();
+  template <class Number>
+  void settle_all(const Laws& laws, const By<Number>& due, Along<Number>& T, By<Number>& values,
+                  int passes) const {
+    constexpr Number rounding = std::numeric_limits<Number>::epsilon();
+    Number before = (std::numeric_limits<Number>::max)();
     for (int pass = 0; pass < passes; ++pass) {
-      Values change;
+      By<Number> change;
       for (int i = 0; i < size(); ++i) change[i] = due[i] - laws.of(active_[i]).of(T);
       if (passes > 1) {
-        const Real off = largest(size(), &change[0]);
-        if (pass > 0 && (off <= epsilon * largest(model_->segments, &T[0]) || off > before / 4)) return;
+        const Number off = largest(size(), &change[0]);
+        if (pass > 0 && (off <= rounding * largest(model_->segments, &T[0]) || off > before / 4)) return;
         before = off;
       }
       factors_.solve(change);
-      Tensions e;
-      e.fill(Real(0));
+      Along<Number> e;
       for (int i = 0; i < size(); ++i) {
-        const Real by = change[i] * flexibility(active_[i].variable);
+        const Number by = change[i] * static_cast<Number>(flexibility(active_[i].variable));
         values[i] += by;
         active_[i].variable.impose(by, e);
       }
@@ -246,7 +283,7 @@ class ActiveSet {
 
   // Between rigid saddles.
 
-  struct Links {
+  struct Numbers {
     FixedArray<std::int16_t, has_chains ? Cap::segments : 0> fixed;   // variable whose law gives the tension
     FixedArray<std::int16_t, has_chains ? Cap::segments : 0> length;  // variable that is no slip
     FixedArray<std::int16_t, has_chains ? Cap::joints : 0> slip;
@@ -254,17 +291,17 @@ class ActiveSet {
 
   void renumber() {
     if (is_chains()) {
-      links_.fixed.fill(-1);
-      links_.length.fill(-1);
-      links_.slip.fill(-1);
+      numbers_.fixed.fill(-1);
+      numbers_.length.fill(-1);
+      numbers_.slip.fill(-1);
       for (int i = 0; i < size(); ++i) {
         const auto number = static_cast<std::int16_t>(i);
         const ActiveConstraint& active = active_[i];
-        if (!active.slides()) links_.fixed[active.on] = number;
+        if (!active.slides()) numbers_.fixed[active.on] = number;
         if (active.variable.kind != SlipVariable::Kind::slip)
-          links_.length[active.variable.lengthened] = number;
+          numbers_.length[active.variable.lengthened] = number;
         else if constexpr (Cap::joints > 0)
-          links_.slip[active.variable.index] = number;
+          numbers_.slip[active.variable.index] = number;
       }
     } else {
       factors_.truncate(size());
@@ -286,7 +323,7 @@ class ActiveSet {
     Row row{cable.first_segment, cable.first_joint, cable.segments(), 0, cable.closed};
     if constexpr (Cap::joints > 0 && Cap::hoops)
       for (int i = 0; row.closed && i < row.count; ++i)
-        if (links_.slip[cable.first_joint + i] < 0) {
+        if (numbers_.slip[cable.first_joint + i] < 0) {
           row.begin = i;
           break;
         }
@@ -294,25 +331,87 @@ class ActiveSet {
   }
   int slip_after(const Row& row, int i) const {
     const int joint = i + 1 < row.count ? row.joint(i) : -1;
-    return Cap::joints == 0 || joint < 0 ? -1 : links_.slip[joint];
+    return Cap::joints == 0 || joint < 0 ? -1 : numbers_.slip[joint];
   }
   /// The active slip after segment `i` if a ratio of tensions links the two segments, else -1.
-  int ratio_after(const Row& row, int i) const {
+  int ratio(const Row& row, int i) const {
     const int slip = slip_after(row, i);
     return slip >= 0 && active_[slip].slides() ? slip : -1;
   }
   /// Whether two laws would give the tension of one chain, or a ring slide as a whole.
   bool closes_a_loop(const ActiveConstraint& active) const {
-    if (!active.slides()) return links_.fixed[active.on] >= 0 || chain_is_fixed(active.on);
+    if (!active.slides()) return numbers_.fixed[active.on] >= 0 || chain_is_fixed(active.on);
     const SlipVariable& variable = active.variable;
     if (chain_is_fixed(variable.lengthened) && chain_is_fixed(variable.shortened)) return true;
     return same_chain(variable.lengthened, variable.shortened);
   }
-  template <class Visit>
-  void for_each_chain(const Row& row, Visit visit) const {
+  /// Segment `i` of a row and what links it to the next one, as the present slips have it.
+  template <class Number>
+  struct LinksOf {
+    const ActiveSet& set;
+    const Laws& laws;
+
+    int segment(const Row& row, int i) const { return row.segment(i); }
+    int fixed(const Row& row, int i) const { return set.numbers_.fixed[row.segment(i)]; }
+    int length(const Row& row, int i) const { return set.numbers_.length[row.segment(i)]; }
+    int slip(const Row& row, int i) const { return set.slip_after(row, i); }
+    int ratio(const Row& row, int i) const { return set.ratio(row, i); }
+    bool is_forward(const Row&, int, int slip) const { return set.active_[slip].sense > 0; }
+    /// The tension of the next segment over that of this one.
+    Number next(const Row&, int, int slip) const {
+      const auto rho = static_cast<Number>(laws.rho(set.active_[slip].variable.index));
+      return set.active_[slip].sense > 0 ? Number(1) / rho : rho;
+    }
+    Number flexibility(const Row& row, int i) const {
+      return static_cast<Number>(set.flexibility_[row.segment(i)]);
+    }
+  };
+  /// The same, worked out once.
+  template <class Number>
+  class KeptLinks {
+   public:
+    KeptLinks(const ActiveSet& set, const Laws& laws) {
+      const LinksOf<Number> links{set, laws};
+      for (int c = 0; c < set.model_->cables.size(); ++c) {
+        const Row row = set.row_of(c);
+        for (int i = 0; i < row.count; ++i) {
+          const int slip = links.ratio(row, i);
+          kept_[row.first_segment + i] = {links.flexibility(row, i),
+                                          slip < 0 ? Number(0) : links.next(row, i, slip),
+                                          short_of(links.segment(row, i)),
+                                          short_of(links.fixed(row, i)),
+                                          short_of(links.length(row, i)),
+                                          short_of(links.slip(row, i)),
+                                          short_of(slip),
+                                          slip >= 0 && links.is_forward(row, i, slip)};
+        }
+      }
+    }
+    int segment(const Row& row, int i) const { return at(row, i).segment; }
+    int fixed(const Row& row, int i) const { return at(row, i).fixed; }
+    int length(const Row& row, int i) const { return at(row, i).length; }
+    int slip(const Row& row, int i) const { return at(row, i).slip; }
+    int ratio(const Row& row, int i) const { return at(row, i).ratio; }
+    bool is_forward(const Row& row, int i, int) const { return at(row, i).forward; }
+    Number next(const Row& row, int i, int) const { return at(row, i).next; }
+    Number flexibility(const Row& row, int i) const { return at(row, i).flexibility; }
+
+   private:
+    struct Link {
+      Number flexibility, next;
+      std::int16_t segment, fixed, length, slip, ratio;
+      bool forward;
+    };
+    static std::int16_t short_of(int number) { return static_cast<std::int16_t>(number); }
+    const Link& at(const Row& row, int i) const { return kept_[row.first_segment + i]; }
+
+    FixedArray<Link, Cap::segments> kept_;
+  };
+  template <class Links, class Visit>
+  static void for_each_chain(const Links& links, const Row& row, Visit visit) {
     for (int a = 0; a < row.count;) {
       int b = a;
-      while (ratio_after(row, b) >= 0) ++b;
+      while (links.ratio(row, b) >= 0) ++b;
       visit(a, b);
       a = b + 1;
     }
@@ -321,11 +420,11 @@ class ActiveSet {
     bool fixed = false;
     for (int c = 0; c < model_->cables.size(); ++c) {
       const Row row = row_of(c);
-      for_each_chain(row, [&](int a, int b) {
+      for_each_chain(*this, row, [&](int a, int b) {
         bool here = false, any = false;
         for (int i = a; i <= b; ++i) {
           here = here || row.segment(i) == segment;
-          any = any || links_.fixed[row.segment(i)] >= 0;
+          any = any || numbers_.fixed[row.segment(i)] >= 0;
         }
         fixed = fixed || (here && any);
       });
@@ -336,7 +435,7 @@ class ActiveSet {
     bool same = false;
     for (int c = 0; c < model_->cables.size(); ++c) {
       const Row row = row_of(c);
-      for_each_chain(row, [&](int a, int b) {
+      for_each_chain(*this, row, [&](int a, int b) {
         int found = 0;
         for (int i = a; i <= b; ++i) found += row.segment(i) == one || row.segment(i) == other ? 1 : 0;
         same = same || found == 2;
@@ -344,37 +443,38 @@ class ActiveSet {
     }
     return same;
   }
-  void settle_chains(const Laws& laws, const Values& due, Tensions& T, Values& values) const {
-    Tensions e;
-    e.fill(Real(0));
+  template <class Links, class Number>
+  void settle_chains(const Links& links, const By<Number>& due, Along<Number>& T, By<Number>& values) const {
+    Along<Number> e;
     for (int c = 0; c < model_->cables.size(); ++c) {
       const Row row = row_of(c);
-      for_each_chain(row, [&](int a, int b) { settle_chain(laws, row, a, b, due, T, e); });
+      for_each_chain(links, row, [&](int a, int b) { settle_chain(links, row, a, b, due, T, e); });
       for (int a = 0; a < row.count;) {
         int b = a;
-        while (slip_after(row, b) >= 0) ++b;
-        follow(row, a, b, e, values);
+        while (links.slip(row, b) >= 0) ++b;
+        follow(links, row, a, b, e, values);
         a = b + 1;
       }
     }
   }
   /// T_i = ratio_i tau + offset_i along a chain. A law gives one of them; if none does, the elongations
   /// cancel: Eq. (13).
-  void settle_chain(const Laws& laws, const Row& row, int a, int b, const Values& due, Tensions& T,
-                    Tensions& e) const {
-    Real weights = 0, sum = 0, tau = 0;
+  template <class Links, class Number>
+  static void settle_chain(const Links& links, const Row& row, int a, int b, const By<Number>& due,
+                           Along<Number>& T, Along<Number>& e) {
+    Number weights = 0, sum = 0, tau = 0;
     bool found = false;
     for (const bool settles : {false, true}) {
       if (settles && !found) {
         if (a == b) return;
         tau = sum / weights;
       }
-      Real ratio = 1, offset = 0;
+      Number ratio = 1, offset = 0;
       for (int i = a; i <= b; ++i) {
-        const int segment = row.segment(i), fixed = links_.fixed[segment];
-        const Real flexibility = flexibility_[segment];
+        const int segment = links.segment(row, i), fixed = links.fixed(row, i);
+        const Number flexibility = links.flexibility(row, i);
         if (settles) {
-          const Real settled = ratio * tau + offset;
+          const Number settled = ratio * tau + offset;
           e[segment] = (settled - T[segment]) * flexibility;
           T[segment] = settled;
         } else {
@@ -386,39 +486,40 @@ class ActiveSet {
           sum += (T[segment] - offset) * flexibility;
         }
         if (i == b) break;
-        const int k = ratio_after(row, i);
-        const Real rho = laws.rho(active_[k].variable.index);
-        const bool forward = active_[k].sense > 0;
-        const Real next = forward ? Real(1) / rho : rho;
+        const int k = links.ratio(row, i);
+        const Number next = links.next(row, i, k);
         ratio *= next;
-        offset = forward ? (offset - due[k]) * next : offset * next + due[k];
+        offset = links.is_forward(row, i, k) ? (offset - due[k]) * next : offset * next + due[k];
       }
     }
   }
   /// The slips that give segments a to b, linked by active slips, their elongations.
-  void follow(const Row& row, int a, int b, const Tensions& e, Values& values) const {
+  template <class Links, class Number>
+  static void follow(const Links& links, const Row& row, int a, int b, const Along<Number>& e,
+                     By<Number>& values) {
     int at = b;
     for (int i = a; i <= b; ++i)
-      if (links_.length[row.segment(i)] >= 0) at = i;
-    Real before = 0, after = 0;
+      if (links.length(row, i) >= 0) at = i;
+    Number before = 0, after = 0;
     for (int i = a; i < at; ++i) {
-      before += e[row.segment(i)];
-      values[slip_after(row, i)] += before;
+      before += e[links.segment(row, i)];
+      values[links.slip(row, i)] += before;
     }
     for (int i = b; i > at; --i) {
-      after += e[row.segment(i)];
-      values[slip_after(row, i - 1)] -= after;
+      after += e[links.segment(row, i)];
+      values[links.slip(row, i - 1)] -= after;
     }
-    const int length = links_.length[row.segment(at)];
-    if (length >= 0) values[length] += before + after + e[row.segment(at)];
+    const int length = links.length(row, at);
+    if (length >= 0) values[length] += before + after + e[links.segment(row, at)];
   }
 
   const CondensedType* model_ = nullptr;
   ActiveConstraints active_;
   Real held_ = 0, stiffest_ = 0;
   Tensions flexibility_;  // of every segment in its own direction [m/N], 0 if statics give its force
-  Links links_;
+  Numbers numbers_;
   BorderedLu<Real, has_rows ? capacity : 0> factors_;
+  FixedArray<bool, has_rows ? capacity : 0> is_sound_;  // whether all pivots up to here are
   bool is_diagonal_ = false;
 };
 

@@ -8,15 +8,22 @@
 
 namespace taut {
 
-/// Other joints slide from here on, or slips have changed: the forces follow. False if a node is free then.
-/// Cost: that of one event.
+/// Other joints slide from here on, or slips have changed: the forces follow, without
+/// CableSystem::differentiate(). False if a node is free then. Cost: that of one event.
 template <class Cables>
-[[nodiscard]] bool make_map_anew(Cables& cables) {
+[[nodiscard]] bool find_forces_anew(Cables& cables) {
   cables.drop_set();
   Constraints<Cables> constraints(cables);
   if (!constraints.set_up()) return false;
   constraints.make_map();
   cables.find_forces();
+  return true;
+}
+/// The same, with derivatives.
+template <class Cables>
+[[nodiscard]] bool make_map_anew(Cables& cables) {
+  if (!find_forces_anew(cables)) return false;
+  cables.differentiate();
   return true;
 }
 
@@ -105,12 +112,13 @@ Status change_unknowns(Cables& cables, const Changes& change) {
   const auto before = cables.state;
   cables.derivatives.for_each([&](const auto& derivative, int p) { shift(cables, derivative, change[p]); });
   for (int count = 0; count <= cables.joints() + cables.spans.size(); ++count) {
-    if (!make_map_anew(cables)) {
+    if (!find_forces_anew(cables)) {
       cables.state = before;
       return cables.at_joint(Code::mechanism, -1);
     }
     if (!let_slack(cables) && !put_on_edge(cables)) break;
   }
+  cables.differentiate();
   cables.state.peak = largest(cables.model->segments, &cables.force[0], cables.state.peak);
   return Status::success();
 }

@@ -48,6 +48,7 @@ class AffineMap {
 
   /// The slip variables at work; whoever changes them makes the map anew.
   Set& set() { return set_; }
+  const Set& set() const { return set_; }
   bool is_held() const { return set_.is_held(); }
   int active() const { return set_.size(); }
   const SlipVariable& variable(int i) const { return set_[i].variable; }
@@ -57,11 +58,8 @@ class AffineMap {
   bool has_slack() const { return has_slack_; }
 
   /// Makes the map for the slips of the set. `T` are the tensions of all slips as they are at the anchor,
-  /// `values` the active ones, `anchor` the inputs. differentiate(settle) is called last: settle(due, T,
-  /// values) lets the active variables follow until their laws are what is due.
-  template <class Differentiate>
-  void make(const Laws& laws, const Tensions& T, const Values& values, const Inputs& anchor,
-            Differentiate differentiate) {
+  /// `values` the active ones, `anchor` the inputs.
+  void make(const Laws& laws, const Tensions& T, const Values& values, const Inputs& anchor) {
     has_slack_ = false;
     for (const ActiveConstraint& active : actives())
       has_slack_ = has_slack_ || active.variable.kind == SlipVariable::Kind::slack_length;
@@ -75,8 +73,6 @@ class AffineMap {
     set_.settle(laws, due, base_, base_values_, most_passes);
     for (int k = 0; k < inputs(); ++k) make_column(laws, k);
     round_columns();
-    differentiate(
-        [&](const Values& given, Tensions& follow, Values& by) { set_.settle(laws, given, follow, by); });
   }
 
   const Tensions& base() const { return base_; }

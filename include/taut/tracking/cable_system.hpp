@@ -189,9 +189,21 @@ struct CableSystem {
     if constexpr (is_adjustable) {
       Inputs x;
       values(state.now, x);
+      differentiate_at(x);
       derivatives.freeze(map, x, state.last);
     }
     state.moved = slip_state();
+  }
+  /// Makes the derivatives of the map, where they are not made yet: whoever asks Sensitivity for them needs
+  /// them. Of the pieces that a path passes, only those at their ends are needed.
+  void differentiate() {
+    if constexpr (is_adjustable)
+      if (state.has_map && !derivatives.is_made())
+        derivatives.make(map, laws, [this](const auto& moved, auto& T) { carry(moved, T); });
+  }
+  /// The same for freeze() and what is found at its event, at inputs `x` alone.
+  void differentiate_at(const Inputs& x) {
+    derivatives.make_at(map, laws, x, [this](const auto& moved, auto& T) { carry(moved, T); });
   }
   void stop(int joint) {
     if (state.slides[joint] == JointState::stick) return;
@@ -291,26 +303,26 @@ struct CableSystem {
     model->coupling.add(model->segments, e, rates);
   }
   /// Adds the tensions that slips make.
-  template <class Moved>
-  void carry(const Moved& moved, Tensions& T) const {
-    model->coupling.add(model->segments, elongations_by(moved), T);
+  template <class Moved, class Number>
+  void carry(const Moved& moved, FixedArray<Number, Cap::segments>& T) const {
+    model->coupling.add(model->segments, elongations_by<Number>(moved), T);
   }
   /// Elongations that slips, or derivatives of slips, impose on the segments [m].
-  template <class Moved>
-  Tensions elongations_by(const Moved& moved) const {
-    Tensions e;
-    e.fill(Real(0));
+  template <class Number = Real, class Moved>
+  FixedArray<Number, Cap::segments> elongations_by(const Moved& moved) const {
+    FixedArray<Number, Cap::segments> e;
+    e.fill(Number(0));
     impose(moved, e);
     return e;
   }
-  template <class Moved>
-  void impose(const Moved& moved, Tensions& e) const {
-    for (int j = 0; j < joints(); ++j) laws.slip(j).impose(static_cast<Real>(moved.slip[j]), e);
+  template <class Moved, class Number>
+  void impose(const Moved& moved, FixedArray<Number, Cap::segments>& e) const {
+    for (int j = 0; j < joints(); ++j) laws.slip(j).impose(static_cast<Number>(moved.slip[j]), e);
     for (const JackedEnd& jack : jacks)
       e[model->cables[jack.cable].end_segment(jack.end)] +=
-          static_cast<Real>(moved.extension[jack.cable][jack.end]);
+          static_cast<Number>(moved.extension[jack.cable][jack.end]);
     for (int r = 0; r < spans.size(); ++r)
-      if (state.slack[r]) e[spans[r].segment(0)] += static_cast<Real>(moved.slack_length[r]);
+      if (state.slack[r]) e[spans[r].segment(0)] += static_cast<Number>(moved.slack_length[r]);
   }
 
   // What is rounding.

@@ -60,8 +60,8 @@ class Constraints {
     map_.tension_rates(dx, rate);
     return !(map_.law_violation(laws_, rate, dx) > Real(1e-9) * larger(cables_.push, state_.peak));
   }
-  /// Makes the map of the slips at work from totals; they must be frozen at the present state. `has_total`:
-  /// the totals were made there by the last test of forces.
+  /// Makes the map of the slips at work from totals, without CableSystem::differentiate(); they must be
+  /// frozen at the present state. `has_total`: the totals were made there by the last test of forces.
   void rebuild(bool has_total = false) {
     for (int i = 0; i < model_.loads; ++i) state_.has_load[i] = state_.now.factor[i] != state_.goal.factor[i];
     make_map(has_total);
@@ -78,7 +78,8 @@ class Constraints {
     Inputs x;
     cables_.values(state_.now, x);
     if (!has_total) cables_.total = cables_.totals();
-    map_.make(laws_, cables_.total, values, x, [&](const auto& settle) { differentiate(settle); });
+    map_.make(laws_, cables_.total, values, x);
+    if constexpr (Cables::is_adjustable) cables_.derivatives.drop();
     state_.has_map = true;
     cables_.find_bending();
     state_.built = state_.now;
@@ -115,14 +116,6 @@ class Constraints {
         return false;
       }
     return true;
-  }
-  template <class Settle>
-  void differentiate(const Settle& settle) {
-    if constexpr (Cables::is_adjustable)
-      cables_.derivatives.make(map_, settle,
-                               [this](const auto& moved, Tensions& T) { cables_.carry(moved, T); });
-    else
-      static_cast<void>(settle);
   }
   bool add_jack(int c, std::size_t end) {
     if (state_.goal.jack[c][end].locked || cables_.is_redundant(c, end)) return true;

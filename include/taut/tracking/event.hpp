@@ -91,6 +91,7 @@ class EventSearch {
   /// How much later the piece would end if friction were other.
   void find_saltation(const Ending& ending, const Inputs& x) {
     if (!(-ending.falling > cables_.rate_tolerance())) return;
+    cables_.differentiate_at(x);
     if (ending.slack >= 0)
       cables_.derivatives.find_saltation_of_move(map_, x, ending.slack, ending.falling);
     else if (ending.span >= 0)

@@ -74,6 +74,7 @@ class EventPath {
     if (rest > 0 && progress.fraction >= Scalar(1))
       progress.fraction = Scalar(1) - std::numeric_limits<Scalar>::epsilon();
     cables_.state.arrived = progress.status.ok() && rest == 0;
+    cables_.differentiate();
     return progress;
   }
 

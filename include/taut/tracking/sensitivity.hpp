@@ -36,7 +36,6 @@ class Sensitivity {
   using Cap = typename CondensedType::Capacity;
   using Map = AffineMap<CondensedType, Laws>;
   using Tensions = typename Map::Tensions;
-  using Values = typename Map::Values;
   using Inputs = typename Map::Inputs;
 
   /// What is kept from map to map: derivatives of the slips where they froze.
@@ -49,7 +48,7 @@ class Sensitivity {
     frozen_ = {};
     parameter_.fill(-1);
     error_.fill({0, -1, 0, 0});
-    event_shift_.fill(Real(0));
+    event_shift_.fill(Scalar(0));
   }
   /// The parameter that the joint's friction depends on, or -1, and the derivative of its rho.
   void depend(int joint, int parameter, Real slope) {
@@ -75,25 +74,27 @@ class Sensitivity {
     for (int p = 0; p < frozen_.used; ++p) change(frozen_.derivative[p], p);
   }
 
-  /// Of the map that was just made; settle(due, T, values) lets its active variables follow until their laws
-  /// give what is due, carry(moved, T) adds the tensions of everything that has moved.
-  template <class Settle, class Carry>
-  void make(const Map& map, Settle settle, Carry carry) {
-    for (int p = 0; p < frozen_.used; ++p) {
-      Tensions T;
-      T.fill(Real(0));
-      carry(frozen_.derivative[p], T);
-      Values values;
-      for (int i = 0; i < map.active(); ++i) values[i] = static_cast<Real>(of_variable(map.variable(i), p));
-      settle(due(map, p, map.base(), error_at_anchor(map, p)), T, values);
-      store(map, T, values, piece_[p].base);
-      for (int k = 0; k < map.inputs(); ++k) {
-        T.fill(Real(0));
-        values.fill(Real(0));
-        settle(due(map, p, map.column(k), error_by_input(map, p, k)), T, values);
-        store(map, T, values, at(piece_[p].column, k));
-      }
-    }
+  /// The map is another one.
+  void drop() { is_made_ = has_base_ = false; }
+  /// Since then make() was called: tension(), tension_slope(), slip_state() and turn() can be.
+  bool is_made() const { return is_made_; }
+  /// Of the map; carry(moved, T) adds the tensions of everything that has moved. Cost: for every parameter
+  /// that of ActiveSet::settle(), once and once an input.
+  template <class Carry>
+  void make(const Map& map, const Laws& laws, Carry carry) {
+    make_base(map, laws, map.anchor(), map.base(), carry);
+    map.set().settle_derivatives(
+        laws, [&](auto zero, const auto& settle) { make_columns<decltype(zero)>(map, settle); });
+    is_made_ = true;
+  }
+  /// At inputs `x` alone, where it is not known there yet: for what is found there and for freeze(). Cost: of
+  /// settle() one a parameter.
+  template <class Carry>
+  void make_at(const Map& map, const Laws& laws, const Inputs& x, Carry carry) {
+    if (is_made_ || (has_base_ && base_at_ == x)) return;
+    Tensions T;
+    map.tensions(x, T);
+    make_base(map, laws, x, T, carry);
   }
 
   /// dT/dp of a segment [N], at inputs `x`; `anchor` is that of the map.
@@ -115,8 +116,9 @@ class Sensitivity {
   SlipState<Scalar, Cap> slip_state(const Map& map, int p, const Inputs& x) const {
     if (p >= frozen_.used) return {};
     SlipState<Scalar, Cap> moving = frozen_.derivative[p];
+    const Moved moved = from_base(map, x);
     for (int i = 0; i < map.active(); ++i)
-      moving.of(map.variable(i)) = static_cast<Scalar>(derivative(map, p, i, x));
+      moving.of(map.variable(i)) = along(moved, piece_[p], &Column::value, i);
     return moving;
   }
 
@@ -124,19 +126,23 @@ class Sensitivity {
   /// whose limit it is, or -1.
   void find_saltation(const Map& map, const Inputs& x, const Tensions& T, const TensionConstraint<Real>& law,
                       int joint, Real falling) {
+    const Scalar per_rate = static_cast<Scalar>(-1 / falling), weight = static_cast<Scalar>(law.weight);
+    const Moved moved = from_base(map, x);
     for (int p = 0; p < frozen_.used; ++p) {
-      Real change = static_cast<Real>(tension(map, p, law.first, x, map.anchor()));
-      if (law.second >= 0)
-        change -= law.weight * static_cast<Real>(tension(map, p, law.second, x, map.anchor()));
-      if (joint >= 0 && parameter_[joint] == p) change -= slope_[joint] * T[law.second];
-      event_shift_[p] = -change / falling;
+      const auto tension = [&](int segment) { return along(moved, piece_[p], &Column::tension, segment); };
+      Scalar change = tension(law.first);
+      if (law.second >= 0) change -= weight * tension(law.second);
+      if (joint >= 0 && parameter_[joint] == p) change -= static_cast<Scalar>(slope_[joint] * T[law.second]);
+      event_shift_[p] = change * per_rate;
     }
   }
   /// At inputs `x` the active variable `i` came to its end at the rate `falling`: by how much later if
   /// friction were other.
   void find_saltation_of_move(const Map& map, const Inputs& x, int i, Real falling) {
+    const Scalar per_rate = static_cast<Scalar>(-map.stiffness(i) / falling);
+    const Moved moved = from_base(map, x);
     for (int p = 0; p < frozen_.used; ++p)
-      event_shift_[p] = -derivative(map, p, i, x) * map.stiffness(i) / falling;
+      event_shift_[p] = along(moved, piece_[p], &Column::value, i) * per_rate;
   }
   /// From here on parameter `p` is by so many times what it was until now.
   void weigh(int p, Scalar by) { frozen_.derivative[p].scale(by); }
@@ -182,14 +188,16 @@ class Sensitivity {
     }
   }
   /// What comes next is not at an event.
-  void pass() { event_shift_.fill(Real(0)); }
+  void pass() { event_shift_.fill(Scalar(0)); }
 
   /// Takes the derivatives where they are; `direction` is that of the inputs on the way here.
   void freeze(const Map& map, const Inputs& x, const Inputs& direction) {
-    for (int p = 0; p < frozen_.used; ++p)
-      for (int i = 0; i < map.active(); ++i)
-        of_variable(map.variable(i), p) =
-            static_cast<Scalar>(derivative(map, p, i, x) + event_shift_[p] * map.value_rate(i, direction));
+    const Moved moved = from_base(map, x);
+    for (int i = 0; i < map.active(); ++i) {
+      const auto rate = static_cast<Scalar>(map.value_rate(i, direction));
+      for (int p = 0; p < frozen_.used; ++p)
+        of_variable(map.variable(i), p) = along(moved, piece_[p], &Column::value, i) + event_shift_[p] * rate;
+    }
   }
 
  private:
@@ -214,28 +222,66 @@ class Sensitivity {
     Plain<Column, Map::max_inputs> column;
   };
 
+  /// At inputs `x`, with the tensions there.
+  template <class Carry>
+  void make_base(const Map& map, const Laws& laws, const Inputs& x, const Tensions& there,
+                 const Carry& carry) {
+    has_base_ = true;
+    base_at_ = x;
+    map.set().settle_derivatives(laws, [&](auto zero, const auto& settle) {
+      using Number = decltype(zero);
+      for (int p = 0; p < frozen_.used; ++p) {
+        typename Map::Set::template Along<Number> T;
+        typename Map::Set::template By<Number> values;
+        carry(frozen_.derivative[p], T);
+        for (int i = 0; i < map.active(); ++i)
+          values[i] = static_cast<Number>(of_variable(map.variable(i), p));
+        settle(due<Number>(map, p, there, error_at(map, p, x)), T, values);
+        store(map, T, values, piece_[p].base);
+      }
+    });
+  }
+  template <class Number, class Settle>
+  void make_columns(const Map& map, const Settle& settle) {
+    for (int p = 0; p < frozen_.used; ++p)
+      for (int k = 0; k < map.inputs(); ++k) {
+        typename Map::Set::template Along<Number> T;
+        typename Map::Set::template By<Number> values;
+        settle(due<Number>(map, p, map.column(k), error_by_input(map, p, k)), T, values);
+        store(map, T, values, at(piece_[p].column, k));
+      }
+  }
+
   void use(int parameter) {
     if (parameter >= frozen_.used) frozen_.used = parameter + 1;
   }
   Scalar& of_variable(const SlipVariable& variable, int p) { return frozen_.derivative[p].of(variable); }
 
-  /// dm/dp of an active variable.
-  Real derivative(const Map& map, int p, int i, const Inputs& x) const {
-    const Piece& piece = piece_[p];
-    Real found = static_cast<Real>(at(piece.base.value, i));
-    for (int k = 0; k < map.inputs(); ++k)
-      found += (x[k] - map.anchor()[k]) * static_cast<Real>(at(at(piece.column, k).value, i));
+  /// How far inputs are from those of the base: make_at() was there, and has made no more.
+  struct Moved {
+    FixedArray<Scalar, Map::max_inputs> by;
+    int inputs;
+  };
+  Moved from_base(const Map& map, const Inputs& x) const {
+    Moved moved{{}, is_made_ ? map.inputs() : 0};
+    for (int k = 0; k < moved.inputs; ++k) moved.by[k] = static_cast<Scalar>(x[k] - map.anchor()[k]);
+    return moved;
+  }
+  /// One of the tensions, or of the values, there.
+  template <class Of>
+  static Scalar along(const Moved& moved, const Piece& piece, Of Column::*of, int i) {
+    Scalar found = at(piece.base.*of, i);
+    for (int k = 0; k < moved.inputs; ++k) found += moved.by[k] * at(at(piece.column, k).*of, i);
     return found;
   }
   bool is_force_of(const Input& input, int p) const {
     return input.kind == Input::Kind::jack_force && input.index == error_[p].jack;
   }
-  /// Derivative of the force of the jack that depends on `p`, where the map was made.
-  Real error_at_anchor(const Map& map, int p) const {
+  /// Derivative of the force of the jack that depends on `p`, at inputs `x`.
+  Real error_at(const Map& map, int p, const Inputs& x) const {
     for (int k = 0; error_[p].jack >= 0 && k < map.inputs(); ++k)
       if (is_force_of(map.input(k), p))
-        return static_cast<Real>(error_[p].constant) +
-               static_cast<Real>(error_[p].proportional) * map.anchor()[k];
+        return static_cast<Real>(error_[p].constant) + static_cast<Real>(error_[p].proportional) * x[k];
     return 0;
   }
   /// How that changes with input `k`.
@@ -244,24 +290,26 @@ class Sensitivity {
                                                                : Real(0);
   }
   /// What the laws' derivatives are to be: rho' T_big of every sliding joint, and that of the jack's force.
-  Values due(const Map& map, int p, const Tensions& T, Real of_jack) const {
-    Values values;
-    values.fill(Real(0));
+  template <class Number>
+  typename Map::Set::template By<Number> due(const Map& map, int p, const Tensions& T, Real of_jack) const {
+    typename Map::Set::template By<Number> values;
     if (of_jack != 0)
       for (int i = 0; i < map.active(); ++i)
         if (map.variable(i).kind == SlipVariable::Kind::extension && map.variable(i).index == error_[p].jack)
-          values[i] = of_jack;
+          values[i] = static_cast<Number>(of_jack);
     if constexpr (Cap::joints > 0) {
       for (int i = 0; i < map.active(); ++i) {
         const ActiveConstraint& active = map.actives()[i];
         if (!active.slides()) continue;
         if (parameter_[active.variable.index] == p)
-          values[i] = slope_[active.variable.index] * T[active.big()];
+          values[i] =
+              static_cast<Number>(slope_[active.variable.index]) * static_cast<Number>(T[active.big()]);
       }
     }
     return values;
   }
-  static void store(const Map& map, const Tensions& T, const Values& values, Column& into) {
+  template <class Along, class By>
+  static void store(const Map& map, const Along& T, const By& values, Column& into) {
     for (int i = 0; i < Cap::segments; ++i) at(into.tension, i) = static_cast<Scalar>(T[i]);
     for (int i = 0; i < map.active(); ++i) at(into.value, i) = static_cast<Scalar>(values[i]);
   }
@@ -270,8 +318,10 @@ class Sensitivity {
   FixedArray<std::int16_t, Cap::joints> parameter_;
   FixedArray<Real, Cap::joints> slope_;
   FixedArray<JackError<Scalar>, Parameters> error_;  // jack -1: none
-  FixedArray<Real, Parameters>
-      event_shift_;                     // by how much of what was left of the path the event comes later
+  FixedArray<Scalar, Parameters>
+      event_shift_;  // by how much of what was left of the path the event comes later
+  Inputs base_at_;   // those of the base
+  bool has_base_ = false, is_made_ = false;
   Uncleared<Piece, Parameters> piece_;  // made with every map, for what is in use: most of a large tracker
 };
 

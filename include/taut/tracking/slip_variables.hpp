@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <type_traits>
 
 #include "taut/condensation/condensed.hpp"
 #include "taut/scene/sample.hpp"
@@ -39,9 +40,11 @@ struct TensionConstraint {
 
   static TensionConstraint on(int segment) { return {static_cast<std::int16_t>(segment), -1, Real(0)}; }
 
+  /// In the numbers of T.
   template <class Tensions>
-  Real of(const Tensions& T) const {
-    return second < 0 ? T[first] : T[first] - weight * T[second];
+  auto of(const Tensions& T) const {
+    using Number = std::decay_t<decltype(T[0])>;
+    return second < 0 ? T[first] : T[first] - static_cast<Number>(weight) * T[second];
   }
 };
 

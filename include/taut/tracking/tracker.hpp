@@ -300,6 +300,7 @@ Status Tracker<CondensedType, Parameters>::take_over(const State& saved) {
     Constraints<Cables> constraints(cables_);
     if (!constraints.set_up()) return broken_state();
     constraints.make_map();
+    cables_.differentiate();
   }
   cables_.state.now = saved.now;
   if (saved.has_map)
