@@ -82,16 +82,17 @@ class Sensitivity {
   /// that of ActiveSet::settle(), once and once an input.
   template <class Carry>
   void make(const Map& map, const Laws& laws, Carry carry) {
+    is_made_ = true;
+    if (used() == 0) return;
     make_base(map, laws, map.anchor(), map.base(), carry);
     map.set().settle_derivatives(
         laws, [&](auto zero, const auto& settle) { make_columns<decltype(zero)>(map, settle); });
-    is_made_ = true;
   }
   /// At inputs `x` alone, where it is not known there yet: for what is found there and for freeze(). Cost: of
   /// settle() one a parameter.
   template <class Carry>
   void make_at(const Map& map, const Laws& laws, const Inputs& x, Carry carry) {
-    if (is_made_ || (has_base_ && base_at_ == x)) return;
+    if (is_made_ || used() == 0 || (has_base_ && base_at_ == x)) return;
     Tensions T;
     map.tensions(x, T);
     make_base(map, laws, x, T, carry);
