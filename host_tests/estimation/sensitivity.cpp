@@ -287,6 +287,18 @@ TEST_CASE("a tracker in float has the derivatives of one in double: between rigi
   CHECK(found.compared > 100000);
 }
 
+TEST_CASE("a tracker in float has the derivatives of one in double: where friction all but locks a cable") {
+  // Of the force, 1e-4 to 1e-60 come to the far end: less than a float can be.
+  const InFloat found = in_float<Saddles>([](Random& random, taut::Cable<double>& cable, Saddles& scene) {
+    cable.law = taut::FrictionLaw::capstan;
+    cable.mu = random.between(4, 55);
+    saddles(scene, cable, chain_points(3 + random.below(7)));
+  });
+  CHECK(found.rms() < 3e-8);
+  CHECK(found.worst < 1e-6);
+  CHECK(found.compared > 100000);
+}
+
 TEST_CASE("a tracker in float has the derivatives of one in double: on structures, however soft or stiff") {
   const InFloat found = in_float<Plane>([](Random& random, const taut::Cable<double>& cable, Plane& scene) {
     const Variation vary(random);

@@ -374,10 +374,16 @@ class ActiveSet {
       const LinksOf<Number> links{set, laws};
       for (int c = 0; c < set.model_->cables.size(); ++c) {
         const Row row = set.row_of(c);
+        Number ratio = 1;  // since the chain began
         for (int i = 0; i < row.count; ++i) {
           const int slip = links.ratio(row, i);
+          Number next = 1;
+          if (slip >= 0) next = links.next(row, i, slip);
+          // A float has no more; so little is left there that nothing depends on it.
+          if (ratio * next > farthest || ratio * next * farthest < 1) next = 1;
+          ratio = slip >= 0 ? ratio * next : Number(1);
           kept_[row.first_segment + i] = {links.flexibility(row, i),
-                                          slip < 0 ? Number(0) : links.next(row, i, slip),
+                                          next,
                                           short_of(links.segment(row, i)),
                                           short_of(links.fixed(row, i)),
                                           short_of(links.length(row, i)),
@@ -402,6 +408,7 @@ class ActiveSet {
       std::int16_t segment, fixed, length, slip, ratio;
       bool forward;
     };
+    static constexpr Number farthest = Number(1e24);
     static std::int16_t short_of(int number) { return static_cast<std::int16_t>(number); }
     const Link& at(const Row& row, int i) const { return kept_[row.first_segment + i]; }
 
