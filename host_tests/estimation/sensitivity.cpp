@@ -212,10 +212,6 @@ TEST_CASE(
   }
 }
 
-}  // namespace
-
-namespace {
-
 struct InFloat {
   double worst = 0, squares = 0;
   int compared = 0;

@@ -198,13 +198,10 @@ struct CableSystem {
   /// them. Of the pieces that a path passes, only those at their ends are needed.
   void differentiate() {
     if constexpr (is_adjustable)
-      if (state.has_map && !derivatives.is_made())
-        derivatives.make(map, laws, [this](const auto& moved, auto& T) { carry(moved, T); });
+      if (state.has_map && !derivatives.is_made()) derivatives.make(map, laws, *this);
   }
   /// The same for freeze() and what is found at its event, at inputs `x` alone.
-  void differentiate_at(const Inputs& x) {
-    derivatives.make_at(map, laws, x, [this](const auto& moved, auto& T) { carry(moved, T); });
-  }
+  void differentiate_at(const Inputs& x) { derivatives.make_at(map, laws, x, *this); }
   void stop(int joint) {
     if (state.slides[joint] == JointState::stick) return;
     state.slides[joint] = JointState::stick;

@@ -78,24 +78,26 @@ class Sensitivity {
   void drop() { is_made_ = has_base_ = false; }
   /// Since then make() was called: tension(), tension_slope(), slip_state() and turn() can be.
   bool is_made() const { return is_made_; }
-  /// Of the map; carry(moved, T) adds the tensions of everything that has moved. Cost: for every parameter
-  /// that of ActiveSet::settle(), once and once an input.
-  template <class Carry>
-  void make(const Map& map, const Laws& laws, Carry carry) {
+  /// Of the map; cables.carry(moved, T) adds the tensions of everything that has moved. Cost: for every
+  /// parameter that of ActiveSet::settle(), once and once an input.
+  template <class Cables>
+  void make(const Map& map, const Laws& laws, const Cables& cables) {
     is_made_ = true;
     if (used() == 0) return;
-    make_base(map, laws, map.anchor(), map.base(), carry);
-    map.set().settle_derivatives(
-        laws, [&](auto zero, const auto& settle) { make_columns<decltype(zero)>(map, settle); });
+    map.set().settle_derivatives(laws, [&](auto zero, const auto& settle) {
+      make_base<decltype(zero)>(map, map.anchor(), map.base(), settle, cables);
+      make_columns<decltype(zero)>(map, settle);
+    });
   }
   /// At inputs `x` alone, where it is not known there yet: for what is found there and for freeze(). Cost: of
   /// settle() one a parameter.
-  template <class Carry>
-  void make_at(const Map& map, const Laws& laws, const Inputs& x, Carry carry) {
+  template <class Cables>
+  void make_at(const Map& map, const Laws& laws, const Inputs& x, const Cables& cables) {
     if (is_made_ || used() == 0 || (has_base_ && base_at_ == x)) return;
     Tensions T;
     map.tensions(x, T);
-    make_base(map, laws, x, T, carry);
+    map.set().settle_derivatives(
+        laws, [&](auto zero, const auto& settle) { make_base<decltype(zero)>(map, x, T, settle, cables); });
   }
 
   /// dT/dp of a segment [N], at inputs `x`; `anchor` is that of the map.
@@ -224,23 +226,19 @@ class Sensitivity {
   };
 
   /// At inputs `x`, with the tensions there.
-  template <class Carry>
-  void make_base(const Map& map, const Laws& laws, const Inputs& x, const Tensions& there,
-                 const Carry& carry) {
+  template <class Number, class Settle, class Cables>
+  void make_base(const Map& map, const Inputs& x, const Tensions& there, const Settle& settle,
+                 const Cables& cables) {
     has_base_ = true;
     base_at_ = x;
-    map.set().settle_derivatives(laws, [&](auto zero, const auto& settle) {
-      using Number = decltype(zero);
-      for (int p = 0; p < frozen_.used; ++p) {
-        typename Map::Set::template Along<Number> T;
-        typename Map::Set::template By<Number> values;
-        carry(frozen_.derivative[p], T);
-        for (int i = 0; i < map.active(); ++i)
-          values[i] = static_cast<Number>(of_variable(map.variable(i), p));
-        settle(due<Number>(map, p, there, error_at(map, p, x)), T, values);
-        store(map, T, values, piece_[p].base);
-      }
-    });
+    for (int p = 0; p < frozen_.used; ++p) {
+      typename Map::Set::template Along<Number> T;
+      typename Map::Set::template By<Number> values;
+      cables.carry(frozen_.derivative[p], T);
+      for (int i = 0; i < map.active(); ++i) values[i] = static_cast<Number>(of_variable(map.variable(i), p));
+      settle(due<Number>(map, p, there, error_at(map, p, x)), T, values);
+      store(map, T, values, piece_[p].base);
+    }
   }
   template <class Number, class Settle>
   void make_columns(const Map& map, const Settle& settle) {
