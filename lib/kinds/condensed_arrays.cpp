@@ -229,20 +229,16 @@ FrictionPriorArrays friction_prior_arrays(const SceneDescription& scene) {
 
 CondensedArrays condense(const SceneDescription& scene, ScalarType scalar) {
   require_valid(scene);
-  return with_condensed_capacity(scene, [&](auto kind) {
+  return with_condensed_kind(scene, scalar, [&](auto kind) {
     using Kind = decltype(kind);
-    using Cap = typename Kind::Capacity;
-    return scalar == ScalarType::float32 ? condensed_arrays<float, Kind::dimension, Cap>(scene)
-                                         : condensed_arrays<double, Kind::dimension, Cap>(scene);
+    return condensed_arrays<typename Kind::Scalar, Kind::dimension, typename Kind::Capacity>(scene);
   });
 }
 
 FrictionPriorArrays know(const SceneDescription& scene, ScalarType scalar) {
-  return with_condensed_capacity(scene, [&](auto kind) {
+  return with_condensed_kind(scene, scalar, [&](auto kind) {
     using Kind = decltype(kind);
-    using Cap = typename Kind::Capacity;
-    return scalar == ScalarType::float32 ? friction_prior_arrays<float, Kind::dimension, Cap>(scene)
-                                         : friction_prior_arrays<double, Kind::dimension, Cap>(scene);
+    return friction_prior_arrays<typename Kind::Scalar, Kind::dimension, typename Kind::Capacity>(scene);
   });
 }
 

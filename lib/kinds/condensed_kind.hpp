@@ -1,6 +1,7 @@
 // The kinds of condensed scenes that the program is compiled for.
 #pragma once
 
+#include "lib/files/result_file.hpp"
 #include "lib/files/scene_description.hpp"
 #include "lib/kinds/capacities.hpp"
 #include "taut/condensation/second_order.hpp"
@@ -52,24 +53,47 @@ inline bool is_rigid(const SceneDescription& scene) {
 /// Whether second-order theory makes a difference to the scene.
 inline bool leans(const SceneDescription& scene) { return scene.second_order && !is_rigid(scene); }
 
-/// As with_capacity(), for the capacity that the scene is condensed with; second-order theory has the largest
-/// alone.
-template <class Call>
-auto with_condensed_capacity(const SceneDescription& scene, Call&& call) {
+/// What a scene is condensed and solved in.
+template <class Number, int Dimension, class Cap>
+struct CondensedKind {
+  using Scalar = Number;
+  static constexpr int dimension = Dimension;
+  using Capacity = Cap;
+};
+
+namespace detail {
+
+template <class Scalar, class Call, class List>
+auto with_condensed_kind(const SceneDescription& scene, Call&& call, List capacities) {
   if (leans(scene))
     return with_capacity(
         scene,
         [&](auto kind) {
           using Kind = decltype(kind);
-          return call(SceneKind<Kind::dimension, Leaning<typename Kind::Capacity>>{});
+          return call(CondensedKind<Scalar, Kind::dimension, Leaning<typename Kind::Capacity>>{});
         },
         LargestCapacity{});
-  return with_capacity(scene, [&](auto kind) {
-    using Kind = decltype(kind);
-    using Cap = typename Kind::Capacity;
-    if (is_rigid(scene)) return call(SceneKind<Kind::dimension, Rigid<Cap>>{});
-    return call(kind);
-  });
+  return with_capacity(
+      scene,
+      [&](auto kind) {
+        using Kind = decltype(kind);
+        using Cap = typename Kind::Capacity;
+        if (is_rigid(scene)) return call(CondensedKind<Scalar, Kind::dimension, Rigid<Cap>>{});
+        return call(CondensedKind<Scalar, Kind::dimension, Cap>{});
+      },
+      capacities);
+}
+
+}  // namespace detail
+
+/// Calls `call` with the CondensedKind of the scene in `scalar`, as with_capacity() does. Second-order theory
+/// has the largest capacity alone, and so has float, in which a scene is computed to be compared with a
+/// device.
+template <class Call>
+auto with_condensed_kind(const SceneDescription& scene, ScalarType scalar, Call&& call) {
+  if (scalar == ScalarType::float32)
+    return detail::with_condensed_kind<float>(scene, call, LargestCapacity{});
+  return detail::with_condensed_kind<double>(scene, call, Capacities{});
 }
 
 }  // namespace taut::host

@@ -11,19 +11,18 @@ namespace {
 
 std::unique_ptr<Model> tracker_model(const SceneDescription& scene, ScalarType scalar) {
   require_valid(scene);
-  return with_condensed_capacity(scene, [&](auto kind) -> std::unique_ptr<Model> {
-    using Cap = typename decltype(kind)::Capacity;
-    return scalar == ScalarType::float32 ? make_tracker<float, Cap>(scene) : make_tracker<double, Cap>(scene);
+  return with_condensed_kind(scene, scalar, [&](auto kind) -> std::unique_ptr<Model> {
+    using Kind = decltype(kind);
+    return make_tracker<typename Kind::Scalar, typename Kind::Capacity>(scene);
   });
 }
 
 std::unique_ptr<Model> estimator_model(const SceneDescription& scene, ScalarType scalar,
                                        const AlarmLimits<double>& limits) {
   require_valid(scene);
-  return with_condensed_capacity(scene, [&](auto kind) -> std::unique_ptr<Model> {
-    using Cap = typename decltype(kind)::Capacity;
-    return scalar == ScalarType::float32 ? make_estimator<float, Cap>(scene, limits)
-                                         : make_estimator<double, Cap>(scene, limits);
+  return with_condensed_kind(scene, scalar, [&](auto kind) -> std::unique_ptr<Model> {
+    using Kind = decltype(kind);
+    return make_estimator<typename Kind::Scalar, typename Kind::Capacity>(scene, limits);
   });
 }
 
@@ -46,8 +45,9 @@ std::unique_ptr<Model> stepwise_model(const SceneDescription& scene, ScalarType 
 
 std::unique_ptr<LegModel> make_leg_model(const SceneDescription& scene) {
   require_valid(scene);
-  return with_condensed_capacity(scene, [&](auto kind) -> std::unique_ptr<LegModel> {
-    return make_leg_tracker<double, typename decltype(kind)::Capacity>(scene);
+  return with_condensed_kind(scene, ScalarType::float64, [&](auto kind) -> std::unique_ptr<LegModel> {
+    using Kind = decltype(kind);
+    return make_leg_tracker<typename Kind::Scalar, typename Kind::Capacity>(scene);
   });
 }
 
