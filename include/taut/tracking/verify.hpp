@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "taut/numerics/larger.hpp"
 #include "taut/tracking/tracker.hpp"
@@ -26,7 +27,7 @@ struct Verdict {
 /// its friction at its limit, Eq. (9).
 ///
 /// Uses the condensed scene and the slips alone, none of what the tracker keeps for speed: segments^2
-/// multiplications. Before start() nothing is violated.
+/// multiplications. Where some number is none, the violation is infinite. Before start() nothing is violated.
 template <class CondensedType, int Parameters>
 Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Parameters>& tracker) {
   using Scalar = typename CondensedType::Scalar;
@@ -38,8 +39,14 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Para
   const auto& loads = tracker.loads();
   const Real unit = tracker.peak() > 0 ? Real(1) / static_cast<Real>(tracker.peak()) : Real(1);
   Verdict<Scalar> verdict;
-  const auto raise = [](Scalar& worst, Real violation) {
-    worst = larger(worst, static_cast<Scalar>(violation));
+  // What is no number is beyond everything.
+  const auto measured = [](Real violation) {
+    constexpr Scalar most = (std::numeric_limits<Scalar>::max)();
+    return violation <= static_cast<Real>(most) ? static_cast<Scalar>(violation)
+                                                : std::numeric_limits<Scalar>::infinity();
+  };
+  const auto raise = [&measured](Scalar& worst, Real violation) {
+    worst = larger(worst, measured(violation));
   };
 
   FixedArray<Real, Cap::segments> e, T;
@@ -64,7 +71,7 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Para
 
   for (int i = 0; i < model.segments; ++i) {
     const Real off = std::fabs(T[i] - static_cast<Real>(tracker.tension(i))) * unit;
-    if (static_cast<Scalar>(off) > verdict.imbalance) verdict.segment = i;
+    if (measured(off) > verdict.imbalance) verdict.segment = i;
     raise(verdict.imbalance, off);
     raise(verdict.compression, -T[i] * unit);
   }
@@ -91,7 +98,7 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Para
       Real off_limit = 0;
       if (tracker.motion(j) == JointState::forward) off_limit = std::fabs(T1 - rho * T2) * unit;
       if (tracker.motion(j) == JointState::backward) off_limit = std::fabs(T2 - rho * T1) * unit;
-      const auto most = static_cast<Scalar>(larger(outside, off_limit));
+      const Scalar most = measured(larger(outside, off_limit));
       if (most > larger(verdict.outside, verdict.off_limit)) verdict.joint = j;
       raise(verdict.outside, outside);
       raise(verdict.off_limit, off_limit);
