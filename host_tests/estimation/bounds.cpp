@@ -1,6 +1,8 @@
 // Bounds without history: every history that there can be stays within them, and some history reaches them.
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <limits>
 #include <memory>
 
 #include "estimation/site.hpp"
@@ -19,9 +21,11 @@ struct Bounded {
   Model model;
   Known known;
 
-  void make(bool elastic, double mu, double mu_sd) {
+  void make(bool elastic, double mu, double mu_sd, bool shared = false, double scatter = 0) {
     taut::Cable<double> cable = support::steel_cable(mu);
     cable.mu_sd = mu_sd;
+    cable.shared_mu = shared;
+    cable.scatter = scatter;
     cable.cell[0].sd = cable.cell[1].sd = 100;
     if (elastic)
       support::truss_string(scene, cable, 6);
@@ -58,6 +62,71 @@ TEST_CASE("no history leads outside of the bounds that its last readings give") 
         CHECK(tracker->tension(i) >= ranges[i].least * (1 - least_known));
         CHECK(tracker->tension(i) <= ranges[i].most * (1 + least_known));
       }
+    }
+  }
+}
+
+TEST_CASE("a shared mu that differs from joint to joint, and scatters, leaves the bounds no more often") {
+  static Bounded given;
+  constexpr double sd = 0.04, scatter = 0.1, widest = 2;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    given.make(random.coin(), 0.2, sd, true, scatter);
+    double mean = 0;
+    const int joints = given.scene.mu.size();
+    for (int j = 0; j < joints; ++j) {
+      given.scene.mu[j] = j % 2 == 0 ? 0.1 : 0.3;
+      mean += given.scene.mu[j] / joints;
+    }
+    REQUIRE(support::condense(given.scene, given.model).ok());
+    taut::find_friction_prior(given.scene, given.known);
+    // As far as the band goes: by what is shared, by what is a joint's own, or both at once.
+    Plane actual = given.scene;
+    const double angle = random.between(0, 1.5), way = random.coin() ? 1 : -1;
+    for (int j = 0; j < joints; ++j) {
+      const double nominal = given.scene.mu[j], of_all = std::cos(angle) * sd * nominal / mean,
+                   own = std::sin(angle) * scatter * nominal * random.between(-1, 1);
+      actual.mu[j] = nominal + widest * way * (of_all + own);
+    }
+    Model truth;
+    REQUIRE(support::condense(actual, truth).ok());
+    const auto tracker = std::make_unique<taut::Tracker<Model>>();
+    REQUIRE(tracker->start(truth).status.ok());
+    for (const double force : {1.0, random.between(0.1, 1), random.between(0.1, 1)}) {
+      taut::Sample<double, PlaneCapacity> sample;
+      sample.jack[0][1].force = force * full;
+      REQUIRE(tracker->advance(sample).status.ok());
+      const int n = truth.segments;
+      const std::array<taut::EndReading<double>, 2> ends{{{}, {true, false, tracker->tension(n - 1), 0}}};
+      Ranges ranges;
+      REQUIRE(taut::find_bounds(given.model, given.known, ends, 0, ranges));
+      for (int i = 0; i < n; ++i) {
+        CHECK(tracker->tension(i) >= ranges[i].least * (1 - least_known));
+        CHECK(tracker->tension(i) <= ranges[i].most * (1 + least_known));
+      }
+    }
+  }
+}
+
+TEST_CASE("a reading that cannot be a force tells nothing") {
+  static Bounded given;
+  given.make(false, 0.2, 0.02);
+  Ranges one, both;
+  std::array<taut::EndReading<double>, 2> ends{{{}, {true, false, full, 0}}};
+  REQUIRE(taut::find_bounds(given.model, given.known, ends, 0, one));
+  for (const double absurd :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+        -std::numeric_limits<double>::infinity(), 1.001 * given.model.most_force[0]}) {
+    CAPTURE(absurd);
+    CHECK_FALSE(taut::find_bounds(given.model, given.known, {{{true, false, absurd, 0}, {}}}, 0, both));
+    CHECK(both[0].least == 0);
+    CHECK(both[0].most == std::numeric_limits<double>::infinity());
+    ends[0] = {true, false, absurd, 0};
+    CHECK(taut::find_bounds(given.model, given.known, ends, 0, both));
+    for (int i = 0; i < given.model.segments; ++i) {
+      CHECK(both[i].least == one[i].least);
+      CHECK(both[i].most == one[i].most);
     }
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "taut/estimation/friction_prior.hpp"
@@ -24,7 +25,9 @@ struct ForceRange {
 /// How sure the bounds are to be.
 template <class Scalar>
 struct BoundWidths {
-  Scalar mu = 2;      ///< mu is at most its nominal value and so many of its standard deviations
+  /// The mu of a joint is at most its nominal value and so many of its standard deviations, those of what is
+  /// known of its cable and of its scatter together.
+  Scalar mu = 2;
   Scalar sensor = 2;  ///< a load cell is off by at most so many of its own, of each kind of its errors
 };
 
@@ -38,7 +41,8 @@ struct BoundWidths {
 /// nothing over.
 ///
 /// `ranges` are those of all segments of the scene; the segments of cable `c` are filled. Returns whether any
-/// load cell was read. A range that is empty says that the readings contradict the band of mu.
+/// load cell was read: a reading that is not finite, or more than the cable can carry, is none. A range that
+/// is empty says that the readings contradict the band of mu. Cost: two passes over the cable.
 template <class CondensedType>
 bool find_bounds(
     const CondensedType& model,
@@ -52,10 +56,14 @@ bool find_bounds(
   for (int i = 0; i < cable.segments(); ++i) ranges[cable.first_segment + i] = {};
   if (cable.closed) return false;
 
+  const auto free = FreeJoints<Real>::of(model, prior, cable);
   const auto least_rho = [&](int joint) {
     if (model.is_self_locking(joint)) return Scalar(0);
-    const Real mu = prior.mu[joint] + static_cast<Real>(widths.mu * prior.mu_sd[c]);
-    return static_cast<Scalar>(larger(Real(0), prior.limit(c, joint, mu).rho));
+    const auto nominal = static_cast<Scalar>(prior.mu[joint]);
+    const Scalar weight = prior.shared[c] ? static_cast<Scalar>(free.weight(prior.mu[joint])) : Scalar(1);
+    const Scalar known = weight * prior.mu_sd[c], own = prior.scatter[c] * nominal;
+    const Scalar mu = nominal + widths.mu * std::sqrt(known * known + own * own);
+    return static_cast<Scalar>(larger(Real(0), prior.limit(c, joint, static_cast<Real>(mu)).rho));
   };
   const auto narrow = [&](int segment, Scalar least, Scalar most) {
     ForceRange<Scalar>& range = ranges[segment];
@@ -64,7 +72,7 @@ bool find_bounds(
   };
   bool any = false;
   for (std::size_t end = 0; end < 2; ++end) {
-    if (!ends[end].has_force) continue;
+    if (!ends[end].has_force || !(std::fabs(ends[end].force) <= model.most_force[c])) continue;
     any = true;
     const LoadCell<Scalar>& cell = prior.cell[c][end];
     const Scalar force = ends[end].force;

@@ -70,25 +70,19 @@ class FrictionFilter {
     for (int c = 0; c < model.cables.size(); ++c) {
       const Scalar sd = prior.mu_sd[c];
       const auto& cable = model.cables[c];
-      Real sum = 0;
-      int free = 0;
-      for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j) {
-        if (model.is_self_locking(j)) continue;
-        sum += prior.mu[j];
-        ++free;
-      }
-      if (!(sd > 0) || free == 0) continue;
+      const auto free = FreeJoints<Real>::of(model, prior, cable);
+      if (!(sd > 0) || free.count == 0) continue;
       const bool shared = prior.shared[c];
       const int common = shared ? add(sd) : -1;
       for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j) {
         if (model.is_self_locking(j)) continue;
         const int p = shared ? common : add(sd);
         if (p < 0) continue;
-        const Real weight = shared && sum > 0 ? prior.mu[j] * static_cast<Real>(free) / sum : Real(1);
+        const Real weight = shared ? free.weight(prior.mu[j]) : Real(1);
         depend(c, j, p, static_cast<Scalar>(weight));
       }
       if (shared && common >= 0 && prior_->scatter[c] > 0) {
-        scatters(c, cable, common, static_cast<Scalar>(sum) / static_cast<Scalar>(free));
+        scatters(c, cable, common, static_cast<Scalar>(free.mu) / static_cast<Scalar>(free.count));
       }
     }
     belief_.end_friction();

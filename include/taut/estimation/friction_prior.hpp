@@ -49,4 +49,25 @@ struct FrictionPrior {
   }
 };
 
+/// The joints of a cable that can slide, at the mu of a FrictionPrior.
+template <class Real>
+struct FreeJoints {
+  int count = 0;
+  Real mu = 0;  ///< the sum of the nominal ones [-]
+
+  template <class Model, class Prior, class Cable>
+  static FreeJoints of(const Model& model, const Prior& prior, const Cable& cable) {
+    FreeJoints free;
+    for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j) {
+      if (model.is_self_locking(j)) continue;
+      free.mu += prior.mu[j];
+      ++free.count;
+    }
+    return free;
+  }
+  /// What the mu of a joint with this nominal one varies by when the shared one does by one [-]: what is
+  /// shared is a factor on the nominal values, and the shared mu their mean.
+  Real weight(Real nominal) const { return mu > 0 ? nominal * static_cast<Real>(count) / mu : Real(1); }
+};
+
 }  // namespace taut
