@@ -97,10 +97,26 @@ SOLVER_TEST_CASE("a node that hangs on a single bar is named as a mechanism at t
   CHECK_STATUS(bench.started(), Code::mechanism, Place::node, 2);
 }
 
+SOLVER_TEST_CASE("a node that a soft substructure holds is no mechanism, but too soft to tell its forces",
+                 solver) {
+  scene = {};
+  scene.add_node({0, 0}, taut::held_xy);
+  scene.add_node({1, 0}, taut::held_xy);
+  scene.add_node({2, -1});
+  scene.add_strut(1, 2, steel, 1e-3);
+  const std::array<double, 4> soft{1e-12, 0, 0, 1e-12};
+  const int held = 2;
+  scene.add_substructure(&held, 1, soft.data());
+  CHECK_STATUS(PlaneBench(scene, solver).started(), Code::ill_conditioned, Place::node, 2);
+  for (double& entry : scene.substructure_entries) entry *= 1e16;
+  CHECK(PlaneBench(scene, solver).started().ok());
+}
+
 SOLVER_TEST_CASE("a scene with a fault does not start", solver) {
   truss_string(scene, steel_cable(-1), 4);
   PlaneBench bench(scene, solver);
   CHECK_STATUS(bench.started(), Code::negative, Place::joint, 0, 0);
+  CHECK(bench.jack(0, 1, 1e5).go().code == Code::not_started);
 }
 
 SOLVER_TEST_CASE("two jacks that differ by more than all friction pull the cable through", solver) {

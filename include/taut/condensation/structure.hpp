@@ -343,6 +343,12 @@ class Structure {
       const auto& bar = elements_.segments[i];
       strained = std::fmax(strained, std::fabs(elongation(bar.nodes, bar.line).value()));
     }
+    for (int i = 0; i < scene_->substructures.size(); ++i)
+      strained = std::fmax(
+          strained,
+          static_cast<Scalar>(SubstructureElement<SceneType>(*scene_, i).strain([this](int node, int axis) {
+            return displacement(node, axis).hi;
+          })));
     const bool free = strained <= std::sqrt(epsilon) * most;
     return Status::at(free ? Code::mechanism : Code::ill_conditioned, Place::node, mover);
   }

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cmath>
 
 #include "taut/elements/strut.hpp"
 #include "taut/scene/friction.hpp"
@@ -73,7 +72,7 @@ struct ContactTrial {
 
 /// Table 2: the state that a trial solution calls for, given the state it assumed.
 ///
-/// As printed, Fixed/Fixed and Fixed/Sliding carry the same condition; sliding is |sigma_s| >= mu |sigma_n|.
+/// As printed, Fixed/Fixed and Fixed/Sliding carry the same condition; sliding is |sigma_s| > mu |sigma_n|.
 /// A joint exactly at its limit may be either and stays fixed.
 template <class Scalar>
 constexpr Contact check_contact(Contact assumed, const ContactTrial<Scalar>& trial) {
@@ -142,7 +141,6 @@ struct JointFrame {
 /// that plane: 9 unknowns.
 template <class Scalar, int Dimension>
 struct FrictionElement {
-  static constexpr int axes = Dimension;
   static constexpr int unknowns = 3 * Dimension;
   using Vector = Eigen::Matrix<Scalar, Dimension, 1>;
   using Matrix = Eigen::Matrix<Scalar, unknowns, unknowns>;

@@ -1,6 +1,9 @@
 // Substructure: a linear elastic body known by its stiffness matrix on a few nodes.
 #pragma once
 
+#include <cmath>
+
+#include "taut/numerics/larger.hpp"
 #include "taut/scene/scene.hpp"
 
 namespace taut {
@@ -28,6 +31,22 @@ class SubstructureElement {
   }
   /// The number of an entry in the scene's list.
   constexpr int entry(int row, int column) const { return given_->first_entry + row * size() + column; }
+
+  /// How much it resists the displacements u(node, axis) [m]: the largest force on a node, over the largest
+  /// entry of the matrix [m]. Zero where it moves as a rigid body. Cost: the square of its rows.
+  template <class Displacement>
+  Scalar strain(const Displacement& u) const {
+    Scalar force = 0, stiffest = 0;
+    for (int row = 0; row < size(); ++row) {
+      Scalar held = 0;
+      for (int column = 0; column < size(); ++column) {
+        held += (*this)(row, column) * static_cast<Scalar>(u(node(column), axis(column)));
+        stiffest = larger(stiffest, std::fabs((*this)(row, column)));
+      }
+      force = larger(force, std::fabs(held));
+    }
+    return stiffest > 0 ? force / stiffest : Scalar(0);
+  }
 
  private:
   const SceneType* scene_;

@@ -32,7 +32,6 @@ class BandLu {
   Scalar diagonal(int i) const { return at(i, i); }
   /// The scale of a column: its solution is of this order [unit of the unknown].
   void set_column_scale(int column, Scalar scale) { column_scale_[index(column)] = scale; }
-  Scalar column_scale(int column) const { return column_scale_[index(column)]; }
 
   /// Factors P R A C = L U. Returns -1, or the column at which the matrix turned out singular.
   int factor() {

@@ -30,6 +30,7 @@ class Stepwise {
 
   /// Validates the scene and brings its prestrain on in `substeps` load steps, without loads and jack forces.
   Status start(const SceneType& scene, int substeps = 1) {
+    scene_ = nullptr;
     const Status valid = validate(scene);
     if (!valid) return valid;
     scene_ = &scene;
@@ -38,7 +39,6 @@ class Stepwise {
     now_ = {};
     rest_ = {};
     response_ = {};
-    solves_ = 0;
     goal_ = {};
     goal_.prestrain = 1;
     const Status status = follow(now_, goal_, substeps);
@@ -49,8 +49,10 @@ class Stepwise {
   /// Follows the straight path from the present loads to `sample` in `substeps` load steps.
   ///
   /// On failure the state stays at the last load step that has an answer, and response() is that step's:
-  /// `bad_sample` (nothing was done), `mechanism`, `pulled_through`, `state_iterations`, `ill_conditioned`.
+  /// `not_started` or `bad_sample` (nothing was done), `mechanism`, `pulled_through`, `state_iterations`,
+  /// `ill_conditioned`.
   Status advance(const Sample<Scalar, Cap>& sample, int substeps = 1) {
+    if (scene_ == nullptr) return Status::at(Code::not_started, Place::none, -1);
     const Status usable = check_sample(scene_->cables, scene_->loads, sample);
     if (!usable) return usable;
     Loads from = now_;
@@ -70,8 +72,6 @@ class Stepwise {
   }
   /// A lower bound of the condition number of the first system, scaled; at 1/epsilon digits run out.
   Scalar condition() const { return condition_; }
-  /// Global systems solved since start().
-  long solves() const { return solves_; }
   const Elements<Scalar, SceneType>& elements() const { return system_.elements(); }
 
  private:
@@ -122,35 +122,25 @@ class Stepwise {
   }
 
   Status change_in_turn(const Loads& loads) {
-    Assumed trial = rest_.assumed;
-    begin_ = rest_.assumed.v_s;
-    tauten_jacked(trial, loads);
-    const int most = 16 + 2 * (joints() + spans_.size());
-    int changed = -1;
-    for (int iteration = 0; iteration < most; ++iteration) {
-      const Status status = system_.solve(trial, loads);
-      ++solves_;
-      if (!status) return status;
-      changed = review(trial, loads);
-      if (changed < 0) {
-        commit(trial, loads);
-        return Status::success();
-      }
-    }
-    return at_joint(Code::state_iterations, changed);
+    return iterate(loads, 16 + 2 * (joints() + spans_.size()), [](Assumed&) { return Status::success(); });
   }
 
   /// The step as one complementarity problem, Eq. (10) with all slips of the step in place of rates:
   /// T = T0 + W dv from one solve a joint, dv the slips either way.
   Status settle_together(const Loads& loads) {
+    return iterate(loads, 2 + 2 * spans_.size(), [&](Assumed& trial) { return choose_slides(trial, loads); });
+  }
+
+  /// Solves and reviews until the states agree with what they lead to; choose(trial) comes before each.
+  template <class Choose>
+  Status iterate(const Loads& loads, int most, const Choose& choose) {
     Assumed trial = rest_.assumed;
     begin_ = rest_.assumed.v_s;
     tauten_jacked(trial, loads);
     int changed = -1;
-    for (int round = 0; round < 2 + 2 * spans_.size(); ++round) {
-      Status status = choose_slides(trial, loads);
+    for (int iteration = 0; iteration < most; ++iteration) {
+      Status status = choose(trial);
       if (status) status = system_.solve(trial, loads);
-      ++solves_;
       if (!status) return status;
       changed = review(trial, loads);
       if (changed < 0) {
@@ -170,7 +160,6 @@ class Stepwise {
         trial.v_s[j] = begin_[j];
       }
     Status status = system_.solve(trial, loads);
-    ++solves_;
     if (!status) return status;
     const int n = able.size();
     slides_.reset(2 * n);
@@ -184,7 +173,6 @@ class Stepwise {
       const Scalar rest = trial.v_s[j];
       trial.v_s[j] = rest + step;
       status = system_.solve(trial, loads);
-      ++solves_;
       trial.v_s[j] = rest;
       if (!status) return status;
       FixedArray<Scalar, Cap::segments> change;
@@ -474,7 +462,6 @@ class Stepwise {
   Response<Scalar, Cap> response_;
   FixedArray<std::array<Scalar, static_cast<std::size_t>(dimension)>, Cap::nodes> displacement_;
   Scalar condition_ = 0;
-  long solves_ = 0;
 };
 
 }  // namespace taut

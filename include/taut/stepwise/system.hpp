@@ -54,19 +54,14 @@ class System {
     if (singular >= 0) return singular_at(singular, assumed, loads);
     for (int i = 0; i < numbering_.count(); ++i) x_[i] = Word{};
     Scalar before = std::numeric_limits<Scalar>::max();
-    for (int round = 0; round <= max_corrections; ++round) {
+    for (int round = 0; round < max_corrections; ++round) {
       const Scalar imbalance = residual(assumed, loads);
-      if (imbalance <= 2 * epsilon || (round > 2 && imbalance > before / 2)) {
-        if (imbalance <= accepted) return Status::success();
-        break;
-      }
+      if (imbalance <= 2 * epsilon || (round > 2 && imbalance > before / 2)) return judge(imbalance);
       before = imbalance;
-      if (round == max_corrections) break;
       lu_.solve(correction_);
       for (int i = 0; i < numbering_.count(); ++i) x_[i] += Word{correction_[i], 0};
     }
-    return before <= accepted ? Status::success()
-                              : Status::at(Code::ill_conditioned, Place::node, worst_node_);
+    return judge(residual(assumed, loads));
   }
 
   /// Takes the last solution as the state reached: forces below its rounding count as zero from now on.
@@ -91,8 +86,8 @@ class System {
   Scalar tangential(int joint) const { return relative(joint, 1).value(); }
   /// Force in a segment under the situation: elastic, prescribed or none [N].
   Scalar tension(int segment, const Assumed& assumed, const Loads& loads) const {
-    const TensionConstraint law = law_of(segment, assumed, loads);
-    return law == TensionConstraint::elastic ? bar_force(segment, loads)
+    const SegmentLaw law = law_of(segment, assumed, loads);
+    return law == SegmentLaw::elastic ? bar_force(segment, loads)
                                              : prescribed_force(segment, law, loads);
   }
   bool is_prescribed(int segment, const Loads& loads) const { return jack_of(segment, loads) != nullptr; }
@@ -103,7 +98,7 @@ class System {
   static constexpr Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
   static constexpr Scalar accepted = sizeof(Scalar) == sizeof(float) ? Scalar(2e-6) : Scalar(2e-12);
   static constexpr int max_corrections = 12;
-  enum class TensionConstraint { elastic, prescribed, slack };
+  enum class SegmentLaw { elastic, prescribed, slack };
 
   int segments() const { return scene_->prestrain.size(); }
   int joints() const { return scene_->mu.size(); }
@@ -121,12 +116,12 @@ class System {
     return nullptr;
   }
 
-  TensionConstraint law_of(int segment, const Assumed& assumed, const Loads& loads) const {
-    if (is_prescribed(segment, loads)) return TensionConstraint::prescribed;
-    return assumed.slack[segment] ? TensionConstraint::slack : TensionConstraint::elastic;
+  SegmentLaw law_of(int segment, const Assumed& assumed, const Loads& loads) const {
+    if (is_prescribed(segment, loads)) return SegmentLaw::prescribed;
+    return assumed.slack[segment] ? SegmentLaw::slack : SegmentLaw::elastic;
   }
-  Scalar prescribed_force(int segment, TensionConstraint law, const Loads& loads) const {
-    return law == TensionConstraint::prescribed ? jack_of(segment, loads)->force : Scalar(0);
+  Scalar prescribed_force(int segment, SegmentLaw law, const Loads& loads) const {
+    return law == SegmentLaw::prescribed ? jack_of(segment, loads)->force : Scalar(0);
   }
 
   Word displacement(int node, int axis) const {
@@ -231,7 +226,7 @@ class System {
               numbering_.displacement(K.node(column), K.axis(column)), static_cast<Scalar>(K(row, column)));
     }
     for (int i = 0; i < segments(); ++i)
-      if (law_of(i, assumed, loads) == TensionConstraint::elastic)
+      if (law_of(i, assumed, loads) == SegmentLaw::elastic)
         add_element(bar_unknowns(elements_.segments[i]), elements_.segments[i].stiffness());
     set_scales();
     for (int joint = 0; joint < joints(); ++joint) add_joint(joint, assumed, loads);
@@ -305,7 +300,7 @@ class System {
     const int row = numbering_.internal_force(joint, 1);
     const Scalar limit = assumed.direction[joint] * element.limit.kappa * element.frame.sin_alpha;
     for (const int segment : element.segments) {
-      if (law_of(segment, assumed, loads) != TensionConstraint::elastic) continue;
+      if (law_of(segment, assumed, loads) != SegmentLaw::elastic) continue;
       const auto& bar = elements_.segments[segment];
       for (int axis = 0; axis < dimension; ++axis) {
         const Scalar change = limit * bar.axial * bar.line.direction[axis];
@@ -450,6 +445,11 @@ class System {
     return most > 0 ? most / force_scale_ : Scalar(0);
   }
 
+  Status judge(Scalar imbalance) const {
+    return imbalance <= accepted ? Status::success()
+                                 : Status::at(Code::ill_conditioned, Place::node, worst_node_);
+  }
+
   /// Tells a node that nothing holds from one that this scalar type cannot resolve.
   Status singular_at(int column, const Assumed& assumed, const Loads& loads) {
     lu_.null_vector(column, correction_);
@@ -474,8 +474,14 @@ class System {
         strained = std::fmax(strained, beam.largest_deformation(beam_displacements(beam)));
       }
     for (int i = 0; i < segments(); ++i)
-      if (law_of(i, assumed, loads) == TensionConstraint::elastic)
+      if (law_of(i, assumed, loads) == SegmentLaw::elastic)
         strained = std::fmax(strained, std::fabs(bar_elongation(i)));
+    for (int i = 0; i < scene_->substructures.size(); ++i)
+      strained = std::fmax(
+          strained,
+          static_cast<Scalar>(SubstructureElement<SceneType>(*scene_, i).strain([this](int node, int axis) {
+            return displacement(node, axis).hi;
+          })));
     const bool resolved = strained <= std::sqrt(epsilon) * most;
     return Status::at(resolved ? Code::mechanism : Code::ill_conditioned, Place::node, mover);
   }
