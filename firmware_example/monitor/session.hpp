@@ -223,7 +223,6 @@ class Session {
         below.add(estimator_.advance(readings_, budget));
         feed();
       }
-      if (call == 0) findings_ = estimator_.alarms();
       if (!above.is_over()) {
         above.add(
             past_.advance(source_.model(), prior(), alarm_limits(), source_.strokes(), readings_, budget));
@@ -233,6 +232,7 @@ class Session {
       forget_readings();
     }
     if (below.is_whole() && above.is_whole()) finish_row();
+    findings_ = estimator_.alarms();
     outcome_.status = below.status ? above.status : below.status;
     outcome_.fraction = 1 - (below.rest > above.rest ? below.rest : above.rest);
     outcome_.events = below.events + above.events;
@@ -381,14 +381,11 @@ class Session {
   /// Once all have come to the end of the row: strokes teach only where no past is doubted.
   void finish_row() {
     if (past_.is_unknown()) return past_.settle(estimator_);
-    const int found = estimator_.alarms().size();
     const StrokesType strokes = source_.strokes();
     for (int s = 0; s < strokes.size(); ++s)
       if (strokes_[s].has_stroke)
         estimator_.take_stroke(strokes.first[s].cable, static_cast<std::size_t>(strokes.first[s].end),
                                strokes_[s].stroke, taut::Gauge{s});
-    for (int i = found; strokes.size() > 0 && i < estimator_.alarms().size(); ++i)
-      findings_.add(estimator_.alarms()[i]);
   }
   bool is_consistent() const {
     // Written so that a NaN is doubtful.

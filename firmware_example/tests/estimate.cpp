@@ -39,6 +39,10 @@ using Noisy = Rig<monitor::Application<Board, monitor::Settings, Source>>;
 struct Limited : monitor::Settings {
   static constexpr taut::AlarmLimits<float> alarm_limits{-1, 115e3F};
 };
+/// A call has one event: rows with more take several.
+struct CutUp : Limited {
+  static constexpr int event_budget = 1;
+};
 
 // The fields of an answer, where its values begin at 10: 3 tensions, 2 slips, one word of states, 2 contact
 // and 2 friction forces, an extension, 3 deviations, 2 mu and their deviations, alarms.
@@ -206,6 +210,32 @@ TEST_CASE("what the estimator finds odd is in the answer, by cable and place") {
   CHECK(finds(answer, taut::Alarm::Kind::sensor));
   answer = device.ask(sample_of(++number, {none, 128000.0F, none}));
   CHECK(findings(answer).empty());
+}
+
+TEST_CASE("what is odd in a row is said however many calls the row takes") {
+  using Source = monitor::CondensedAtStartUp<noisy>;
+  int with_both = 0;
+  for (int wrong = 2; wrong < 90; ++wrong) {
+    CAPTURE(wrong);
+    Rig<monitor::Application<Board, Limited, Source>> whole;
+    Rig<monitor::Application<Board, CutUp, Source>> cut_up;
+    Noise noise;
+    std::uint32_t number = 0;
+    // Pulled, let out and pulled again, with one reading that is wrong.
+    for (int row = 1; row <= 90; ++row) {
+      const int step = row <= 30 ? row : row <= 60 ? 60 - row : row - 60;
+      const float reading = row == wrong ? 2e5F : noise(4000.0 * step, 400);
+      const std::string sent = sample_of(++number, {none, reading, none});
+      const Fields expected = whole.ask(sent), answer = cut_up.ask(sent);
+      REQUIRE(quality(answer) == 'g');
+      const auto found = findings(answer), due = findings(expected);
+      REQUIRE(found.size() == due.size());
+      for (std::size_t i = 0; i < due.size(); ++i)
+        CHECK(monitor::code_of(found[i]) == monitor::code_of(due[i]));
+      with_both += !due.empty() && monitor::host::number_of(answer.at(4)) > 1 ? 1 : 0;
+    }
+  }
+  CHECK(with_both > 0);
 }
 
 TEST_CASE("a jack that is put back on a locked end is told when its wedge is free") {

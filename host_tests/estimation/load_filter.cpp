@@ -559,3 +559,27 @@ TEST_CASE_TEMPLATE("what is not finite is refused and does no harm", Scalar, flo
     }
   }
 }
+
+TEST_CASE_TEMPLATE("readings in no time are as far apart as those before, wherever they come", Scalar, float,
+                   double) {
+  for (const Scalar none : {Scalar(0), Scalar(-5), Scalar(1e-35), std::numeric_limits<Scalar>::quiet_NaN()})
+    for (const double jump : {0.0, 30.0, 300.0})
+      for (const int where : {0, 1, 2, 5, 12, 40, 90}) {
+        CAPTURE(none);
+        CAPTURE(jump);
+        CAPTURE(where);
+        Noise noise(8);
+        LoadFilter<Scalar> filter, even;
+        filter.start(1);
+        even.start(1);
+        for (int i = 0; i < 120; ++i) {
+          const auto reading =
+              static_cast<Scalar>(50 + 2 * (i < 60 ? i : 60) + (i >= where ? jump : 0) + noise());
+          const auto now = filter.take(reading, i == where ? none : Scalar(1)),
+                     as_even = even.take(reading, 1);
+          REQUIRE(std::isfinite(now.load));
+          REQUIRE(std::isfinite(now.sd));
+          if (i <= where || where < 12) REQUIRE(std::fabs(double(now.load - as_even.load)) < 3);
+        }
+      }
+}

@@ -21,10 +21,10 @@ taut::Estimator<Model, arch::unknowns, arch::reading_unknowns> estimator;
 taut::JackPlanner<decltype(estimator)::TrackerType> planner;
 
 bool follow(const decltype(estimator)::ReadingsType& readings) {
-  if (!estimator.start(arch::condensed<float>, arch::prior<float>, {}, arch::strokes<float>.items).status)
+  if (!estimator.start(arch::condensed<float>, arch::prior<float>, {}, arch::strokes<float>).status)
     return false;
   const auto saved = estimator.save();
-  if (!estimator.restore(arch::condensed<float>, arch::prior<float>, saved, {}, arch::strokes<float>.items))
+  if (!estimator.restore(arch::condensed<float>, arch::prior<float>, saved, {}, arch::strokes<float>))
     return false;
   return tracker.start(arch::condensed<float>).status && tracker.advance(readings.sample).status &&
          estimator.advance(readings).status && estimator.estimate(0).deviation > 0 &&

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <vector>
+
 #include "arch.hpp"
 #include "beam_string.hpp"
 
@@ -52,6 +54,14 @@ void check_order(const Model& condensed, const typename Model::Struts& struts, c
   // What is saved then is nothing to go on from.
   CHECK(tracker.restore(condensed, tracker.save()).code == Code::bad_sample);
   CHECK(estimator.restore(condensed, prior, estimator.save(), {}, gauges).code == Code::bad_sample);
+  CHECK(tracker.advance(readings.sample).status.code == Code::not_started);
+  CHECK(estimator.advance(readings).status.code == Code::not_started);
+  // Nor is anything left of what was before, where start() finds no room.
+  REQUIRE(estimator.start(condensed, prior, {}, gauges).status.ok());
+  const auto crowded = std::vector<taut::LoadCell<float>>(Further + 1, taut::LoadCell<float>{});
+  CHECK(estimator.start(condensed, prior, {}, crowded).status.code == Code::capacity_exceeded);
+  CHECK(estimator.advance(readings).status.code == Code::not_started);
+  CHECK(estimator.estimate(0).deviation == 0);
   REQUIRE(tracker.start(condensed).status.ok());
   CHECK(tracker.is_started());
   readings.sample.jack[0] = {{{1e4F, false}, {1e4F, false}}};
@@ -62,7 +72,7 @@ void check_order(const Model& condensed, const typename Model::Struts& struts, c
 
 TEST_CASE("before start() rows and saved states are refused, and everything else says zero") {
   check_order<taut::Condensed<float, arch::Capacity>, arch::unknowns, arch::reading_unknowns>(
-      arch::condensed<float>, arch::struts<float>, arch::prior<float>, arch::strokes<float>.items);
+      arch::condensed<float>, arch::struts<float>, arch::prior<float>, arch::strokes<float>);
   check_order<taut::SecondOrder<float, beam_string::Capacity>, beam_string::unknowns,
               beam_string::reading_unknowns>(beam_string::condensed<float>, beam_string::struts<float>,
                                              beam_string::prior<float>,

@@ -157,7 +157,8 @@ const char* @name@_alarm_name(int kind);
 size_t @name@_state_size(void);
 /* Writes the state, if `size` is large enough; returns the bytes written, or 0. */
 size_t @name@_save(void* buffer, size_t size);
-/* Goes on where the state was saved. */
+/* Goes on where the state was saved. Only the size is checked: keep a checksum beside the bytes, and give back
+ * those of the same program and scene alone. */
 @name@_status @name@_restore(const void* buffer, size_t size);
 
 /* A status in words. */
@@ -379,8 +380,8 @@ std::string c_source(const ExportedScene& scene, const std::string& name, const 
   const bool has_strokes = !scene.in_float.prior.stroke.empty();
   std::vector<Word> words = pattern_words(scene, name);
   words.push_back({"@file@", header});
-  words.push_back({"@cells@", has_strokes ? ", scene::strokes<float>.items" : ""});
-  words.push_back({"@limits@", has_strokes ? "  for (const auto& stroke : scene::strokes<float>.items)\n"
+  words.push_back({"@cells@", has_strokes ? ", scene::strokes<float>" : ""});
+  words.push_back({"@limits@", has_strokes ? "  for (const auto& stroke : scene::strokes<float>)\n"
                                              "    if (stroke.sd > sd) sd = stroke.sd;\n"
                                            : ""});
   words.push_back(

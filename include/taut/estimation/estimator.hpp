@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <new>
 
 #include "taut/estimation/drive_row.hpp"
 #include "taut/estimation/estimator_parts.hpp"
@@ -90,7 +91,7 @@ class Estimator {
   Progress<Scalar> start(const CondensedType& condensed, const PriorType& prior,
                          const AlarmLimits<Scalar>& limits, const Cells& gauges) {
     const Status known = begin(condensed, prior, limits, gauges);
-    if (!known) return {known, Scalar(0), 0};
+    if (!known) return {forget(known), Scalar(0), 0};
     parts_.begin(parts_.filter);
     return parts_.tracker.start(condensed, parts_.filter.friction(linear_part(condensed)),
                                 load_errors(parts_));
@@ -107,15 +108,16 @@ class Estimator {
             parts_.lock_off,        parts_.forces.save(), parts_.turned};
   }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `capacity_exceeded` if and
-  /// only if start() would, and with `bad_sample` if the state is none of this scene or was saved before
-  /// start(); then only start() or another restore() may follow. Cost: that of one event.
+  /// only if start() would, and with `bad_sample` if the state was saved before start(), or is seen to be
+  /// none of this scene; then it is as before start(). Not every such state is seen: its bytes must be those
+  /// of save(), whole and undamaged, or what follows is undefined. Cost: that of one event.
   Status restore(const CondensedType& condensed, const PriorType& prior, const State& state,
                  const AlarmLimits<Scalar>& limits = {});
   template <class Cells>
   Status restore(const CondensedType& condensed, const PriorType& prior, const State& state,
                  const AlarmLimits<Scalar>& limits, const Cells& gauges) {
     const Status known = begin(condensed, prior, limits, gauges);
-    if (!known) return known;
+    if (!known) return forget(known);
     parts_.jacks.restore(state.jacks);
     parts_.filter.restore(state.friction);
     parts_.begin(parts_.filter);
@@ -130,19 +132,21 @@ class Estimator {
     parts_.is_beyond.fill(state.is_ahead);
     parts_.leg = state.leg;
     parts_.lock_off = state.lock_off;
-    return parts_.tracker.restore(condensed, parts_.filter.friction(linear_part(condensed)), state.tracker,
-                                  load_errors(parts_));
+    const Status restored = parts_.tracker.restore(condensed, parts_.filter.friction(linear_part(condensed)),
+                                                   state.tracker, load_errors(parts_));
+    return restored ? restored : forget(restored);
   }
 
   // A row of readings.
 
-  /// Follows the readings of one row. Fails with `bad_sample` if a load factor is not finite or out of range;
-  /// then nothing was done. Else fails as Tracker::advance() does; then, or with a fraction below 1, the
-  /// state is where the path ended, and the next call goes on from there. A reading that is not finite, or
-  /// more than the cable can carry, is refused with an alarm.
+  /// Follows the readings of one row. Fails with `bad_sample` if a load factor is not finite or out of range,
+  /// or `dt` is below zero or not finite; then nothing was done. Else fails as Tracker::advance() does; then,
+  /// or with a fraction below 1, the state is where the path ended. The next call goes on from there: with
+  /// the same sample, no readings and `dt` zero, until the row is done; alarms() has those of all calls. A
+  /// reading that is not finite, or more than the cable can carry, is refused with an alarm.
   ///
   /// Cost: without an event that of a reading in LoadFilter a jack, and of gathering a reading of the far
-  /// end. At worst 4 (1 + cables) paths of `event_budget` events each; for every far end, and once for what
+  /// end. At worst 8 (1 + cables) paths of `event_budget` events each; for every far end, and once for what
   /// was gathered, an update with four calls of Tracker::adjust(); one such call for every jack that
   /// reversed.
   Progress<Scalar> advance(const ReadingsType& readings, int event_budget = TrackerType::default_budget);
@@ -232,6 +236,11 @@ class Estimator {
     parts_.sliding_way = {};
     return number_unknowns(parts_, condensed, prior, gauges);
   }
+  /// As before start(). Returns why.
+  Status forget(Status why) {
+    new (static_cast<void*>(&parts_)) Parts();
+    return why;
+  }
   /// What a row measures, once the tracker has come to its loads; the tracker looks ahead.
   [[gnu::always_inline]] void measure_row(const ReadingsType& readings, Corners<Scalar>& corners) {
     if (corners.bends) {
@@ -289,7 +298,9 @@ Status Estimator<CondensedType, Parameters, Further>::restore(const CondensedTyp
 template <class CondensedType, int Parameters, int Further>
 auto Estimator<CondensedType, Parameters, Further>::advance(const ReadingsType& readings, int event_budget)
     -> Progress<Scalar> {
-  parts_.alarms.clear();
+  if (!(readings.dt >= 0 && std::isfinite(readings.dt)))
+    return {Status::at(Code::bad_sample, Place::none, -1), Scalar(0), 0};
+  if (readings.dt > 0) parts_.alarms.clear();
   for (int i = 0; i < parts_.jacks.patterns(); ++i)
     if (!(std::fabs(readings.sample.factor[i]) <= parts_.model().most_factor[i]))
       return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};

@@ -24,8 +24,9 @@ Status number_unknowns(Parts& parts, const typename Parts::Condensed& condensed,
   jacks.start(linear, prior);
   Status known = filter.start(linear, prior);
   const auto corners = static_cast<std::size_t>(remembered_corners(load_patterns(linear), jacks.size()));
-  for (std::size_t m = 0; m < corners; ++m)
-    for (int k = 0; k < jacks.size(); ++k) jacks[k].memory[m] = number(jacks.in(prior.cell, k).sd > 0);
+  for (std::size_t m = 0; m < jacks[0].memory.size(); ++m)
+    for (int k = 0; k < jacks.size(); ++k)
+      jacks[k].memory[m] = number(m < corners && jacks.in(prior.cell, k).sd > 0);
   const auto refuse = [&known](int c) {
     if (known) known = Status::at(Code::capacity_exceeded, Place::cable, c, 1);
   };

@@ -158,8 +158,11 @@ class LoadFilter : LoadFilterTuning {
   using Estimate = LoadEstimate;
 
   ConditionedLoad<Scalar> take_one(Scalar reading, Level dt) {
-    const Level step = time_of(dt), y = level_of(reading);
+    const Level y = level_of(reading);
     const bool usable = is_reading(reading);
+    Level step = time_of(dt);
+    // Two at once are as far apart as those before.
+    if (usable && !(step > 0)) step = step_;
     if (hypotheses_.size == 0) return begin_anew(usable, reading);
     if (!usable) return miss(step);
     missed_ = 0;

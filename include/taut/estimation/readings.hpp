@@ -23,7 +23,9 @@ template <class Scalar, class Cap>
 struct Readings {
   Sample<Scalar, Cap> sample;
   FixedArray<std::array<EndReading<Scalar>, 2>, Cap::cables> ends;
-  Scalar dt = 1;  ///< time since the row before [s], > 0
+  /// Time since the row before [s], > 0. Zero in a call that goes on with a row, see Estimator::advance();
+  /// readings that come with it count as far apart as those of the row before.
+  Scalar dt = 1;
 };
 
 }  // namespace taut

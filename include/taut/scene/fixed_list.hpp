@@ -69,6 +69,8 @@ struct FixedArray {
   static constexpr int size() { return N; }
   constexpr T& operator[](int i) { return items[static_cast<std::size_t>(i)]; }
   constexpr const T& operator[](int i) const { return items[static_cast<std::size_t>(i)]; }
+  constexpr const T* begin() const { return items.data(); }
+  constexpr const T* end() const { return items.data() + N; }
   constexpr void fill(const T& value) {
     for (T& item : items) item = value;
   }

@@ -9,22 +9,23 @@
 namespace taut {
 
 /// Other joints slide from here on, or slips have changed: the forces follow, without
-/// CableSystem::differentiate(). False if a node is free then. Cost: that of one event.
+/// CableSystem::differentiate(). Fails with `mechanism`, at the joint that sets its node free, if one does.
+/// Cost: that of one event.
 template <class Cables>
-[[nodiscard]] bool find_forces_anew(Cables& cables) {
+Status find_forces_anew(Cables& cables) {
   cables.drop_set();
   Constraints<Cables> constraints(cables);
-  if (!constraints.set_up()) return false;
+  if (!constraints.set_up()) return cables.at_joint(Code::mechanism, constraints.joint_without_pivot());
   constraints.make_map();
   cables.find_forces();
-  return true;
+  return Status::success();
 }
 /// The same, with derivatives.
 template <class Cables>
-[[nodiscard]] bool make_map_anew(Cables& cables) {
-  if (!find_forces_anew(cables)) return false;
-  cables.differentiate();
-  return true;
+Status make_map_anew(Cables& cables) {
+  const Status status = find_forces_anew(cables);
+  if (status) cables.differentiate();
+  return status;
 }
 
 /// Takes the slips where they are: another map follows.
@@ -67,9 +68,10 @@ template <class Cables>
 bool put_on_edge(Cables& cables) {
   bool any = false;
   for (int j = 0; j < cables.joints(); ++j) {
-    if (cables.state.slides[j] != JointState::stick || !cables.can_slide(j)) continue;
+    if (!cables.can_slide(j)) continue;
     for (const JointState way : {JointState::forward, JointState::backward})
-      if (cables.laws.limit(SlipMode::of(j, way)).of(cables.force) < -cables.force_tolerance()) {
+      if (cables.state.slides[j] == JointState::stick &&
+          cables.laws.limit(SlipMode::of(j, way)).of(cables.force) < -cables.force_tolerance()) {
         cables.state.slides[j] = way;
         cables.state.order.add(static_cast<std::int16_t>(j));
         any = true;
@@ -112,9 +114,10 @@ Status change_unknowns(Cables& cables, const Changes& change) {
   const auto before = cables.state;
   cables.derivatives.for_each([&](const auto& derivative, int p) { shift(cables, derivative, change[p]); });
   for (int count = 0; count <= cables.joints() + cables.spans.size(); ++count) {
-    if (!find_forces_anew(cables)) {
+    const Status status = find_forces_anew(cables);
+    if (!status) {
       cables.state = before;
-      return cables.at_joint(Code::mechanism, -1);
+      return status;
     }
     if (!let_slack(cables) && !put_on_edge(cables)) break;
   }

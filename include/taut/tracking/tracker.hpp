@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "taut/status.hpp"
@@ -94,8 +95,9 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     level_.save(saved);
   }
   /// Goes on where save() was called on a tracker of the same scene, with the same bits. Fails with
-  /// `bad_sample` if and only if the state is none of this scene, or was saved before start(); then only
-  /// start() or another restore() may follow. Cost: that of one event.
+  /// `bad_sample` if the state was saved before start(), or is seen to be none of this scene; then it is as
+  /// before start(). Not every such state is seen: its bytes must be those of save(), whole and undamaged, or
+  /// what follows is undefined. Cost: that of one event.
   Status restore(const CondensedType& condensed, const State& saved) {
     return restore(condensed, as_condensed, saved);
   }
@@ -254,7 +256,12 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
     cables_.drop_map();
     samples_.forget(cables_);
   }
-  static Status broken_state() { return Status::at(Code::bad_sample, Place::none, -1); }
+  /// As before start(): of a state that is none nothing is kept.
+  Status broken_state() {
+    new (static_cast<void*>(&cables_)) Cables();
+    new (static_cast<void*>(&samples_)) SamplePath<Cables>();
+    return Status::at(Code::bad_sample, Place::none, -1);
+  }
 
   // Defined outside of the class, so that a source with an `extern template` of it compiles none of them.
 
@@ -342,14 +349,14 @@ auto Tracker<CondensedType, Parameters>::follow(int event_budget) -> Progress<Sc
 /// What changed in this row may have dropped the map; before anything has moved there is none.
 template <class CondensedType, int Parameters>
 bool Tracker<CondensedType, Parameters>::has_or_makes_map() {
-  return cables_.state.has_map || taut::make_map_anew(cables_);
+  return cables_.state.has_map || make_map_anew().ok();
 }
 
 template <class CondensedType, int Parameters>
 Status Tracker<CondensedType, Parameters>::make_map_anew() {
-  if (!taut::make_map_anew(cables_)) return cables_.at_joint(Code::mechanism, -1);
-  samples_.refresh(cables_);
-  return Status::success();
+  const Status status = taut::make_map_anew(cables_);
+  if (status) samples_.refresh(cables_);
+  return status;
 }
 
 template <class CondensedType, int Parameters>
