@@ -393,3 +393,32 @@ TEST_CASE("of turns that noise hides the error bar of what friction holds reache
   CHECK(hidden > 300);
   CHECK(held > 0.95 * hidden);
 }
+
+TEST_CASE(
+    "what another cell has seen for a single row is shown, with a bar that holds both, and is not kept") {
+  for (const double times : {1.3, 3.0})
+    for (const int rows : {1, 2, 5}) {
+      CAPTURE(times);
+      CAPTURE(rows);
+      support::Random random(20261128);
+      Read read(300);
+      const double load = 1e5, shown = times * load;
+      for (int i = 0; i < 40; ++i)
+        CHECK_FALSE(read.tells((i < 20 ? load * i / 20 : load) + 300 * support::gaussian(random), 1));
+      for (int i = 0; i < rows; ++i) {
+        CHECK_FALSE(read.tells(shown + 300 * support::gaussian(random), 1, true));
+        CHECK(read.load() == doctest::Approx(shown).epsilon(0.01));
+        CHECK(read.sd() == doctest::Approx(i == 0 ? (shown - load) / 2 : 300).epsilon(0.5));
+        if (i == 0) CHECK(read.followed() < load + 1500);
+      }
+      // Of a single row it is told that it was wrong; a load that has gone there comes back.
+      const bool is_told = read.tells(load + 300 * support::gaussian(random), 1);
+      if (rows == 1) CHECK(is_told);
+      for (int i = 0; i < 10; ++i) {
+        const bool tells = read.tells(load + 300 * support::gaussian(random), 1);
+        if (rows == 1) CHECK_FALSE(tells);
+      }
+      CHECK(std::fabs(read.load() - load) < 1500);
+      CHECK(read.sd() < 1500);
+    }
+}

@@ -10,7 +10,6 @@
 
 #include "taut/estimation/belief.hpp"
 #include "taut/estimation/elongation_check.hpp"
-#include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/jump_guard.hpp"
 #include "taut/estimation/load_filter.hpp"
 #include "taut/estimation/load_moves.hpp"
@@ -312,15 +311,52 @@ struct JackLoad {
     filter.come_to(at.confirmed * branch(cell));
   }
 
+  /// The wedge holds from here on. What of a turn is not confirmed by now never will be: asked once, it need
+  /// not be as sure.
+  void lock(const LoadCell<Scalar>& cell, Corners<Scalar>& corners) {
+    const Scalar come_back = back(at.load), fallen = rises ? at.come - at.load : at.load - at.come;
+    const bool has_turned = come_back > (since > JumpGuard<Scalar>::far_apart ? Scalar(0) : 5 * filter.sd());
+    at.reversed = has_turned || fallen > 3 * at.come_sd;
+    if (at.reversed) {
+      at.reversal = has_turned ? farthest : at.come;
+      turn_sd = has_turned ? farthest_sd : at.come_sd;
+      const auto turn = has_turned ? turn_beside(farthest * branch(cell), rises) : TurnedLoad<Scalar>();
+      if (turn.is_known) {
+        at.reversal = turn.load / branch(cell);
+        turn_sd = turn.sd / branch(cell);
+      }
+      corners.reverses = true;
+    }
+    lock_sd = at.reversed ? at.sd : larger(at.come_sd, larger(come_back, std::fabs(fallen)));
+    if (!at.reversed) at.load = at.come;
+    corners.locks = locks_now = true;
+    lie_locked();
+  }
+  /// The jack pulls at an end that a wedge has held until now, and nothing slides: what slid back as the
+  /// wedge was drawn in sticks, which shows a little further on. Its readings are those of the upper branch.
+  void take_over(const HeldByWedge<Scalar>& held, const LoadCell<Scalar>& cell, Scalar dt) {
+    taken = load_before = held.driven + Scalar(1e-3) * cell.sd;
+    taken_least = held.load - 4 * held.deviation;
+    farthest = held.load;
+    filter.start_at(filter.sd(), cell.up * held.load, cell.up * held.deviation);
+    farthest_sd = held.deviation;
+    rises = true;
+    at = {};
+    turned = 0;
+    pulls = true;
+    locked = false;
+    since = dt;
+  }
+
   /// Nobody else sees the load.
   struct Unseen {
     constexpr bool operator()() const { return false; }
   };
   /// Takes what a row says of the jack: whether it is locked, a reading of its load cell, and the time since
   /// the row before. `held` is what the wedge of a locked end holds; is_seen() says whether another cell has
-  /// seen the load go where it is read, so that it is neither held back nor refused. Returns true if and only
-  /// if a reading is now known to have been an outlier: this one or the one before. Cost: that of
-  /// LoadFilter::take() twice, and at most two calls of is_seen().
+  /// seen the load go where it is read: then it is shown there at once, and believed in the second row, in
+  /// load stages in the first. Returns true if and only if a reading is now known to have been an outlier:
+  /// this one or the one before. Cost: that of LoadFilter::take() twice, and at most two calls of is_seen().
   template <class Seen = Unseen>
   [[nodiscard]] bool take(bool locks, const EndReading<Scalar>& given, Scalar dt,
                           const LoadCell<Scalar>& cell, Scalar most, const HeldByWedge<Scalar>& held,
@@ -331,26 +367,7 @@ struct JackLoad {
     since += dt;
     if (locks) {
       sd_before = at.sd;
-      if (locked) return false;
-      // What of a turn is not confirmed by now never will be: asked once, it need not be as sure.
-      const Scalar come_back = back(at.load), fallen = rises ? at.come - at.load : at.load - at.come;
-      const bool has_turned =
-          come_back > (since > JumpGuard<Scalar>::far_apart ? Scalar(0) : 5 * filter.sd());
-      at.reversed = has_turned || fallen > 3 * at.come_sd;
-      if (at.reversed) {
-        at.reversal = has_turned ? farthest : at.come;
-        turn_sd = has_turned ? farthest_sd : at.come_sd;
-        const auto turn = has_turned ? turn_beside(farthest * branch(cell), rises) : TurnedLoad<Scalar>();
-        if (turn.is_known) {
-          at.reversal = turn.load / branch(cell);
-          turn_sd = turn.sd / branch(cell);
-        }
-        corners.reverses = true;
-      }
-      lock_sd = at.reversed ? at.sd : larger(at.come_sd, larger(come_back, std::fabs(fallen)));
-      if (!at.reversed) at.load = at.come;
-      corners.locks = locks_now = true;
-      lie_locked();
+      if (!locked) lock(cell, corners);
       return false;
     }
     const bool rests = step_by <= filter.sd() / 2;
@@ -364,21 +381,7 @@ struct JackLoad {
     is_unread = false;
     // A released end keeps its wedge until a load is read.
     const bool is_released = locked;
-    if (locked) {
-      // The jack pulls, and nothing slides: what slid back as the wedge was drawn in sticks, which shows a
-      // little further on. Its readings are those of the upper branch.
-      taken = load_before = held.driven + Scalar(1e-3) * cell.sd;
-      taken_least = held.load - 4 * held.deviation;
-      farthest = held.load;
-      filter.start_at(filter.sd(), cell.up * held.load, cell.up * held.deviation);
-      farthest_sd = held.deviation;
-      rises = true;
-      at = {};
-      turned = 0;
-      pulls = true;
-      locked = false;
-      since = dt;
-    }
+    if (is_released) take_over(held, cell, dt);
     if (!at.refused) sd_before = at.sd;
     // Placed there, not on the heap: a copy would read back at once what was just written in parts, and wait.
     Scalar reading = possible(given.force, most);
@@ -386,9 +389,14 @@ struct JackLoad {
     if (is_released) guard.start(reading);
     bool is_held =
         cell.sd > 0 && std::isfinite(reading) && guard.holds(reading, since, filter.sd(), fastest * most);
-    if (is_held && is_seen()) {
+    // What both cells read in a single row may be a fault of their supply: the load is taken to be there, and
+    // friction to follow in the next row.
+    const bool is_first = at.is_sure() && since <= JumpGuard<Scalar>::far_apart;
+    const Scalar shown = reading;
+    bool is_shown = is_held && is_seen();
+    if (is_shown && !is_first) {
       guard.believe(reading);
-      is_held = false;
+      is_held = is_shown = false;
     }
     if (is_held) reading = std::numeric_limits<Scalar>::quiet_NaN();
     if (guard.has_moved()) filter.lose();
@@ -397,8 +405,16 @@ struct JackLoad {
     const bool was_alone = at.alone && refusals == 1;
     new (&at) ConditionedLoad<Scalar>(filter.take(reading, since));
     if (at.refused && std::isfinite(reading) && is_seen()) {
-      filter.lose();
-      at = filter.take(reading, since);
+      is_shown = is_first;
+      if (!is_first) {
+        filter.lose();
+        at = filter.take(reading, since);
+      }
+    }
+    if (is_shown) {
+      at.load = shown;
+      at.refused = false;
+      at.alone = true;
     }
     if (taken > 0) stay_taken(cell.up);
     if (filter.run_length() < run_length) {
@@ -419,9 +435,9 @@ struct JackLoad {
       // A single reading far off may well be a load that begins to move, or a mistake; one that is refused in
       // a row a load stage says that the jack may have gone as far again.
       const Scalar from = at.alone ? load_before * branch(cell) : at.load;
-      if (std::isfinite(reading))
+      if (std::isfinite(reading) || is_shown)
         at.sd = larger(
-            at.sd, std::fabs(reading - from) / (at.refused && since > JumpGuard<Scalar>::far_apart ? 1 : 2));
+            at.sd, std::fabs(shown - from) / (at.refused && since > JumpGuard<Scalar>::far_apart ? 1 : 2));
       // Friction stands where the load is, perhaps elsewhere.
       at.come = at.load;
       at.come_sd = at.sd;
