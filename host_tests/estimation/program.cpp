@@ -289,6 +289,42 @@ TEST_CASE("what the scene does not say is assumed with a remark") {
 }
 
 TEST_CASE(
+    "the corners of a path are not the noise of a cell that nobody described: a stop is seen as it comes") {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    CAPTURE(seed);
+    support::Random random(seed);
+    const Scratch scratch;
+    write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0.1, "shared": true)", ""));
+    // Moves and stops of some ten rows each, 2 s apart, 1 % of the full force a row with noise of 0.15 %.
+    constexpr double full = 4e5, noise = 0.0015 * full;
+    std::string log = "time,C.end\n";
+    std::vector<double> load{0};
+    for (const double to : {0.15, 0.3, 0.5, 0.75, 1.03, 0.97, 0.85, 1.0}) {
+      const double from = load.back();
+      const int rows = static_cast<int>(std::ceil(std::fabs(to * full - from) / (0.011 * full)));
+      for (int row = 1; row <= rows; ++row) load.push_back(from + (to * full - from) * row / rows);
+      for (int row = random.below(8) - 12; row < 0; ++row) load.push_back(to * full);
+    }
+    for (std::size_t i = 0; i < load.size(); ++i)
+      log += std::to_string(2 * i + 2) + ',' + std::to_string(load[i] + noise * support::gaussian(random)) +
+             '\n';
+    write(scratch, "log.csv", log);
+    const Outcome outcome = estimate(scratch);
+    REQUIRE(outcome.status == 0);
+    const std::string before = "does not say of it: sd ";
+    const std::size_t at = outcome.err.find(before);
+    REQUIRE(at != std::string::npos);
+    const double taken = std::atof(outcome.err.c_str() + at + before.size());
+    CHECK(taken > 0.7 * noise);
+    CHECK(taken < 2.5 * noise);
+    const Table table(outcome.out);
+    REQUIRE(table.rows.size() == load.size());
+    for (std::size_t i = 0; i < load.size(); ++i)
+      CHECK(std::fabs(table.number(i, "C.T4") - load[i]) < 5 * table.number(i, "C.sd4"));
+  }
+}
+
+TEST_CASE(
     "load stages show no noise: cells that nobody described are trusted, with the noise of ordinary ones") {
   const Scratch scratch;
   write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0.05, "shared": true)", ""));
@@ -732,6 +768,35 @@ TEST_CASE("a state of another scene, precision or that is cut off is refused, an
   CHECK(
       run_taut(scratch, "simulate " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv") + state)
           .status == 2);
+}
+
+TEST_CASE(
+    "a log that a state has taken already is refused where it has dates, and the state stays as it was") {
+  const Scratch scratch;
+  write(scratch, "scene.json", scene(R"("mu": 0.3, "mu_sd": 0.09, "shared": true)", loop_sensors));
+  const auto dated = [&](int first_minute) {
+    std::string log = "time,C.end\n";
+    for (int row = 0; row < 20; ++row)
+      log += "2026-11-28T10:" + std::to_string(first_minute + row) + ":00," +
+             std::to_string(9000 * (row + 1)) + "\n";
+    return log;
+  };
+  const std::string state = " --state " + scratch.quoted("state");
+  write(scratch, "log.csv", dated(10));
+  REQUIRE(estimate(scratch, state).status == 0);
+  const std::string written = text_of(scratch.path / "state");
+  for (const int minute : {10, 29}) {
+    write(scratch, "log.csv", dated(minute));
+    const Outcome again = estimate(scratch, state);
+    CHECK(again.status == 2);
+    CHECK_MESSAGE(
+        again.err.find("log.csv: line 2, column 1 (time): the row is not later than the last one that the "
+                       "state") != std::string::npos,
+        again.err);
+    CHECK(text_of(scratch.path / "state") == written);
+  }
+  write(scratch, "log.csv", dated(30));
+  CHECK(estimate(scratch, state).status == 0);
 }
 
 TEST_CASE(

@@ -24,7 +24,7 @@ TEST_CASE(
   const Scratch scratch;
   const std::string plain = "time,C.end,C.end.stroke\n6,1000,0.0001\n12,33350,0.0087\n18,90010,0.0203\n",
                     of_site =
-                        "\xEF\xBB\xBF# site 7\r\ntime [min];C.end [kN];C.end.stroke [mm]\r\n"
+                        "\xEF\xBB\xBF# site 7\r\nsep=;\r\ntime [min];C.end [kN];C.end.stroke [mm]\r\n"
                         "0,1;1;0,1\r\n# pulled on\r\n0,2;33,35;8,7\r\n0,3;90,01;20,3\r\n;;\r\n\r\n",
                     between_tabs =
                         "time [s]\tC.end [MN]\tC.end.stroke [cm]\n6\t1e-3\t0.01\n12\t0.03335\t0.87\n"

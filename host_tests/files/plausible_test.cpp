@@ -14,15 +14,15 @@ namespace {
 
 /// A cable of 10 m over a saddle, E A = 2e7 N, jacked at its end.
 struct Site {
-  std::string E = "2e11", coordinates = "[0, 0]", prestrain = "0", more, sensors;
+  std::string E = "2e11", coordinates = "[0, 0]", prestrain = "0", more, sensors, wedge,
+              friction = R"("law": "point", "mu": 0.1, "mu_sd": 0.05)";
   std::string text(bool plausible) const {
     return R"({ "taut": 1, "name": "site", "dimension": 2, )" +
            std::string(plausible ? "" : "\"plausible\": false, ") + R"("nodes": { "a": )" + coordinates +
            R"(, "b": [5, -0.5], "c": [10, 0] }, "supports": { "a": "xy", "b": "xy", "c": "xy" },
   "cables": [ { "name": "C", "path": ["a", "b", "c"], "E": )" +
-           E + R"(, "A": 1e-4, "start": "anchored", "end": "jacked", "prestrain": )" + prestrain +
-           R"(, "friction": { "law": "point", "mu": 0.1, "mu_sd": 0.05 } } ], "sensors": { )" + sensors +
-           "}" + more + " }";
+           E + R"(, "A": 1e-4, "start": "anchored", "end": "jacked", "prestrain": )" + prestrain + wedge +
+           R"(, "friction": { )" + friction + R"( } } ], "sensors": { )" + sensors + "}" + more + " }";
   }
 };
 
@@ -250,6 +250,66 @@ TEST_CASE("a log without the jack is refused where other instruments read the ca
                 "log.csv: line 2: there is no column \"C.end\"");
   check_taken({}, "estimate", ramp("time,C.start", 5, [](int) { return std::string("0"); }));
   check_taken({}, "simulate", ramp("time,C.start", 5, [](int i) { return up_to(900, 5, i); }));
+}
+
+TEST_CASE("friction in per cent is refused, but not a joint that locks itself") {
+  Site site;
+  for (const char* const friction :
+       {R"("law": "capstan", "mu": 12, "mu_sd": 0.05)", R"("law": "capstan", "mu": [2.5])"}) {
+    site.friction = friction;
+    check_refused(site, "check", "", "scene.json: /cables/0/friction/mu: a friction coefficient of ");
+  }
+  for (const char* const friction :
+       {R"("law": "point", "mu": 0.12, "mu_sd": 3)", R"("law": "capstan", "mu": 0.12, "mu_sd": 1.5)"}) {
+    site.friction = friction;
+    check_refused(site, "check", "", "scene.json: /cables/0/friction/mu_sd: a standard deviation of ");
+  }
+  site.friction = R"("law": "point", "mu": 0.12, "mu_sd": 0.05, "scatter": 10)";
+  check_refused(site, "check", "", "/cables/0/friction/scatter: a relative standard deviation of 10 tells ");
+  for (const char* const friction :
+       {R"("law": "point", "mu": 50, "mu_sd": 5)", R"("law": "capstan", "mu": 1.2, "mu_sd": 0.9)",
+        R"("law": "point", "mu": 0.12, "mu_sd": 0.5, "scatter": 0.9)"}) {
+    CAPTURE(friction);
+    site.friction = friction;
+    check_taken(site, "check", "");
+  }
+}
+
+TEST_CASE("a draw-in in mm and a deviation of E A in per cent are refused") {
+  Site site;
+  site.wedge = R"(, "seating": 6)";
+  check_refused(site, "check", "",
+                "scene.json: /cables/0/seating: no wedge is drawn in by 6 m; write it in m");
+  site.wedge = R"(, "seating": 0.006, "seating_sd": 2)";
+  check_refused(site, "check", "", "scene.json: /cables/0/seating_sd: no wedge is drawn in by 2 m");
+  site.wedge = R"(, "E_sd": 3)";
+  check_refused(site, "check", "", "scene.json: /cables/0/E_sd: a relative standard deviation of 3 tells ");
+  site.wedge = R"(, "seating": 0.03, "seating_sd": 0.01, "E_sd": 0.2)";
+  check_taken(site, "check", "");
+}
+
+TEST_CASE("a column that goes over to another unit is refused where it does; a load that is let out is not") {
+  const Site site;
+  const auto log = [](double times, double noise) {
+    return ramp("time,C.end", 60, [=](int i) {
+      const double load = i <= 30 ? 1000.0 * i : 30000 + 10 * (i % 3), off = i % 2 == 0 ? noise : -noise;
+      return std::to_string(i <= 40 ? load + off : (load + off) / times);
+    });
+  };
+  for (const double times : {1e3, 1e6}) {
+    CAPTURE(times);
+    check_refused(site, "estimate", log(times, 50),
+                  "log.csv: line 42, column 2 (C.end): from one row to the next ");
+  }
+  check_refused(
+      site, "estimate",
+      ramp("time,C.end", 60, [](int i) { return std::to_string(i <= 30 ? 1.0 * i : 1000.0 * 30); }),
+      "log.csv: line 32, column 2 (C.end): from one row to the next the force goes from 30 to 30000 N");
+  // What is left of a load, twice what would be a thousandth, and noise about that.
+  check_taken(site, "estimate", log(500, 50));
+  check_taken(site, "estimate", ramp("time,C.end", 60, [](int i) {
+                return std::to_string(i <= 30 ? 1000.0 * i : 30 * (1 + 0.3 * (i % 4)));
+              }));
 }
 
 TEST_CASE("plausible is true or false") {

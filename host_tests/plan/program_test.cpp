@@ -198,6 +198,17 @@ TEST_CASE("targets and limits that no cable can carry are refused by their place
   }
 }
 
+TEST_CASE("a target in kN is refused by its place in the goal, unless it is meant") {
+  const Run run = plan(two_bays, R"({ "taut": 1, "target": { "C": 500 } })");
+  CHECK(run.outcome.status == 2);
+  CHECK_MESSAGE(has(run.outcome.err, "goal.json: /target: no target strains its cable by as much as 1e-5; "),
+                run.outcome.err);
+  CHECK_FALSE(run.has_log);
+  std::string meant = two_bays;
+  meant.insert(meant.find("\"name\""), "\"plausible\": false, ");
+  CHECK(plan(meant, R"({ "taut": 1, "target": { "C": 500 } })").outcome.status != 2);
+}
+
 TEST_CASE("a goal that cannot be used is refused with its place and a remedy, and nothing is written") {
   struct Bad {
     std::string goal, place, says;

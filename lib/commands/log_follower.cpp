@@ -230,12 +230,25 @@ Sentence LogFollower::follow(LogReader& log, const RowVisitor& visit) {
   }
   Answer answer;
   ProgressLine progress(rows_, wants_progress(options_));
+  bool is_first = true;
   while (log.next(row)) {
+    if (is_first) require_later(log, row);
+    is_first = false;
     origin_ = log.origin();
     if (Sentence end = follow_row(row, answer, visit); !end.empty()) return end;
     progress.reach(row.row);
   }
   return {};
+}
+
+// What a state has taken already would teach the same once more. Only dates tell; time in seconds may begin
+// anew in every log.
+void LogFollower::require_later(const LogReader& log, const LogRow& row) const {
+  if (!begun_ || !begun_->origin || !log.origin() || row.time > begun_->time) return;
+  throw InputError(
+      options_.log, log.place(row.line, "time"),
+      "the row is not later than the last one that the state " + quote(options_.state) + " has taken",
+      "give a log that goes on from there, or another file for the state");
 }
 
 Sentence LogFollower::follow_stream(const RowVisitor& visit) {
@@ -252,6 +265,7 @@ Sentence LogFollower::follow_stream(const RowVisitor& visit) {
   Answer answer;
   while (next_of_stream(row)) {
     if (is_first) is_known = goes_on && source_->is_known && source_->is_known();
+    if (is_first && !is_known) require_later(*stream_, row);
     is_first = false;
     remark_on_left_out(*stream_);
     if (is_known && row.time <= last_time) continue;

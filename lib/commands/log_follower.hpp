@@ -92,6 +92,7 @@ class LogFollower {
   void begin();
   Sentence follow(LogReader& log, const RowVisitor& visit);
   Sentence reason(const Followed& path, const std::function<Followed(int)>& again) const;
+  void require_later(const LogReader& log, const LogRow& row) const;
   Sentence follow_stream(const RowVisitor& visit);
   Sentence follow_row(const LogRow& row, Answer& answer, const RowVisitor& visit);
   bool next_of_stream(LogRow& row);

@@ -11,7 +11,7 @@
 namespace taut::host {
 namespace {
 
-constexpr double least_strain = 1e-5, part_of_length = 0.1, clear_of_noise = 20;
+constexpr double part_of_length = 0.1, clear_of_noise = 20;
 // Until a cable is strained as in a first stage, most of a sound log is still to come.
 constexpr double first_stage_strain = 1e-4, part_in_first_stage = 0.5, part_of_largest = 0.1;
 constexpr double least_growth = 0.005, most_times_stretch = 100;  // [m], [-]
@@ -64,6 +64,7 @@ void PlausibleLog::take(const LogRow& row) {
         cables_[c].is_read_under_load |= *given.stroke != strokes.kept.front().at;
       }
       if (!given.reading) continue;
+      cables_[c].unit[end].take(*given.reading, row.line);
       if (!cable.is_jacked(end)) {
         cables_[c].is_read_under_load |= *given.reading > 0;
         continue;
@@ -85,6 +86,7 @@ void PlausibleLog::require(const LogReader& log, const std::string& path, bool h
   require_units_of_jacks(log, path);
   for (std::size_t c = 0; c < cables_.size(); ++c) {
     for (std::size_t end = 0; end < 2; ++end) {
+      require_one_unit(c, end, log, path);
       if (!scene_.cables[c].is_jacked(end)) continue;
       require_strokes(c, end, log, path);
       require_stretch(c, end, log, path);
@@ -115,12 +117,23 @@ void PlausibleLog::require_units_of_jacks(const LogReader& log, const std::strin
                    " by more than 2 %",
                unit_remedy(cable, end, "N"));
     }
-  if (pull == 0 || largest_strain >= least_strain) return;
+  if (pull == 0 || largest_strain >= least_plausible_strain) return;
   const CableDescription& cable = scene_.cables[first_cable];
   refuse(path, log.place(log.header_line(), column_of(cable, first_end)),
          "no jack strains its cable by as much as 1e-5 in the whole log",
          unit_remedy(cable, first_end, "kN") +
              (log.takes_decimal_commas() ? ", or leave out commas that stand for thousands" : ""));
+}
+
+void PlausibleLog::require_one_unit(std::size_t c, std::size_t end, const LogReader& log,
+                                    const std::string& path) const {
+  const UnitStep& step = cables_[c].unit[end];
+  if (!step.is_found()) return;
+  refuse(path, log.place(step.line(), column_of(scene_.cables[c], end)),
+         "from one row to the next the force goes from " + plain(step.before()) + " to " +
+             plain(step.after()) + " N, and stays there",
+         "write all rows in one unit" +
+             std::string(log.takes_decimal_commas() ? ", without points that stand for thousands" : ""));
 }
 
 void PlausibleLog::require_strokes(std::size_t c, std::size_t end, const LogReader& log,

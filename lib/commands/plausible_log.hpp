@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/commands/reading_scatter.hpp"
+#include "lib/commands/unit_step.hpp"
 #include "lib/files/log_file.hpp"
 #include "lib/files/scene_description.hpp"
 
@@ -21,12 +22,12 @@ class PlausibleLog {
   void take(const LogRow& row);
   /// Throws InputError, unless the scene says "plausible": false, if most readings of a jack strain its cable
   /// by more than 2 %, or all jacks together none by 1e-5, which is what kN of an ordinary jacking look like,
-  /// though they pull; if a stroke grows a hundred times faster with the force than the cable stretches; if a
-  /// stroke, but for the tenth of its readings at either end, goes over more than a tenth of the cable; if a
-  /// described cell scatters by more than a tenth of what the jacks of its cable ever pull, by more than half
-  /// of it while that strains the cable by less than 1e-4, though these readings do not; and, where the log
-  /// does not go on from a state, if no jack of a cable has a column though other instruments read it under
-  /// load.
+  /// though they pull; if a cell goes over to another unit, see UnitStep; if a stroke grows a hundred times
+  /// faster with the force than the cable stretches; if a stroke, but for the tenth of its readings at either
+  /// end, goes over more than a tenth of the cable; if a described cell scatters by more than a tenth of what
+  /// the jacks of its cable ever pull, by more than half of it while that strains the cable by less than
+  /// 1e-4, though these readings do not; and, where the log does not go on from a state, if no jack of a
+  /// cable has a column though other instruments read it under load.
   void require(const LogReader& log, const std::string& path, bool has_past) const;
 
  private:
@@ -53,10 +54,12 @@ class PlausibleLog {
   struct Cable {
     std::array<Jack, 2> jack;
     std::array<Strokes, 2> stroke;
+    std::array<UnitStep, 2> unit;
     bool is_read_under_load = false;  ///< by other instruments
   };
 
   void require_units_of_jacks(const LogReader& log, const std::string& path) const;
+  void require_one_unit(std::size_t c, std::size_t end, const LogReader& log, const std::string& path) const;
   void require_stretch(std::size_t c, std::size_t end, const LogReader& log, const std::string& path) const;
   void require_strokes(std::size_t c, std::size_t end, const LogReader& log, const std::string& path) const;
   void require_deviations(std::size_t c) const;

@@ -10,6 +10,7 @@
 #include "lib/kinds/capacities.hpp"
 #include "lib/report/number_text.hpp"
 #include "taut/estimation/jump_guard.hpp"
+#include "taut/estimation/load_filter.hpp"
 #include "taut/estimation/noise_level.hpp"
 
 namespace taut::host {
@@ -107,14 +108,15 @@ void fill_in_strokes(const LogReader& log, SceneDescription& scene, std::vector<
     }
 }
 
-// What the readings of a load cell say of it. The noise level begins low and needs some hundred rows to come
-// up; the scatter needs few, but takes noise with a memory for less than it is. Load stages tell neither.
+// What the readings of a load cell say of it, which are taken twice: first as they are, then with their
+// scatter known. The noise level begins low and needs some hundred rows to come up; the scatter needs few,
+// but takes noise with a memory for less than it is. Load stages tell neither.
 struct CellReadings {
   static constexpr std::size_t enough = 14;  // for a median
 
   double largest = 0;
-  NoiseLevel<double> noise;
   ReadingScatter scatter;
+  NoiseLevel<double> noise;
   double time = 0;
   long count = 0;
 
@@ -128,13 +130,32 @@ struct CellReadings {
     if (tells_noise()) return std::max(noise.sd(), scatter.scatter());
     return count > 0 ? std::max(noise.sd(), usual_noise_of_stage * largest) : noise.sd();
   }
-  void take(double reading, double at) {
-    noise.take(reading, at - time);
+  void look(double reading, double at) {
+    largest = std::max(largest, std::fabs(reading));
     if (count > 0 && at - time > JumpGuard<double>::far_apart) scatter.interrupt();
     scatter.add(reading);
     time = at;
     ++count;
   }
+  // From the least that is taken on: a level that begins with a first reading near zero does not come up to
+  // the noise of a thousand rows.
+  void begin() {
+    const double least = least_noise * largest;
+    noise.start(least);
+    path_.start(std::max(least, scatter.scatter()));
+    time = 0;
+  }
+  // A corner of the path is no noise.
+  void take(double reading, double at) {
+    const int run_length = path_.run_length();
+    const bool is_refused = path_.take(reading, at - time).refused;
+    if (path_.run_length() < run_length) noise.bend();
+    if (!is_refused) noise.take(reading, at - time);
+    time = at;
+  }
+
+ private:
+  LoadFilter<double> path_;
 };
 
 using CellTable = std::vector<std::array<CellReadings, 2>>;
@@ -169,13 +190,10 @@ CellTable read_cells(const std::string& path, const SceneDescription& scene, con
   CellTable cells(scene.cables.size());
   std::ifstream stream = open_log(path);
   if (is_all_said(LogReader(stream, path, scene, rules), scene)) return cells;
-  for_each_reading(path, scene, rules, cells, [](CellReadings& cell, double reading, double) {
-    cell.largest = std::max(cell.largest, std::fabs(reading));
-  });
-  // From the least that is taken on: a level that begins with a first reading near zero does not come up to
-  // the noise of a thousand rows.
+  for_each_reading(path, scene, rules, cells,
+                   [](CellReadings& cell, double reading, double time) { cell.look(reading, time); });
   for (auto& cable : cells)
-    for (CellReadings& cell : cable) cell.noise.start(least_noise * cell.largest);
+    for (CellReadings& cell : cable) cell.begin();
   for_each_reading(path, scene, rules, cells,
                    [](CellReadings& cell, double reading, double time) { cell.take(reading, time); });
   return cells;

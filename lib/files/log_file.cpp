@@ -50,6 +50,9 @@ const InstrumentDescription& gauge_of(const LogColumn& column, const SceneDescri
   return column.quantity == Quantity::force ? cable.cell[column.end] : cable.force[column.end];
 }
 
+// As `sep=;`, with which Excel begins what it writes.
+bool is_separator_line(std::string_view line) { return line.size() == 5 && line.substr(0, 4) == "sep="; }
+
 bool is_utf16(std::string_view text) {
   return text.size() >= 2 && (text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF");
 }
@@ -97,6 +100,8 @@ bool LogReader::read_line() {
   if (!text_.empty() && text_.back() == '\r') text_.pop_back();
   if (line_ == 1) {
     if (is_utf16(text_)) refuse("the file is UTF-16", "save it as UTF-8 text");
+    if (text_.find('\r') != std::string::npos)
+      refuse("lines end with a carriage return alone", "save it with line feeds, or with both");
     if (text_.compare(0, byte_order_mark.size(), byte_order_mark) == 0)
       text_.erase(0, byte_order_mark.size());
   }
@@ -173,7 +178,9 @@ void LogReader::split() {
 
 void LogReader::read_header() {
   bool is_there = read_line_with_content();
-  while (is_there && trimmed(text_).empty()) is_there = read_line_with_content();
+  // Excel's own line says what the header shows.
+  while (is_there && (trimmed(text_).empty() || is_separator_line(trimmed(text_))))
+    is_there = read_line_with_content();
   if (!is_there) {
     line_ = 1;
     refuse("the log is empty", "write a header, \"time\" and further columns, and rows below it");

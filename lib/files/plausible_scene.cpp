@@ -1,7 +1,9 @@
 #include "lib/files/plausible_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "lib/files/input_error.hpp"
 #include "lib/files/text.hpp"
@@ -10,11 +12,17 @@ namespace taut::host {
 namespace {
 
 constexpr double least_E = 1e9, most_E = 1e12, least_E_of_strut = 1e6, most_A_of_strut = 1, longest = 1e4,
-                 most_on_node = 1e10, most_kelvin = 1000;
+                 most_on_node = 1e10, most_kelvin = 1000, most_seating = 0.1, most_mu_of_capstan = 2,
+                 most_part = 1;
+constexpr const char* no_per_cent = "write a part and not per cent";
 
 [[noreturn]] void refuse(const SceneDescription& scene, const std::string& place, const std::string& problem,
                          const std::string& remedy) {
   throw InputError(scene.file, place, problem, remedy + remedy_if_meant);
+}
+
+double largest(const std::vector<double>& numbers) {
+  return numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end());
 }
 
 void check_cable(std::size_t c, const SceneDescription& scene) {
@@ -29,6 +37,23 @@ void check_cable(std::size_t c, const SceneDescription& scene) {
              place + "/prestrain" + (cable.prestrain_is_list ? "/" + std::to_string(i) : std::string()),
              "a strain of " + plain(cable.prestrain[i]) + " is more than a cable takes",
              "write a part of the length and not per cent, at most 0.02");
+  const auto check_part = [&](double value, const std::string& key, const std::string& what) {
+    if (value >= most_part)
+      refuse(scene, place + key, what + " of " + plain(value) + " tells nothing", no_per_cent);
+  };
+  check_part(cable.E_sd, "/E_sd", "a relative standard deviation");
+  check_part(cable.scatter, "/friction/scatter", "a relative standard deviation");
+  if (cable.mu_sd >= most_part && cable.mu_sd > 10 * largest(cable.mu))
+    refuse(scene, place + "/friction/mu_sd",
+           "a standard deviation of " + plain(cable.mu_sd) + " tells nothing of mu", no_per_cent);
+  if (cable.law == FrictionLaw::capstan && largest(cable.mu) > most_mu_of_capstan)
+    refuse(scene, place + "/friction/mu",
+           "a friction coefficient of " + plain(largest(cable.mu)) + " is that of no tendon", no_per_cent);
+  for (const auto& [key, drawn] :
+       {std::pair("/seating", cable.seating), std::pair("/seating_sd", cable.seating_sd.value_or(0))})
+    if (drawn > most_seating)
+      refuse(scene, place + key, "no wedge is drawn in by " + plain(drawn) + " m",
+             "write it in m, as in 0.006");
   if (const double length = length_of(cable, scene); length > longest)
     refuse(scene, place + "/path", "the cable is " + plain(std::round(length)) + " m long",
            "write the coordinates of nodes in m");

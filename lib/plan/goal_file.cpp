@@ -120,9 +120,15 @@ class GoalReader {
       for (std::size_t i = 0; i < count; ++i)
         if (!items[i].is_null()) goal_.target[first + i] = carried(items[i], "a target", c);
     }
-    for (const double force : goal_.target)
-      if (force > 0) return;
-    field.refuse("no segment has a target", "give at least one segment a force [N]");
+    double largest_strain = 0;
+    for (std::size_t c = 0; c < scene_.cables.size(); ++c)
+      for (std::size_t i = 0; i < scene_.cables[c].segments(); ++i)
+        largest_strain = std::max(largest_strain, goal_.target[scene_.first_segment(c) + i] /
+                                                      (scene_.cables[c].E * scene_.cables[c].A));
+    if (largest_strain == 0) field.refuse("no segment has a target", "give at least one segment a force [N]");
+    if (scene_.plausible && largest_strain < least_plausible_strain)
+      field.refuse("no target strains its cable by as much as 1e-5",
+                   std::string("write forces in N") + remedy_if_meant);
   }
 
   void read_limits(const Field& field) {
