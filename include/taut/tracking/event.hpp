@@ -107,18 +107,23 @@ class EventSearch {
   Status check_forces() const {
     const Real most = largest(model_.segments, &cables_.force[0], state_.peak);
     const Real least = -Real(8) * tolerance * most;
+    const auto broken = [&](const Status& imprecise) { return map_.is_held() ? free_node() : imprecise; };
     const Status imprecise = Status::at(Code::ill_conditioned, Place::none, -1);
-    const Status broken = map_.is_held() ? free_node() : imprecise;
     Inputs x;
     cables_.values(state_.now, x);
-    if (map_.law_violation(laws_, cables_.force, x) > -least) return broken;
+    if (map_.law_violation(laws_, cables_.force, x) > -least) return broken(imprecise);
     if (!is_in_equilibrium(rounded_totals * most)) return map_.has_slack() ? free_node() : imprecise;
     for (int i = 0; i < model_.segments; ++i)
-      if (!(cables_.force[i] >= least)) return broken;
+      if (!(cables_.force[i] >= least)) {
+        const int c = model_.cable_of(i);
+        return broken(
+            Status::along(Code::ill_conditioned, Place::segment, c, i - model_.cables[c].first_segment));
+      }
     for (int j = 0; j < cables_.joints(); ++j) {
       if (model_.is_self_locking(j)) continue;
       for (const JointState way : {JointState::forward, JointState::backward})
-        if (!(laws_.limit(SlipMode::of(j, way)).of(cables_.force) >= least)) return broken;
+        if (!(laws_.limit(SlipMode::of(j, way)).of(cables_.force) >= least))
+          return broken(cables_.at_joint(Code::ill_conditioned, j));
     }
     return Status::success();
   }

@@ -10,7 +10,7 @@ namespace taut {
 
 /// Decides the modes of all joints and spans for the next piece of the path, and makes its map.
 ///
-/// An ordinary event goes on from the modes of the piece before: one pivot of ModeSolver. SlidingSpans at
+/// An ordinary event goes on from the modes of the piece before: one pivot of ModeSolver. Spans at
 /// zero tension are tried pulled straight toward their jacks, then decided from nothing, Eqs. (10) and (11),
 /// with one covering vector after the other. Where rates contradict, all forces are found a little further
 /// on, from the modes of the piece before or from nothing, and taken if they are near. Where nothing is, the
@@ -71,7 +71,8 @@ class ModeDecision {
   }
   /// Rates do not tell how it goes on. All forces, at loads a little further on, are a problem that always
   /// has an answer: it is taken if it is near. If not, friction gives way here, and the structure would jump.
-  /// Steps that follow each other grow eightfold, and shrink as much where they find no answer.
+  /// Steps that follow each other grow eightfold, and shrink as much where they find no answer: from half of
+  /// what is left of the path to `small_step`, where it ends.
   Status find_further_on(Status why) {
     cables_.freeze();
     cables_.drop_map();
@@ -414,7 +415,7 @@ class ModeDecision {
     }
   }
   /// The jack that gives a segment of a span at zero the larger tension, by what friction leaves of its force
-  /// on the way; `on_the_way(joint, way)` is called for every joint there.
+  /// on the way.
   Pull pull_on(const Span& span, int i, bool totally) const {
     Pull strongest;
     for (const JackedEnd& jack : cables_.jacks) {
@@ -481,8 +482,11 @@ class ModeDecision {
   // A little further on.
 
   Status try_further_on(Status why) {
-    const Real least = cables_.push > 0 ? stride_ * small_step * state_.peak / cables_.push : Real(1);
-    const Real step = least < Real(0.5) ? least : Real(0.5);
+    // Never further than half of what is left of the path.
+    const Real least = cables_.push > 0 ? small_step * state_.peak / cables_.push : Real(1),
+               most = larger(Real(1), Real(0.5) / least);
+    stride_ = -larger(-stride_, -most);
+    const Real step = -larger(-stride_ * least, Real(-0.5));
     const Loads before = state_.now;
     state_.now = Loads::between(state_.now, state_.goal, step);
     const Status status = find_near(why, nearby);
