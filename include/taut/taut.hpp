@@ -4,8 +4,7 @@
 // device.hpp has what follows an exported scene, without Eigen.
 //
 // UNITS. SI throughout: m, N, N/m2, K, rad, s. Forces of segments, struts and jacks are positive in tension.
-// Friction coefficients and load factors have no unit. Time, where it is asked for (Readings::dt), may be in
-// any unit, the same in every row.
+// Friction coefficients and load factors have no unit.
 //
 // NUMBERS. Nodes, struts, beams, cables, segments, joints and load patterns are counted from 0 over the whole
 // scene, the segments and joints of one cable one after the other; files and messages count from 1. A cable
@@ -89,9 +88,10 @@
 //   does.
 //
 //   Costs n (K + L) without an event, n where one input alone changes. A call has at most `event_budget`
-//   events, 64 + 16 n by default. An event solves up to five complementarity problems of at most n + 2 J
-//   pairs, each with 16 pivots a pair, and makes one map, n^2 (K + L). A pivot costs n^2 on a structure, n^3
-//   if constraints are factored anew, and n between rigid saddles. Most events are one pivot. tension()
+//   events, 64 + 16 n by default. An event solves a complementarity problem, at worst six, and three more for
+//   every step a little further on that is tried, most often one and seven in a row at worst; each has n + 2
+//   J pairs at most, with 16 pivots a pair. It makes one map, n^2 (K + L). A pivot costs n^2 on a structure,
+//   n^3 if constraints are factored anew, and n between rigid saddles. Most events are one pivot. tension()
 //   costs nothing; respond() n (J + K + L), and n + L for every strut. save() is a copy; restore() factors
 //   the constraints, n^3, and makes one map. restore() fails with `bad_sample` if it finds that the state is
 //   none of this scene; it does not find all.
@@ -111,16 +111,19 @@
 //
 //   start() fails with `capacity_exceeded` if and only if friction and cells at jacks have more unknowns than
 //   Parameters, or other instruments more than Further, otherwise as Tracker::start(). advance() fails with
-//   `bad_sample`, and does nothing, if a load factor is not finite or beyond Condensed::most_factor,
-//   otherwise as Tracker::advance(). A reading that is not finite, more than the cable can carry, or
-//   contradicts is no error: it is left out, with an alarm. alarms() are those of the last row.
+//   `bad_sample`, and does nothing, if a load factor is not finite or beyond Condensed::most_factor, or dt is
+//   below zero or not finite, otherwise as Tracker::advance(). Readings with dt zero count as far apart as
+//   those before. A reading that is not finite, more than the cable can carry, or contradicts is no error: it
+//   is left out, with an alarm. alarms() are those of the last row. A row whose event budget is spent is gone
+//   on with by calls with the same sample, no readings and dt zero.
 //
 //   Intervals hold for readings with a constant gain and zero as uncertain as stated, and independent
 //   Gaussian noise, at least as stated.
 //
-//   Costs n + K + P^2 a row without an event. With events the path has up to three parts (to a lock-off, to
-//   a reversal, to the row), and each part up to one call of Tracker::advance() and one more for every
-//   cable, with the event budget each. A measurement adjusts the tracker up to four times, J + 1 maps each.
+//   Costs n + K + P^2 a row without an event. With events the path has up to five parts (to where jacks were
+//   when other loads began to change, twice, to reversals, to lock-offs, to the row), and where it has no
+//   answer three more; each is up to one call of Tracker::advance() and one more for every cable, with the
+//   event budget each. A measurement adjusts the tracker up to four times, J + 1 maps each.
 //   estimate(segment) costs P (P + K + L), const. take_strut() and take_stroke() are for after an advance()
 //   that came to its end, and cost P n (K + L) and a measurement.
 //

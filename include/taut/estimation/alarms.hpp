@@ -3,8 +3,6 @@
 
 #include <cstdint>
 
-#include "taut/scene/fixed_list.hpp"
-
 namespace taut {
 
 struct Alarm {

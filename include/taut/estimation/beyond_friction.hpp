@@ -1,7 +1,6 @@
 // Forces that are shown of neighbouring segments, where friction cannot hold them apart so far.
 #pragma once
 
-#include <array>
 #include <cmath>
 
 #include "taut/numerics/larger.hpp"

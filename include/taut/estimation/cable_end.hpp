@@ -18,7 +18,7 @@ struct CableEnd {
   // With one cable the compiler knows which.
   int cable() const { return Cap::cables == 1 ? 0 : number; }
   bool is(int cable_number, std::size_t which) const { return cable() == cable_number && end == which; }
-  /// The segment at this end of the cable of a CondensedModel.
+  /// The segment at this end of the cable, of a condensed scene.
   template <class Model>
   int segment(const Model& model) const {
     return model.cables[cable()].end_segment(end);

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "taut/numerics/larger.hpp"
-
 namespace taut {
 
 /// The innovations of an instrument, its readings less what was expected of them, over about the last thirty

@@ -122,7 +122,7 @@ struct FarEndForce {
 /// draw-ins that are likely, and takes their mean and variance, and those of all forces. How far joints slide
 /// back is not in proportion to a draw-in, and a far end may tell only that it is less than what would reach
 /// it, Eqs. (57) and (58). Contradiction if and only if no draw-in makes that of the far end which was read;
-/// then nothing is learned of it. Cost: at worst four times that of try_draw_ins(), and that of lock_anew().
+/// then nothing is learned of it. Cost: at worst five times that of try_draw_ins(), and that of lock_anew().
 template <class Parts>
 [[gnu::noinline]] Update weigh_draw_in(Parts& parts, int k, const FarEndForce<typename Parts::Scalar>& read) {
   using Scalar = typename Parts::Scalar;

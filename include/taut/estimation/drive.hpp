@@ -1,7 +1,6 @@
 // How a tracker is driven along with conditioned loads: straight on, or through corners.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 
 #include "taut/estimation/held_over.hpp"
@@ -172,7 +171,7 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
 }
 
 /// Drives the tracker through the corners to `target`, where more happens than that a load changes. Fails as
-/// Tracker::advance() does; the jacks are then where the path ended. Cost: that of drive_straight() four
+/// Tracker::advance() does; the jacks are then where the path ended. Cost: that of drive_straight() five
 /// times, and of pull_more().
 template <class TrackerType, class Jacks, class SampleType, class Leave, class Remember, class RememberLoad,
           class Uncertainty>

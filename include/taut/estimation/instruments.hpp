@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "taut/estimation/cable_end.hpp"
 #include "taut/scene/fixed_list.hpp"
 #include "taut/scene/load_cell.hpp"
 #include "taut/tracking/sensitivity.hpp"

@@ -22,7 +22,7 @@ BitsOf<Scalar> bits_of(Scalar x) {
   return bits;
 }
 
-/// x > 0, by integers: where software works in double, a comparison costs as much as a product.
+/// x > 0 of a number, by integers: where software works in double, a comparison costs as much as a product.
 template <class Scalar>
 bool is_positive(Scalar x) {
   return bits_of(x) > 0;

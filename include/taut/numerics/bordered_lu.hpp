@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
-#include <limits>
 #include <type_traits>
 
 #include "taut/numerics/axpy.hpp"

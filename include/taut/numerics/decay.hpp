@@ -3,8 +3,9 @@
 
 namespace taut {
 
-/// exp(-x) for x >= 0, to a few units in the last place; zero beyond 60. Halved until the series is short,
-/// then squared as often.
+/// exp(-x) for x >= 0, relative to itself off by some 10 x epsilon at most, and a few epsilon where x < 1:
+/// halved until the series is short, then squared as often, which doubles the error each time. Zero beyond
+/// 60.
 template <class Real>
 constexpr Real decay(Real x) {
   if (!(x < Real(60))) return 0;

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include "taut/numerics/bits.hpp"
 #include "taut/numerics/bordered_lu.hpp"

@@ -1,7 +1,6 @@
 // While no state changes, tensions and slips are affine in the inputs: this is that map.
 #pragma once
 
-#include <cmath>
 #include <type_traits>
 
 #include "taut/numerics/larger.hpp"

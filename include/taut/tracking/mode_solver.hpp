@@ -20,11 +20,11 @@ namespace taut {
 /// makes the point feasible, and one pair after the other changes sides until z is zero. Among ties
 /// perturbation() decides. No M is made: a column is what a slip variable does through the factors of the
 /// set, those of the piece before serve on, and a slip that would make them singular waits for another. In
-/// the form with the tensions of all spans at zero as unknowns, M = [F, -U; R, 0] gives z'Mz = T'FT + sum (1
-/// - rho) v T_big
-/// >= 0: copositive, and q'z >= 0 where that vanishes; the path then ends in a solution (theorem 4.4.13).
-/// That covers every start from zero tension for rho in (0, 1] and jacks that satisfy the cones. It does not
-/// cover rates of spans under tension, where friction may leave no rate at all: then the path ends on a ray.
+/// the form with the tensions of all spans at zero as unknowns, M = [F, -U; R, 0] gives
+///     z'Mz = T'FT + sum (1 - rho) v T_big >= 0:
+/// copositive, and q'z >= 0 where that vanishes; the path then ends in a solution (theorem 4.4.13). That
+/// covers every start from zero tension for rho in (0, 1] and jacks that satisfy the cones. It does not cover
+/// rates of spans under tension, where friction may leave no rate at all: then the path ends on a ray.
 template <class CondensedType, class Laws>
 class ModeSolver {
  public:

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -125,8 +124,8 @@ class Sensitivity {
     return moving;
   }
 
-  /// At inputs `x` a law that falls at the rate `falling` along `direction` reached its limit. `joint` is
-  /// whose limit it is, or -1.
+  /// At inputs `x` a law that falls at the rate `falling` along the path reached its limit. `joint` is whose
+  /// limit it is, or -1.
   void find_saltation(const Map& map, const Inputs& x, const Tensions& T, const TensionConstraint<Real>& law,
                       int joint, Real falling) {
     const Scalar per_rate = static_cast<Scalar>(-1 / falling), weight = static_cast<Scalar>(law.weight);

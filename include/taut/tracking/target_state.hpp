@@ -29,6 +29,8 @@ class SecondOrderCondensation {
   ///
   /// `target` are the loads and jack forces of the state whose geometric stiffness is taken. `struts`
   /// receives the rows of strut forces, which the way there needs; they can be left out afterwards.
+  /// `substructure_geometry` is null, or has the geometric stiffness of the substructures themselves [N/m] at
+  /// the target, an entry for each of theirs in the scene.
   /// `displacements`, if given, receives the rows for the displacements that were chosen in it. Costs twelve
   /// condensations, each with a solve more for every strut and beam, and three ways to the target.
   Status run(const SceneType& scene, const Sample<Scalar, Cap>& target, Model& condensed,

@@ -8,7 +8,7 @@
 #include "rolling_joint.hpp"
 
 namespace roller = rolling_cable_strut_joint_three_set_ups_side_by_side;
-using Estimator = taut::Estimator<taut::Condensed<float, roller::Capacity>, roller::unknowns>;
+using Estimator = taut::Estimator<taut::Condensed<float, roller::Capacity>, roller::unknowns, roller::reading_unknowns>;
 
 static auto known = roller::prior<float>;  // mu 0.219 with a standard deviation of a half of it
 static Estimator estimator;                    // all the memory it needs
