@@ -1,7 +1,6 @@
 // What a row measures beside the jacks' loads: load cells at anchored ends.
 #pragma once
 
-
 #include "taut/estimation/draw_in.hpp"
 #include "taut/estimation/learning.hpp"
 #include "taut/estimation/look_ahead.hpp"

@@ -87,8 +87,7 @@ class System {
   /// Force in a segment under the situation: elastic, prescribed or none [N].
   Scalar tension(int segment, const Assumed& assumed, const Loads& loads) const {
     const SegmentLaw law = law_of(segment, assumed, loads);
-    return law == SegmentLaw::elastic ? bar_force(segment, loads)
-                                             : prescribed_force(segment, law, loads);
+    return law == SegmentLaw::elastic ? bar_force(segment, loads) : prescribed_force(segment, law, loads);
   }
   bool is_prescribed(int segment, const Loads& loads) const { return jack_of(segment, loads) != nullptr; }
 

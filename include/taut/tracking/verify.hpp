@@ -40,13 +40,9 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Para
   const Real unit = tracker.peak() > 0 ? Real(1) / static_cast<Real>(tracker.peak()) : Real(1);
   Verdict<Scalar> verdict;
   // What is no number is beyond everything.
-  const auto measured = [](Real violation) {
-    constexpr Scalar most = (std::numeric_limits<Scalar>::max)();
-    return violation <= static_cast<Real>(most) ? static_cast<Scalar>(violation)
-                                                : std::numeric_limits<Scalar>::infinity();
-  };
-  const auto raise = [&measured](Scalar& worst, Real violation) {
-    worst = larger(worst, measured(violation));
+  const auto raise = [](Scalar& worst, Real violation) {
+    const auto by = static_cast<Scalar>(violation);
+    if (!(by <= worst)) worst = by > worst ? by : std::numeric_limits<Scalar>::infinity();
   };
 
   FixedArray<Real, Cap::segments> e, T;
@@ -71,7 +67,7 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Para
 
   for (int i = 0; i < model.segments; ++i) {
     const Real off = std::fabs(T[i] - static_cast<Real>(tracker.tension(i))) * unit;
-    if (measured(off) > verdict.imbalance) verdict.segment = i;
+    if (!(static_cast<Scalar>(off) <= verdict.imbalance)) verdict.segment = i;
     raise(verdict.imbalance, off);
     raise(verdict.compression, -T[i] * unit);
   }
@@ -98,8 +94,8 @@ Verdict<typename CondensedType::Scalar> verify(const Tracker<CondensedType, Para
       Real off_limit = 0;
       if (tracker.motion(j) == JointState::forward) off_limit = std::fabs(T1 - rho * T2) * unit;
       if (tracker.motion(j) == JointState::backward) off_limit = std::fabs(T2 - rho * T1) * unit;
-      const Scalar most = measured(larger(outside, off_limit));
-      if (most > larger(verdict.outside, verdict.off_limit)) verdict.joint = j;
+      const auto most = static_cast<Scalar>(larger(outside, off_limit));
+      if (!(most <= larger(verdict.outside, verdict.off_limit))) verdict.joint = j;
       raise(verdict.outside, outside);
       raise(verdict.off_limit, off_limit);
     }
