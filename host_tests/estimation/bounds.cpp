@@ -34,6 +34,16 @@ struct Bounded {
     REQUIRE(support::condense(scene, model).ok());
     taut::find_friction_prior(scene, known);
   }
+  /// That the forces of a tracker are within the bounds that these readings give.
+  void check_holds(const taut::Tracker<Model>& truth,
+                   const std::array<taut::EndReading<double>, 2>& ends) const {
+    Ranges ranges;
+    REQUIRE(taut::find_bounds(model, known, ends, 0, ranges));
+    for (int i = 0; i < model.segments; ++i) {
+      CHECK(truth.tension(i) >= ranges[i].least * (1 - least_known));
+      CHECK(truth.tension(i) <= ranges[i].most * (1 + least_known));
+    }
+  }
 };
 
 TEST_CASE("no history leads outside of the bounds that its last readings give") {
@@ -56,12 +66,7 @@ TEST_CASE("no history leads outside of the bounds that its last readings give") 
       const std::array<taut::EndReading<double>, 2> ends{
           {{random.coin(), false, tracker->tension(0) + random.between(-200, 200), 0},
            {true, false, tracker->tension(n - 1) + random.between(-200, 200), 0}}};
-      Ranges ranges;
-      REQUIRE(taut::find_bounds(given.model, given.known, ends, 0, ranges));
-      for (int i = 0; i < n; ++i) {
-        CHECK(tracker->tension(i) >= ranges[i].least * (1 - least_known));
-        CHECK(tracker->tension(i) <= ranges[i].most * (1 + least_known));
-      }
+      given.check_holds(*tracker, ends);
     }
   }
 }
@@ -99,12 +104,7 @@ TEST_CASE("a shared mu that differs from joint to joint, and scatters, leaves th
       REQUIRE(tracker->advance(sample).status.ok());
       const int n = truth.segments;
       const std::array<taut::EndReading<double>, 2> ends{{{}, {true, false, tracker->tension(n - 1), 0}}};
-      Ranges ranges;
-      REQUIRE(taut::find_bounds(given.model, given.known, ends, 0, ranges));
-      for (int i = 0; i < n; ++i) {
-        CHECK(tracker->tension(i) >= ranges[i].least * (1 - least_known));
-        CHECK(tracker->tension(i) <= ranges[i].most * (1 + least_known));
-      }
+      given.check_holds(*tracker, ends);
     }
   }
 }

@@ -37,12 +37,11 @@ void check_cable(std::size_t c, const SceneDescription& scene) {
              place + "/prestrain" + (cable.prestrain_is_list ? "/" + std::to_string(i) : std::string()),
              "a strain of " + plain(cable.prestrain[i]) + " is more than a cable takes",
              "write a part of the length and not per cent, at most 0.02");
-  const auto check_part = [&](double value, const std::string& key, const std::string& what) {
-    if (value >= most_part)
-      refuse(scene, place + key, what + " of " + plain(value) + " tells nothing", no_per_cent);
-  };
-  check_part(cable.E_sd, "/E_sd", "a relative standard deviation");
-  check_part(cable.scatter, "/friction/scatter", "a relative standard deviation");
+  for (const auto& [key, part] :
+       {std::pair("/E_sd", cable.E_sd), std::pair("/friction/scatter", cable.scatter)})
+    if (part >= most_part)
+      refuse(scene, place + key, "a relative standard deviation of " + plain(part) + " tells nothing",
+             no_per_cent);
   if (cable.mu_sd >= most_part && cable.mu_sd > 10 * largest(cable.mu))
     refuse(scene, place + "/friction/mu_sd",
            "a standard deviation of " + plain(cable.mu_sd) + " tells nothing of mu", no_per_cent);

@@ -343,12 +343,8 @@ class Structure {
       const auto& bar = elements_.segments[i];
       strained = std::fmax(strained, std::fabs(elongation(bar.nodes, bar.line).value()));
     }
-    for (int i = 0; i < scene_->substructures.size(); ++i)
-      strained = std::fmax(
-          strained,
-          static_cast<Scalar>(SubstructureElement<SceneType>(*scene_, i).strain([this](int node, int axis) {
-            return displacement(node, axis).hi;
-          })));
+    const auto moved = [this](int node, int axis) { return displacement(node, axis).hi; };
+    strained = std::fmax(strained, static_cast<Scalar>(largest_strain(*scene_, moved)));
     const bool free = strained <= std::sqrt(epsilon) * most;
     return Status::at(free ? Code::mechanism : Code::ill_conditioned, Place::node, mover);
   }

@@ -53,4 +53,13 @@ class SubstructureElement {
   const Substructure* given_;
 };
 
+/// The largest SubstructureElement::strain() of a scene [m]; zero if it has no substructure.
+template <class SceneType, class Displacement>
+typename SceneType::Scalar largest_strain(const SceneType& scene, const Displacement& u) {
+  typename SceneType::Scalar most = 0;
+  for (int i = 0; i < scene.substructures.size(); ++i)
+    most = larger(most, SubstructureElement<SceneType>(scene, i).strain(u));
+  return most;
+}
+
 }  // namespace taut

@@ -475,12 +475,8 @@ class System {
     for (int i = 0; i < segments(); ++i)
       if (law_of(i, assumed, loads) == SegmentLaw::elastic)
         strained = std::fmax(strained, std::fabs(bar_elongation(i)));
-    for (int i = 0; i < scene_->substructures.size(); ++i)
-      strained = std::fmax(
-          strained,
-          static_cast<Scalar>(SubstructureElement<SceneType>(*scene_, i).strain([this](int node, int axis) {
-            return displacement(node, axis).hi;
-          })));
+    const auto moved = [this](int node, int axis) { return displacement(node, axis).hi; };
+    strained = std::fmax(strained, static_cast<Scalar>(largest_strain(*scene_, moved)));
     const bool resolved = strained <= std::sqrt(epsilon) * most;
     return Status::at(resolved ? Code::mechanism : Code::ill_conditioned, Place::node, mover);
   }
