@@ -1,6 +1,7 @@
 #include "lib/kinds/valid_scene.hpp"
 
 #include "lib/files/plausible_scene.hpp"
+#include "lib/kinds/capacities.hpp"
 
 namespace taut::host {
 

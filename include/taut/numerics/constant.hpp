@@ -9,9 +9,6 @@
 
 namespace taut {
 
-/// Whether this is evaluated while compiling.
-constexpr bool is_constant_evaluated() noexcept { return __builtin_is_constant_evaluated(); }
-
 /// |x|, but for the sign of a zero.
 template <class Scalar>
 constexpr Scalar magnitude(Scalar x) {

@@ -1,18 +1,16 @@
 // Says whether a scene can be used, and if not what is wrong with which part of it.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Eigenvalues>
+#include <array>
+#include <cstddef>
 #include <limits>
 
-#include "taut/elements/beam.hpp"
-#include "taut/elements/friction_element.hpp"
 #include "taut/elements/substructure.hpp"
 #include "taut/numerics/constant.hpp"
 #include "taut/numerics/larger.hpp"
-#include "taut/scene/constant_checks.hpp"
 #include "taut/scene/path.hpp"
 #include "taut/scene/scene.hpp"
+#include "taut/scene/support_check.hpp"
 #include "taut/status.hpp"
 
 namespace taut {
@@ -33,13 +31,14 @@ class SceneCheck {
     for (int c = 0; status && c < scene_.cables.size(); ++c) status = cable(c);
     for (int i = 0; status && i < scene_.substructures.size(); ++i) status = substructure(i);
     if (status) status = loads();
-    if (status) status = is_constant_evaluated() ? ConstantCheck<SceneType>(scene_).supports() : supports();
+    if (status) status = SupportCheck<SceneType>(scene_).run();
     return status;
   }
 
  private:
   using Real = typename SceneType::Scalar;
-  static constexpr int dimension = SceneType::dimension;
+  static constexpr std::size_t dimension = SceneType::dimension;
+  using Vector = std::array<Real, dimension>;
   static constexpr int jacks = max_jacks<typename SceneType::Capacity>;
   static constexpr bool has_room_for_beams = SceneType::Capacity::beams > 0;
   static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
@@ -162,16 +161,15 @@ class SceneCheck {
   /// Whether `up` is there and not along the beam.
   constexpr bool points_aside(const Beam<Real, 3>& beam) const {
     constexpr Real least = Real(1e-6);
-    if (is_constant_evaluated())
-      return ConstantCheck<SceneType>(scene_).sin_to(beam.section.up, beam.nodes[0], beam.nodes[1]) > least;
-    return sin_to_up(beam) > least;
+    const Vector a = direction(beam.nodes[0], beam.nodes[1]), b = constant_unit(beam.section.up);
+    const Vector across = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    return constant_norm(across) > least;
   }
-  Real sin_to_up(const Beam<Real, 3>& beam) const {
-    const auto& up = beam.section.up;
-    const auto along =
-        Line<Real, 3>::between(scene_.nodes[beam.nodes[0]], scene_.nodes[beam.nodes[1]]).direction;
-    const Vector unit = Vector(up[0], up[1], up[2]).stableNormalized();
-    return along.cross(unit).norm();
+  constexpr Vector direction(int from, int to) const {
+    Vector d{};
+    for (std::size_t axis = 0; axis < dimension; ++axis)
+      d[axis] = scene_.nodes[to].at[axis] - scene_.nodes[from].at[axis];
+    return constant_unit(d);
   }
 
   constexpr Status cable(int c) const {
@@ -222,18 +220,18 @@ class SceneCheck {
     const Cable<Real>& cable = scene_.cables[c];
     const Code code = not_negative(scene_.mu[cable.first_joint + j]);
     if (code != Code::ok) return Status::along(code, Place::joint, c, j);
-    const auto at = scene_.joint_nodes(cable, j);
-    const Real sin_alpha = is_constant_evaluated()
-                               ? ConstantCheck<SceneType>(scene_).sin_alpha(at.before, at.at, at.after)
-                               : frame_of(at).sin_alpha;
     // alpha below 64 units of rounding cannot be told from zero.
-    if (!(sin_alpha > 64 * epsilon)) return Status::along(Code::folded_cable, Place::joint, c, j);
+    if (!(sin_alpha(scene_.joint_nodes(cable, j)) > 64 * epsilon))
+      return Status::along(Code::folded_cable, Place::joint, c, j);
     return Status::success();
   }
 
-  JointFrame<Real, dimension> frame_of(const typename SceneType::JointNodes& at) const {
-    return JointFrame<Real, dimension>::of(scene_.nodes[at.before], scene_.nodes[at.at],
-                                           scene_.nodes[at.after]);
+  /// |e32 - e31| / 2, with unit vectors from the joint to its neighbours.
+  constexpr Real sin_alpha(const typename SceneType::JointNodes& joint) const {
+    const Vector e31 = direction(joint.at, joint.before), e32 = direction(joint.at, joint.after);
+    Vector difference{};
+    for (std::size_t axis = 0; axis < dimension; ++axis) difference[axis] = e32[axis] - e31[axis];
+    return constant_norm(difference) / 2;
   }
 
   constexpr Status substructure(int index) const {
@@ -311,80 +309,6 @@ class SceneCheck {
       if (given.cable < 0 || given.cable >= scene_.cables.size())
         return Status::at(Code::out_of_range, Place::temperature, i, given.cable);
       if (!is_finite(given.kelvin)) return Status::at(Code::not_finite, Place::temperature, i);
-    }
-    return Status::success();
-  }
-
-  /// Rigid motions: translations, and rotations about the middle scaled to displacements of order one.
-  static constexpr int motions = dimension == 2 ? 3 : 6;
-  using Motions = Eigen::Matrix<Real, dimension, motions>;
-  using Gram = Eigen::Matrix<Real, motions, motions>;
-  using Vector = Eigen::Matrix<Real, dimension, 1>;
-
-  static Motions rigid_motions(const Vector& x) {
-    Motions R = Motions::Zero();
-    R.template leftCols<dimension>().setIdentity();
-    if constexpr (dimension == 2)
-      R.col(2) << -x[1], x[0];
-    else
-      R.template rightCols<3>() << 0, x[2], -x[1], -x[2], 0, x[0], x[1], -x[0], 0;
-    return R;
-  }
-
-  Vector position(int node, const Vector& middle, Real size) const {
-    Vector x;
-    for (int axis = 0; axis < dimension; ++axis)
-      x[axis] = scene_.nodes[node].at[static_cast<std::size_t>(axis)];
-    return (x - middle) / size;
-  }
-
-  /// Supports and substructures against the rigid motions of the whole: what is left free must move nothing.
-  Status supports() const {
-    if (scene_.nodes.empty()) return Status::at(Code::unsupported, Place::node, -1);
-    Vector middle = Vector::Zero();
-    for (int i = 0; i < scene_.nodes.size(); ++i)
-      middle += position(i, Vector::Zero(), 1) / static_cast<Real>(scene_.nodes.size());
-    Real size = epsilon;
-    for (int i = 0; i < scene_.nodes.size(); ++i)
-      size = larger(size, position(i, middle, 1).template lpNorm<Eigen::Infinity>());
-
-    Gram resistance = Gram::Zero();
-    for (int i = 0; i < scene_.nodes.size(); ++i) {
-      const Motions R = rigid_motions(position(i, middle, size));
-      for (int axis = 0; axis < dimension; ++axis)
-        if (scene_.nodes[i].is_held(axis)) resistance += R.row(axis).transpose().lazyProduct(R.row(axis));
-      // The last of the motions are the rotations.
-      for (int k = 0; k < SceneType::motions_of_node - dimension; ++k)
-        if (scene_.nodes[i].is_rotation_held(k) && scene_.can_turn(i))
-          resistance(dimension + k, dimension + k) += 1;
-    }
-    for (int index = 0; index < scene_.substructures.size(); ++index) {
-      const SubstructureElement<SceneType> K(scene_, index);
-      Real trace = 0;
-      for (int i = 0; i < K.size(); ++i) trace += K(i, i);
-      if (!(trace > 0)) continue;
-      for (int i = 0; i < K.size(); ++i)
-        for (int k = 0; k < K.size(); ++k) {
-          const Motions Ri = rigid_motions(position(K.node(i), middle, size));
-          const Motions Rk = rigid_motions(position(K.node(k), middle, size));
-          resistance += K(i, k) / trace * Ri.row(K.axis(i)).transpose().lazyProduct(Rk.row(K.axis(k)));
-        }
-    }
-
-    const Eigen::SelfAdjointEigenSolver<Gram> solver(resistance);
-    const Real free_below = 64 * epsilon * larger(Real(1), solver.eigenvalues()[motions - 1]);
-    for (int mode = 0; mode < motions; ++mode) {
-      if (solver.eigenvalues()[mode] > free_below) continue;
-      int node = 0;
-      Real most = 0;
-      for (int i = 0; i < scene_.nodes.size(); ++i) {
-        const Vector motion = rigid_motions(position(i, middle, size)) * solver.eigenvectors().col(mode);
-        if (motion.norm() > most) {
-          most = motion.norm();
-          node = i;
-        }
-      }
-      if (most > Real(1e-4)) return Status::at(Code::unsupported, Place::node, node);
     }
     return Status::success();
   }
