@@ -312,6 +312,37 @@ TEST_CASE("a column that goes over to another unit is refused where it does; a l
               }));
 }
 
+TEST_CASE(
+    "an end that is locked rows after its load was let out is taken with a remark, one that is not without") {
+  // A ramp of thirty rows, five at rest, and what the jack reads until it is locked for five.
+  const auto remark = [](const std::vector<double>& then) {
+    const Scratch scratch;
+    std::string log = "time,C.end,C.end.locked\n";
+    int row = 0;
+    const auto add = [&](double load, int locked) {
+      log += std::to_string(++row) + "," + std::to_string(load) + "," + std::to_string(locked) + "\n";
+    };
+    for (int i = 1; i <= 35; ++i) add(1000.0 * std::min(i, 30), 0);
+    for (const double load : then) add(load, 0);
+    for (int i = 0; i < 5; ++i) add(0, 1);
+    const Outcome outcome = run(scratch, Site(), "estimate", log);
+    CHECK_MESSAGE(outcome.status == 0, outcome.err);
+    const auto found = outcome.err.find("remark: the load of ");
+    return found == std::string::npos ? "" : outcome.err.substr(found, outcome.err.find('\n', found) - found);
+  };
+  CHECK(remark({20000, 8000, 10}) ==
+        "remark: the load of \"C.end\" falls from 30000 to 10 N after line 36, and the end is locked in line "
+        "40: "
+        "if its wedge was drawn in before, \"C.end.locked\" is 1 from line 37 on");
+  CHECK(remark({}).empty());
+  // Overstressed, misread, and let out slowly.
+  CHECK(remark({29500, 29000, 28500}).empty());
+  CHECK(remark({60000, 30000}).empty());
+  std::vector<double> slowly;
+  for (int i = 0; i < 40; ++i) slowly.push_back(30000 - 700.0 * i);
+  CHECK(remark(slowly).empty());
+}
+
 TEST_CASE("plausible is true or false") {
   const Scratch scratch;
   std::ofstream(scratch.path / "scene.json")

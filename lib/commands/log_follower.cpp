@@ -149,7 +149,10 @@ void LogFollower::read_log() {
   std::ifstream stream = open_log(options_.log);
   for (const Sentence& sentence : left_out) remark(sentence);
   const LogReader log(stream, options_.log, scene_, rules_);
-  if (measures) plausible.require(log, options_.log, begun_.has_value());
+  if (measures) {
+    plausible.require(log, options_.log, begun_.has_value());
+    for (const Sentence& doubt : plausible.doubts()) remark(doubt);
+  }
   remark_on_columns(log);
   if (begun_)
     fill_in_mu_deviations(scene_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/files/deserved_digits.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/plausible_scene.hpp"
 #include "lib/files/text.hpp"
@@ -63,6 +64,9 @@ void PlausibleLog::take(const LogRow& row) {
         strokes.take({*given.stroke, row.line, given.reading.value_or(std::nan(""))});
         cables_[c].is_read_under_load |= *given.stroke != strokes.kept.front().at;
       }
+      if (cable.is_jacked(end))
+        cables_[c].lock[end].take(row.time, given.reading.value_or(std::nan("")), given.locked,
+                                  first_stage_strain * cable.E * cable.A, row.line);
       if (!given.reading) continue;
       cables_[c].unit[end].take(*given.reading, row.line);
       if (!cable.is_jacked(end)) {
@@ -94,6 +98,28 @@ void PlausibleLog::require(const LogReader& log, const std::string& path, bool h
     if (!has_past) require_column(c, log, path);
     require_deviations(c);
   }
+}
+
+std::vector<Sentence> PlausibleLog::doubts() const {
+  std::vector<Sentence> doubts;
+  for (std::size_t c = 0; c < cables_.size(); ++c)
+    for (std::size_t end = 0; end < 2; ++end) {
+      const LateLock& lock = cables_[c].lock[end];
+      if (!lock.is_found()) continue;
+      const std::string column = column_of(scene_.cables[c], end);
+      doubts.emplace_back(
+          "the load of {1} falls from {2} to {3} N after line {4}, and the end is locked in line {5}: if its "
+          "wedge was "
+          "drawn in before, {6} is 1 from line {7} on",
+          std::vector<Sentence>{{quote(column)},
+                                {plain(rounded(lock.held(), 4))},
+                                {plain(rounded(lock.left(), 4))},
+                                {std::to_string(lock.held_line())},
+                                {std::to_string(lock.locked_line())},
+                                {quote(column + ".locked")},
+                                {std::to_string(lock.held_line() + 1)}});
+    }
+  return doubts;
 }
 
 void PlausibleLog::require_units_of_jacks(const LogReader& log, const std::string& path) const {

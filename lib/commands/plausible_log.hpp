@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "lib/commands/late_lock.hpp"
 #include "lib/commands/reading_scatter.hpp"
 #include "lib/commands/unit_step.hpp"
 #include "lib/files/log_file.hpp"
 #include "lib/files/scene_description.hpp"
+#include "lib/files/sentence.hpp"
 
 namespace taut::host {
 
@@ -29,6 +31,8 @@ class PlausibleLog {
   /// 1e-4, though these readings do not; and, where the log does not go on from a state, if no jack of a
   /// cable has a column though other instruments read it under load.
   void require(const LogReader& log, const std::string& path, bool has_past) const;
+  /// What may be meant and probably is not: ends that are locked rows after their load was let out.
+  std::vector<Sentence> doubts() const;
 
  private:
   struct Jack {
@@ -55,6 +59,7 @@ class PlausibleLog {
     std::array<Jack, 2> jack;
     std::array<Strokes, 2> stroke;
     std::array<UnitStep, 2> unit;
+    std::array<LateLock, 2> lock;
     bool is_read_under_load = false;  ///< by other instruments
   };
 
