@@ -1,5 +1,5 @@
 // Storage inside the object.
-#include "taut/scene/fixed_list.hpp"
+#include "taut/numerics/fixed_list.hpp"
 
 #include <doctest/doctest.h>
 

@@ -7,8 +7,8 @@
 
 #include "taut/numerics/axpy.hpp"
 #include "taut/numerics/bits.hpp"
+#include "taut/numerics/fixed_list.hpp"
 #include "taut/numerics/wide.hpp"
-#include "taut/scene/fixed_list.hpp"
 #include "taut/scene/path.hpp"
 #include "taut/scene/scene.hpp"
 

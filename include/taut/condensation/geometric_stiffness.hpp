@@ -1,7 +1,7 @@
 // Geometric stiffness: the forces whose lean second-order theory takes into account.
 #pragma once
 
-#include "taut/scene/fixed_list.hpp"
+#include "taut/numerics/fixed_list.hpp"
 
 namespace taut {
 

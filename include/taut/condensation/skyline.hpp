@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "taut/scene/fixed_list.hpp"
+#include "taut/numerics/fixed_list.hpp"
 
 namespace taut {
 

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "taut/estimation/prediction.hpp"
+#include "taut/numerics/fixed_list.hpp"
 #include "taut/numerics/larger.hpp"
-#include "taut/scene/fixed_list.hpp"
 
 namespace taut {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "taut/estimation/estimator_parts.hpp"
-#include "taut/scene/fixed_list.hpp"
+#include "taut/numerics/fixed_list.hpp"
 #include "taut/status.hpp"
 
 namespace taut {

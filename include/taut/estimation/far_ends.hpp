@@ -9,7 +9,7 @@
 #include "taut/estimation/cell_watch.hpp"
 #include "taut/estimation/friction_filter.hpp"
 #include "taut/estimation/gathered.hpp"
-#include "taut/scene/fixed_list.hpp"
+#include "taut/numerics/fixed_list.hpp"
 #include "taut/scene/scene.hpp"
 
 namespace taut {

@@ -5,8 +5,8 @@
 
 #include "taut/estimation/held_over.hpp"
 #include "taut/estimation/prediction.hpp"
+#include "taut/numerics/fixed_list.hpp"
 #include "taut/numerics/larger.hpp"
-#include "taut/scene/fixed_list.hpp"
 
 namespace taut {
 

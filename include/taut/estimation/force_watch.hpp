@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "taut/estimation/alarms.hpp"
-#include "taut/scene/fixed_list.hpp"
+#include "taut/numerics/fixed_list.hpp"
 
 namespace taut {
 

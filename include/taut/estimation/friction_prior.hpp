@@ -4,8 +4,8 @@
 #include <array>
 
 #include "taut/numerics/decay.hpp"
+#include "taut/numerics/fixed_list.hpp"
 #include "taut/numerics/wide.hpp"
-#include "taut/scene/fixed_list.hpp"
 #include "taut/scene/load_cell.hpp"
 
 namespace taut {

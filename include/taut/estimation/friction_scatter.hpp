@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "taut/numerics/fixed_list.hpp"
 #include "taut/numerics/larger.hpp"
-#include "taut/scene/fixed_list.hpp"
 #include "taut/scene/scene.hpp"
 
 namespace taut {

@@ -7,8 +7,8 @@
 
 #include "taut/estimation/instruments.hpp"
 #include "taut/estimation/noise_level.hpp"
+#include "taut/numerics/fixed_list.hpp"
 #include "taut/numerics/larger.hpp"
-#include "taut/scene/fixed_list.hpp"
 #include "taut/scene/load_cell.hpp"
 
 namespace taut {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "taut/scene/fixed_list.hpp"
+#include "taut/numerics/fixed_list.hpp"
 #include "taut/scene/load_cell.hpp"
 #include "taut/tracking/sensitivity.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "taut/estimation/cable_end.hpp"
-#include "taut/scene/fixed_list.hpp"
+#include "taut/numerics/fixed_list.hpp"
 
 namespace taut {
 

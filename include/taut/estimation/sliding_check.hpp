@@ -1,7 +1,7 @@
 // Whether friction is at its limit everywhere along a cable.
 #pragma once
 
-#include "taut/scene/fixed_list.hpp"
+#include "taut/numerics/fixed_list.hpp"
 
 namespace taut {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "taut/scene/fixed_list.hpp"
+#include "taut/numerics/fixed_list.hpp"
 
 namespace taut {
 

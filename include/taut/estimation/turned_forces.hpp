@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "taut/estimation/kink.hpp"
+#include "taut/numerics/fixed_list.hpp"
 #include "taut/numerics/larger.hpp"
-#include "taut/scene/fixed_list.hpp"
 
 namespace taut {
 

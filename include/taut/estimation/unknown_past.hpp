@@ -8,8 +8,8 @@
 
 #include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/readings.hpp"
+#include "taut/numerics/fixed_list.hpp"
 #include "taut/numerics/larger.hpp"
-#include "taut/scene/fixed_list.hpp"
 #include "taut/scene/path.hpp"
 #include "taut/scene/sample.hpp"
 #include "taut/scene/scene.hpp"

@@ -6,8 +6,8 @@
 
 #include "taut/numerics/axpy.hpp"
 #include "taut/numerics/bits.hpp"
+#include "taut/numerics/fixed_list.hpp"
 #include "taut/numerics/larger.hpp"
-#include "taut/scene/fixed_list.hpp"
 
 namespace taut {
 

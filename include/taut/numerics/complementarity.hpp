@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "taut/numerics/fixed_list.hpp"
 #include "taut/numerics/larger.hpp"
-#include "taut/scene/fixed_list.hpp"
 
 namespace taut {
 

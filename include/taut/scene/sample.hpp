@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "taut/scene/fixed_list.hpp"
+#include "taut/numerics/fixed_list.hpp"
 
 namespace taut {
 

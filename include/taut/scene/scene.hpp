@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "taut/numerics/fixed_list.hpp"
 #include "taut/scene/capacity.hpp"
-#include "taut/scene/fixed_list.hpp"
 #include "taut/scene/load_cell.hpp"
 
 namespace taut {
