@@ -239,3 +239,91 @@ TEST_CASE("a sum that was measured well is no news of its parts, however often n
   CHECK(belief.variance(0) == doctest::Approx(both).epsilon(1e-3));
   CHECK(belief.variance(1) == doctest::Approx(both).epsilon(1e-3));
 }
+
+TEST_CASE("what is known not to be above zero leaves the mean and covariance of all draws that are not") {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    CAPTURE(seed);
+    support::Random random(seed);
+    const Vector prior_sd = random_vector(random, unknowns).cwiseAbs() + Vector::Constant(unknowns, 0.1);
+    Belief belief;
+    begin(belief, prior_sd);
+    const Vector H = random_vector(random, unknowns);
+    const double error_sd = random.between(0.1, 1),
+                 all = H.cwiseProduct(prior_sd).squaredNorm() + error_sd * error_sd,
+                 above = random.between(0, 2);
+    const double value = above * std::sqrt(all);
+    Belief::Values derivatives;
+    for (int p = 0; p < unknowns; ++p) derivatives[p] = H[p];
+    const auto expected = [&](const Belief& by) {
+      double number = value;
+      for (int p = 0; p < unknowns; ++p) number += H[p] * by.mean(p);
+      return number;
+    };
+    REQUIRE(belief.bring_below_zero(0, derivatives, error_sd * error_sd, [&] { return expected(belief); }));
+
+    Vector sum = Vector::Zero(unknowns);
+    Eigen::MatrixXd square = Eigen::MatrixXd::Zero(unknowns, unknowns);
+    int left = 0;
+    for (int draw = 0; draw < 400000; ++draw) {
+      const Vector x = random_vector(random, unknowns).cwiseProduct(prior_sd);
+      if (value + H.dot(x) + error_sd * support::gaussian(random) > 0) continue;
+      sum += x;
+      square += x * x.transpose();
+      ++left;
+    }
+    REQUIRE(left > 5000);
+    const Vector mean = sum / left;
+    const Eigen::MatrixXd covariance = square / left - mean * mean.transpose();
+    for (int p = 0; p < unknowns; ++p) {
+      CHECK(std::fabs(belief.mean(p) - mean[p]) < 0.06 * prior_sd[p]);
+      for (int q = 0; q < unknowns; ++q)
+        CHECK(std::fabs(belief.covariance(p, q) - covariance(p, q)) < 0.06 * prior_sd[p] * prior_sd[q]);
+    }
+  }
+}
+
+TEST_CASE("a bound that is narrower than before, or than what was measured since, is all that counts of it") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    CAPTURE(seed);
+    support::Random random(seed);
+    const Vector prior_sd = random_vector(random, unknowns).cwiseAbs() + Vector::Constant(unknowns, 0.1),
+                 H = random_vector(random, unknowns), row = random_vector(random, unknowns);
+    const double error = random.between(0.01, 0.1),
+                 sd = std::sqrt(H.cwiseProduct(prior_sd).squaredNorm() + error);
+    Belief::Values derivatives;
+    for (int p = 0; p < unknowns; ++p) derivatives[p] = H[p];
+    const auto bring = [&](Belief& belief, double value) {
+      REQUIRE(belief.bring_below_zero(0, derivatives, error, [&] {
+        double number = value;
+        for (int p = 0; p < unknowns; ++p) number += H[p] * belief.mean(p);
+        return number;
+      }));
+    };
+    const auto measure = [&](Belief& belief) {
+      belief.begin_row();
+      const auto prediction = prediction_of(0, row, Vector::Zero(jacks));
+      REQUIRE(belief.innovate(prediction, {}, {0.1, 0.5, 0}));
+      belief.update({});
+    };
+    Belief in_steps, at_once;
+    begin(in_steps, prior_sd);
+    begin(at_once, prior_sd);
+    for (double part = 0.1; part < 1.05; part += 0.1) {
+      bring(in_steps, part * sd);
+      if (part > 0.55 && part < 0.65) measure(in_steps);
+    }
+    measure(at_once);
+    bring(at_once, sd);
+    for (int p = 0; p < unknowns; ++p) {
+      CHECK(in_steps.mean(p) == doctest::Approx(at_once.mean(p)).epsilon(1e-9));
+      for (int q = 0; q < unknowns; ++q)
+        CHECK(std::fabs(in_steps.covariance(p, q) - at_once.covariance(p, q)) <
+              1e-9 * prior_sd[p] * prior_sd[q]);
+    }
+    // What cannot be is left aside.
+    const double mean = at_once.mean(0), variance = at_once.variance(0);
+    CHECK_FALSE(at_once.bring_below_zero(0, derivatives, error, [&] { return 6 * sd; }));
+    CHECK(at_once.mean(0) == doctest::Approx(mean).epsilon(1e-9));
+    CHECK(at_once.variance(0) == doctest::Approx(variance).epsilon(1e-9));
+  }
+}

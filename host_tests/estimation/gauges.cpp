@@ -122,7 +122,8 @@ TEST_CASE("the derivative of a reading by the gain is what is read, by the zero 
     Prediction prediction;
     prediction.value = -40;
     prediction.H.fill(9);
-    gauges.depend({g}, prediction);
+    gauges.depend_on_gain({g}, prediction);
+    gauges.depend_on_zero({g}, prediction);
     for (std::size_t p = 0; p < 3; ++p) CHECK(prediction.H[p] == expected[static_cast<std::size_t>(g)][p]);
   }
 }
@@ -134,7 +135,7 @@ TEST_CASE("a gain is an unknown wherever it stands in the list") {
   for (std::size_t g = 0; g < 2; ++g) {
     Prediction prediction;
     prediction.value = 3;
-    gauges.depend({static_cast<int>(g)}, prediction);
+    gauges.depend_on_gain({static_cast<int>(g)}, prediction);
     CHECK(prediction.H[g] == 3);
     CHECK(prediction.H[1 - g] == 0);
   }

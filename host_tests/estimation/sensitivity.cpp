@@ -375,3 +375,44 @@ TEST_CASE(
       CHECK(adjusted.tension(i) == doctest::Approx(drawn_in.tension(i)).epsilon(1e-9));
   }
 }
+
+TEST_CASE(
+    "between two jacks that differ by all friction a cable is brought to more of it, and one joint sticks") {
+  for (const bool elastic : {false, true})
+    for (const double by : {0.01, 0.03, 0.1})
+      for (const double above : {1.001, 1.02, 1.05}) {
+        CAPTURE(elastic);
+        CAPTURE(by);
+        CAPTURE(above);
+        const std::size_t more = above > 1.03 ? 1 : 0;
+        static Plane scene;
+        const auto cable = support::steel_cable(0.2, support::two_jacks);
+        if (elastic)
+          support::truss_string(scene, cable, 6);
+        else
+          support::rigid_saddles(scene, cable, support::chain_points(8));
+        const auto given = std::make_unique<Varied>(scene, true, 0, 0),
+                   after = std::make_unique<Varied>(scene, true, 0, by);
+        const auto trackers = std::make_unique<std::array<Follower, 2>>();
+        Follower &adjusted = (*trackers)[0], &driven = (*trackers)[1];
+        given->begin(adjusted, true);
+        after->begin(driven, true);
+        double carried = 1;
+        for (int j = 0; j < given->model.cables[0].joints(); ++j) carried *= given->model.rho[j];
+        Row row;
+        row.jack[0][more].force = 1e5;
+        row.jack[0][1 - more].force = above * carried * 1e5;
+        for (Follower* tracker : {&adjusted, &driven}) REQUIRE(tracker->advance(row).status.ok());
+        taut::FixedArray<double, most_parameters> change;
+        change[0] = by;
+        REQUIRE(adjusted.adjust(after->friction(true), change).ok());
+        CHECK(taut::verify(adjusted).worst() < 1e-9);
+        // To first order, over a kink.
+        for (int i = 0; i < given->model.segments; ++i)
+          CHECK(std::fabs(adjusted.tension(i) - driven.tension(i)) < 0.2 * by * 1e5);
+        // And goes on.
+        row.jack[0][1 - more].force = 1e5;
+        for (Follower* tracker : {&adjusted, &driven}) REQUIRE(tracker->advance(row).status.ok());
+        CHECK(taut::verify(adjusted).worst() < 1e-9);
+      }
+}

@@ -125,7 +125,8 @@
 //   answer three more; each is up to one call of Tracker::advance() and one more for every cable, with the
 //   event budget each. A measurement adjusts the tracker up to four times, J + 1 maps each.
 //   estimate(segment) costs P (P + K + L), const. take_strut() and take_stroke() are for after an advance()
-//   that came to its end, and cost P n (K + L) and a measurement.
+//   that came to its end, and cost P n (K + L) and a measurement. Where two jacks pull a cable both strokes
+//   of a row count together.
 //
 // find_bounds(): least and largest force of every segment of a cable whose past is not known, from load
 // cells and a band of mu. `ranges` has n entries [N]; those of the cable are filled. Returns false if no

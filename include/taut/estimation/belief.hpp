@@ -55,6 +55,13 @@ class Belief {
     Covariance covariance;
     /// Of the unknowns with the error that a jack's reading had, that the last one of them was learned with.
     FixedArray<Values, Jacks> with_load;
+    /// What it has taught that a number is not above zero, as if it had been measured: the precision of that
+    /// number, and its product with the number. One for every two jacks.
+    struct Bound {
+      Values H;
+      Scalar precision = 0, pull = 0;
+    };
+    FixedArray<Bound, Jacks / 2> bounds;
   };
   /// The model is linearized anew where a predicted number would be off its line by more than half of this
   /// part of its standard deviation.
@@ -68,6 +75,7 @@ class Belief {
     state_.linearized_at.fill(Scalar(0));
     state_.covariance = {};
     state_.with_load = {};
+    state_.bounds = {};
     begin_row();
   }
   /// Adds an unknown with mean zero. Returns its number, or -1 if there is no room.
@@ -313,7 +321,54 @@ class Belief {
     }
   }
 
+  /// It is known that a number is not above zero which has the derivatives `H`, an error of variance R, and
+  /// is expected to be `value`: mean and covariance become those of what is left of the normal distribution
+  /// (Simon and Simon, Constrained Kalman filtering via density function truncation, 2010). Bound `b` keeps
+  /// what that has taught, and what it kept before is taken back first, for a bound that is narrower says
+  /// all that the wider one did: expected() is asked for the number once it is (Minka, Expectation
+  /// propagation for approximate Bayesian inference, 2001). Returns false if that is beyond five sigma; then
+  /// nothing has changed. Cost: three times the square of the unknowns in use.
+  template <class ExpectedNumber>
+  [[nodiscard]] bool bring_below_zero(int b, const Values& H, Scalar R, const ExpectedNumber& expected) {
+    constexpr Scalar pi = Scalar(3.14159265358979323846);
+    Bound& bound = state_.bounds[b];
+    if (!add_information({bound.H, -bound.precision, -bound.pull})) bound = {};
+    const Scalar h = variance_of_reading(H), S = h + R, above = larger(expected() / std::sqrt(S), Scalar(0));
+    if (above * above > gate) {
+      static_cast<void>(add_information(bound));
+      return false;
+    }
+    // The hazard phi/Q, within 1.2 % (Boyd, Inequalities for Mills' ratio, 1959).
+    const Scalar hazard = ((pi - 1) * above + std::sqrt(above * above + 2 * pi)) / pi,
+                 gone = hazard * (hazard - above) / S, left = 1 - gone * h;
+    Scalar at = 0;
+    for (int p = 0; p < in_use_; ++p) at += H[p] * state_.mean[p];
+    bound = {H, gone / left, (gone * at - hazard / std::sqrt(S)) / left};
+    return add_information(bound);
+  }
+
  private:
+  using Bound = typename State::Bound;
+  /// Adds precision H H^T to the inverse of the covariance P, and H pull to that times the mean. False if
+  /// that leaves none; then nothing has changed.
+  bool add_information(const Bound& added) {
+    auto& P = state_.covariance;
+    Values with_number;  // P H^T
+    Scalar h = 0, at = 0;
+    for (int p = 0; p < in_use_; ++p) {
+      for (int q = 0; q < in_use_; ++q) with_number[p] += P[p][q] * added.H[q];
+      h += added.H[p] * with_number[p];
+      at += added.H[p] * state_.mean[p];
+    }
+    const Scalar left = 1 + added.precision * h;
+    if (!(left > Scalar(0.01))) return false;
+    const Scalar gone = added.precision / left, by = (added.pull - added.precision * at) / left;
+    for (int p = 0; p < in_use_; ++p) {
+      state_.mean[p] = bounded(p, state_.mean[p] + with_number[p] * by);
+      for (int q = 0; q <= p; ++q) P[q][p] = P[p][q] = P[p][q] - gone * with_number[p] * with_number[q];
+    }
+    return true;
+  }
   /// What a measurement of the row says of the jacks' errors.
   void update_errors(const JackReadings& jacks) {
     auto& with_load = state_.with_load;

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 
-#include "taut/estimation/held_over.hpp"
 #include "taut/estimation/jack_loads.hpp"
 #include "taut/numerics/larger.hpp"
 #include "taut/status.hpp"
@@ -30,33 +29,6 @@ template <class TrackerType, class Jacks, class SampleType>
   return true;
 }
 
-/// What two jacks were confirmed to pull may differ by more than friction holds in the model, although it
-/// holds their loads: lets the one of cable `c` that pulls more pull only as much as friction holds. Returns
-/// false if and only if the loads themselves differ, by five sigma, by more than friction holds that is five
-/// sigma larger; then nothing is changed. `mu_sd` is the relative standard deviation of mu there. Cost: one
-/// product a joint.
-template <class TrackerType, class Jacks, class SampleType>
-[[nodiscard]] bool reconcile(const TrackerType& tracker, const Jacks& jacks, int c,
-                             typename TrackerType::Scalar mu_sd, SampleType& to) {
-  using Scalar = typename TrackerType::Scalar;
-  auto& jack = to.jack[c];
-  const std::size_t more = jack[0].force < jack[1].force ? 1 : 0, less = 1 - more;
-  const Scalar carried = surely_held_over(tracker, c);
-  // Farthest toward the other one that a load can be; where one ramp has been noticed and the other not yet,
-  // they are off by their noise too.
-  const auto at_best = [&](std::size_t end, int way) {
-    const int k = jacks.find(c, end);
-    return k < 0 ? Scalar(0)
-                 : jacks[k].at.load +
-                       static_cast<Scalar>(way) * (5 * jacks[k].at.sd + 3 * jacks[k].filter.sd());
-  };
-  // Friction larger by the part x leaves about as much less.
-  const Scalar least = larger(carried - 5 * mu_sd * (1 - carried), Scalar(0));
-  if (at_best(less, 1) < least * at_best(more, -1)) return false;
-  jack[more].force = jack[less].force / carried;
-  return true;
-}
-
 /// The progress along one path after another.
 template <class Scalar>
 Progress<Scalar> join(const Progress<Scalar>& first, Progress<Scalar> then) {
@@ -65,18 +37,25 @@ Progress<Scalar> join(const Progress<Scalar>& first, Progress<Scalar> then) {
   return then;
 }
 
-/// Drives the tracker straight to these loads, two jacks as far as friction holds them; `to` is then where
-/// that is. mu_sd(cable) is the relative standard deviation of mu. Fails as Tracker::advance() does. Cost:
-/// that of Tracker::advance(), at most once more a cable.
-template <class TrackerType, class Jacks, class SampleType, class Uncertainty>
-Progress<typename TrackerType::Scalar> drive_straight(TrackerType& tracker, const Jacks& jacks,
-                                                      SampleType& to, int event_budget,
-                                                      const Uncertainty& mu_sd) {
+/// Drives the tracker straight to these loads, two jacks as far as friction holds them: where a cable is
+/// pulled through, to what hold.pull_less(cable, to) leaves of `to`, and on from there if hold.raise(cable)
+/// finds more friction. `to` is then where the tracker is. Fails as Tracker::advance() does. Cost: that of
+/// Tracker::advance(), at most four times more a cable.
+template <class TrackerType, class SampleType, class Hold>
+Progress<typename TrackerType::Scalar> drive_straight(TrackerType& tracker, SampleType& to, int event_budget,
+                                                      const Hold& hold) {
   auto progress = tracker.advance(to, event_budget);
-  for (int count = 0; progress.status.code == Code::pulled_through && count < tracker.model().cables.size() &&
-                      reconcile(tracker, jacks, progress.status.index, mu_sd(progress.status.index), to);
-       ++count)
-    progress = join(progress, tracker.advance(to, event_budget));
+  const auto go_on = [&] { progress = join(progress, tracker.advance(to, event_budget)); };
+  for (int count = 0;
+       progress.status.code == Code::pulled_through && count < 2 * tracker.model().cables.size(); ++count) {
+    const int c = progress.status.index;
+    const auto wanted = to;
+    if (!hold.pull_less(c, to)) break;
+    go_on();
+    if (!progress.is_complete() || !hold.raise(c)) continue;
+    to = wanted;
+    go_on();
+  }
   return progress;
 }
 
@@ -97,9 +76,9 @@ bool arrive(const TrackerType& tracker, Jacks& jacks, const SampleType& to,
 /// structure that leans on its cable may have an answer then. Drives the tracker on from there with every
 /// unlocked jack one, two and three standard deviations above its best estimate, until there is one; `to` is
 /// then where that is. Otherwise fails as before. Cost: that of drive_straight() three times.
-template <class TrackerType, class Jacks, class SampleType, class Uncertainty>
+template <class TrackerType, class Jacks, class SampleType, class Hold>
 Progress<typename TrackerType::Scalar> pull_more(TrackerType& tracker, const Jacks& jacks, SampleType& to,
-                                                 int event_budget, const Uncertainty& mu_sd,
+                                                 int event_budget, const Hold& hold,
                                                  Progress<typename TrackerType::Scalar> progress) {
   using Scalar = typename TrackerType::Scalar;
   constexpr int most = 3;
@@ -114,7 +93,7 @@ Progress<typename TrackerType::Scalar> pull_more(TrackerType& tracker, const Jac
       pulls = true;
     }
     if (!pulls) break;
-    progress = join(progress, drive_straight(tracker, jacks, to, event_budget, mu_sd));
+    progress = join(progress, drive_straight(tracker, to, event_budget, hold));
   }
   return progress;
 }
@@ -124,13 +103,12 @@ Progress<typename TrackerType::Scalar> pull_more(TrackerType& tracker, const Jac
 /// each path; remember(k, sd, turns) where jack `k` reversed or was locked at a load of that standard
 /// deviation [N], and whether it turned there; remember_load(k) where it was a row ago, or once it has
 /// reversed since. Fails as Tracker::advance() does. Cost: that of drive_straight() four times.
-template <class TrackerType, class Jacks, class Leave, class Remember, class RememberLoad, class Uncertainty>
+template <class TrackerType, class Jacks, class Leave, class Remember, class RememberLoad, class Hold>
 Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks& jacks,
                                                      const Corners<typename TrackerType::Scalar>& corners,
                                                      int event_budget, const Leave& leave,
                                                      const Remember& remember,
-                                                     const RememberLoad& remember_load,
-                                                     const Uncertainty& mu_sd) {
+                                                     const RememberLoad& remember_load, const Hold& hold) {
   auto corner = jacks.driven(load_patterns(tracker.model()));
   Progress<typename TrackerType::Scalar> progress;
   // Goes where place(k) is, with the jacks with is_there(k), and remembers that.
@@ -143,7 +121,7 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
     }
     if (!any) return;
     leave(corner);
-    progress = join(progress, drive_straight(tracker, jacks, corner, event_budget, mu_sd));
+    progress = join(progress, drive_straight(tracker, corner, event_budget, hold));
     for (int k = 0; k < jacks.size(); ++k)
       if (progress.status && is_there(k)) keep(k);
   };
@@ -174,18 +152,18 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
 /// Tracker::advance() does; the jacks are then where the path ended. Cost: that of drive_straight() five
 /// times, and of pull_more().
 template <class TrackerType, class Jacks, class SampleType, class Leave, class Remember, class RememberLoad,
-          class Uncertainty>
+          class Hold>
 [[gnu::noinline]] Progress<typename TrackerType::Scalar> drive(
     TrackerType& tracker, Jacks& jacks, const Corners<typename TrackerType::Scalar>& corners,
     const SampleType& target, int event_budget, const Leave& leave, const Remember& remember,
-    const RememberLoad& remember_load, const Uncertainty& mu_sd) {
+    const RememberLoad& remember_load, const Hold& hold) {
   Progress<typename TrackerType::Scalar> progress;
   if (corners.any())
-    progress = drive_through(tracker, jacks, corners, event_budget, leave, remember, remember_load, mu_sd);
+    progress = drive_through(tracker, jacks, corners, event_budget, leave, remember, remember_load, hold);
   SampleType to = target;
   if (progress.status) leave(to);
-  if (progress.status) progress = join(progress, drive_straight(tracker, jacks, to, event_budget, mu_sd));
-  if (!progress.status) progress = pull_more(tracker, jacks, to, event_budget, mu_sd, progress);
+  if (progress.status) progress = join(progress, drive_straight(tracker, to, event_budget, hold));
+  if (!progress.status) progress = pull_more(tracker, jacks, to, event_budget, hold, progress);
   if (progress.status.code != Code::not_started) arrive(tracker, jacks, to, progress);
   return progress;
 }

@@ -11,6 +11,7 @@
 #include "taut/estimation/load_memory.hpp"
 #include "taut/estimation/look_ahead.hpp"
 #include "taut/estimation/other_friction.hpp"
+#include "taut/estimation/two_jacks.hpp"
 #include "taut/estimation/witness.hpp"
 #include "taut/numerics/larger.hpp"
 
@@ -43,6 +44,18 @@ HeldByWedge<typename Parts::Scalar> held_by_wedge(const Parts& parts, int k) {
   return {parts.tracker.tension(segment), load, std::sqrt(larger(variance, Scalar(0)))};
 }
 
+/// Strokes of two jacks on one cable count together: where the load of one has turned, or it is locked or
+/// takes over, both begin another leg. Cost: a few operations a jack.
+template <class Parts>
+void begin_legs_together(Parts& parts) {
+  auto& jacks = parts.jacks;
+  for (int k = 0; k < jacks.size(); ++k) {
+    const int other = jacks.find(jacks.end(k).cable(), 1 - jacks.end(k).end);
+    if (other >= 0 && (jacks[k].at.reversed || jacks[k].locked != jacks[k].driven.locked))
+      jacks[other].elongation.begin_leg();
+  }
+}
+
 /// Conditions the loads of a row. Returns whether there is something to check of a jack, too. Cost: that of
 /// JackLoad::take() a jack.
 template <class Parts>
@@ -64,7 +77,10 @@ template <class Parts>
     if (jacks[k].is_new) jacks[k].beside = beside.force;
     has_more |= given.has_stroke | (jacks[k].locked & given.has_force);
   }
-  if constexpr (Parts::JacksType::capacity > 1) follow_other_jack(parts);
+  if constexpr (Parts::JacksType::capacity > 1) {
+    follow_other_jack(parts);
+    begin_legs_together(parts);
+  }
   return has_more;
 }
 
@@ -103,7 +119,7 @@ template <class Parts>
         remember_load(parts, k);
         forget_leg(parts);
       },
-      [&](int c) { return parts.filter.relative_deviation(tracker, c); });
+      HoldAndLearn<Parts>{parts});
   if (corners.any() || progress.events > 0) {
     parts.far_ends.restart();
     follow_sliding(parts);

@@ -305,6 +305,7 @@ auto Estimator<CondensedType, Parameters, Further>::advance(const ReadingsType& 
     if (!(std::fabs(readings.sample.factor[i]) <= parts_.model().most_factor[i]))
       return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
   begin_row(parts_);
+  parts_.strokes.begin_row();
   Corners<Scalar> corners;
   Progress<Scalar> progress{Status::success(), Scalar(1), 0};
   const bool has_more = condition_loads(parts_, readings, corners);
@@ -326,10 +327,7 @@ void Estimator<CondensedType, Parameters, Further>::take_strut(const typename Co
 template <class CondensedType, int Parameters, int Further>
 void Estimator<CondensedType, Parameters, Further>::take_stroke(int cable, std::size_t end, Scalar reading,
                                                                 Scalar sd) {
-  const int k = parts_.jacks.find(cable, end);
-  if (k < 0 || parts_.jacks[k].locked) return;
-  take_measurement(parts_, foretell_stroke(parts_, k), reading, sd,
-                   Parts::alarm_at(Alarm::Kind::elongation, parts_.jacks.end(k)));
+  taut::take_stroke(parts_, cable, end, reading, sd);
 }
 
 template <class CondensedType, int Parameters, int Further>
@@ -342,12 +340,7 @@ void Estimator<CondensedType, Parameters, Further>::take_strut(const typename Co
 template <class CondensedType, int Parameters, int Further>
 void Estimator<CondensedType, Parameters, Further>::take_stroke(int cable, std::size_t end, Scalar reading,
                                                                 Gauge gauge) {
-  const int k = parts_.jacks.find(cable, end);
-  if (k < 0 || parts_.jacks[k].locked) return;
-  // A mark is made once slack has been taken out.
-  if (parts_.gauges.has(gauge) && parts_.gauges.lacks_mark(gauge) && !parts_.is_bedded(k)) return;
-  take_gauge<AlongLeg>(parts_, foretell_stroke(parts_, k), reading, gauge,
-                       Parts::alarm_at(Alarm::Kind::elongation, parts_.jacks.end(k)));
+  taut::take_stroke(parts_, cable, end, reading, gauge);
 }
 
 template <class CondensedType, int Parameters, int Further>

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "taut/estimation/alarms.hpp"
+#include "taut/estimation/between_jacks.hpp"
 #include "taut/estimation/beyond_friction.hpp"
 #include "taut/estimation/far_ends.hpp"
 #include "taut/estimation/force_estimate.hpp"
@@ -15,6 +16,7 @@
 #include "taut/estimation/jack_loads.hpp"
 #include "taut/estimation/joint_reach.hpp"
 #include "taut/estimation/readings.hpp"
+#include "taut/estimation/row_strokes.hpp"
 #include "taut/estimation/sliding_way.hpp"
 #include "taut/estimation/turned_forces.hpp"
 #include "taut/scene/capacity.hpp"
@@ -42,6 +44,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   using GaugesType = Gauges<Scalar, Further>;
   using SlidingWayType = SlidingWay<Scalar, Cap::cables>;
   using ForceWatchType = ForceWatch<Scalar, Cap::segments>;
+  using Strokes = RowStrokes<Scalar, JacksType::capacity == 1 ? 0 : Cap::cables>;
   using TurnedForcesType = TurnedForces<Scalar, Cap, Parameters>;
   using Alarms = FixedList<Alarm, 8 + 5 * Cap::cables + Cap::joints + Cap::segments>;
   using EndType = CableEnd<Cap>;
@@ -91,6 +94,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   TrackerType tracker;
   FilterType filter;
   GaugesType gauges;
+  Strokes strokes;
   SlidingWayType sliding_way;
   ForceWatchType forces;
   TurnedForcesType turned;
@@ -135,6 +139,12 @@ struct EstimatorParts : CondensedType::Capacity::Account {
 
   // Of cable `c`.
 
+  /// Whether all jacks that pull it strain it by AlarmLimits::initial_strain.
+  bool is_cable_bedded(int c) const {
+    for (int k = 0; k < jacks.size(); ++k)
+      if (jacks.end(k).cable() == c && !jacks[k].locked && !is_bedded(k)) return false;
+    return true;
+  }
   /// Whether it surely slides throughout, with friction as well as it is known. Cost: a pass over its joints.
   bool surely_slides(int c) const {
     return sliding_way.surely_slides(c, filter.relative_deviation(tracker, c));
@@ -200,6 +210,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
       kept = turned.deviation_by_loads(segment, estimate.force);
     estimate.deviation = larger(estimate.deviation, larger(reached, kept));
     estimate.deviation = larger(estimate.deviation, beyond_friction(*this, segment, estimate.force));
+    estimate.deviation = larger(estimate.deviation, deviation_between_jacks(*this, segment, estimate.force));
     if (misfits) {
       const Scalar misfit = far_ends.misfit(model().cable_of(segment));
       estimate.deviation = std::sqrt(estimate.deviation * estimate.deviation + misfit * misfit);

@@ -336,6 +336,34 @@ class FrictionFilter {
     belief_.renew(p, sd);
   }
 
+  /// What `joints` joints in a row leave of a force where they all slide, the product of their rho where the
+  /// filter is linearized; the derivatives of its logarithm by the unknowns are added to `H`. Cost: a pass
+  /// over them.
+  Scalar carry(const Linear& model, int first_joint, int joints, Values& H) const {
+    Scalar carried = 1;
+    for (int j = first_joint; j < first_joint + joints; ++j) {
+      const auto joint = friction_of(model, j, belief_.save().linearized_at);
+      const Real rho = joint.parameter < 0 ? model.rho[j] : joint.rho;
+      carried *= static_cast<Scalar>(rho);
+      if (joint.parameter >= 0 && rho > 0) H[joint.parameter] += static_cast<Scalar>(joint.slope / rho);
+    }
+    return carried;
+  }
+  /// A number that is `value` where the filter is linearized, with the derivatives `H` and an error of this
+  /// variance, is known not to be above zero, see Belief::bring_below_zero(). Returns false if the best
+  /// estimate obeys that within the error, if nothing that matters is unknown, and if it is beyond five
+  /// sigma: then nothing has changed. Cost: that of Belief::bring_below_zero().
+  [[nodiscard]] bool bring_below_zero(int bound, Scalar value, const Values& H, Scalar variance) {
+    const auto expected = [&] {
+      Scalar number = value;
+      for (int p = 0; p < belief_.carried(); ++p)
+        number += H[p] * (belief_.mean(p) - belief_.linearized_at(p));
+      return number;
+    };
+    const Scalar now = expected();
+    return now > 0 && now * now > variance && belief_.variance_of_reading(H) > 0 &&
+           belief_.bring_below_zero(bound, H, variance, expected);
+  }
   /// Brings the tracker to these values of the unknowns. False if it has no state there: then it stays.
   bool relinearize(TrackerType& tracker, const Values& values) {
     const Values before = belief_.save().linearized_at, change = belief_.linearize_at(values);

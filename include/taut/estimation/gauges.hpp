@@ -135,12 +135,16 @@ class Gauges {
     state_.one[gauge.number].taken = state_.best;
     state_.one[gauge.number].is_taken = true;
   }
-  /// Completes what is predicted of y by the unknowns of the instrument.
+  /// Completes what is predicted of y by the gain of an instrument, and by its zero.
   template <class PredictionType>
-  void depend(Gauge gauge, PredictionType& prediction) const {
-    const InstrumentUnknowns& own = unknowns(gauge);
-    if (own.gain >= 0) prediction.H[own.gain] = prediction.value;
-    if (own.zero >= 0) prediction.H[own.zero] = 1;
+  void depend_on_gain(Gauge gauge, PredictionType& prediction) const {
+    const int gain = unknowns(gauge).gain;
+    if (gain >= 0) prediction.H[gain] = prediction.value;
+  }
+  template <class PredictionType>
+  void depend_on_zero(Gauge gauge, PredictionType& prediction) const {
+    const int zero = unknowns(gauge).zero;
+    if (zero >= 0) prediction.H[zero] = 1;
   }
 
  private:

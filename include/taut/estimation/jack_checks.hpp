@@ -8,15 +8,15 @@
 
 namespace taut {
 
-/// The extension of jack `k` at the best estimate of loads and unknowns, and what it is uncertain by. Cost:
-/// that of predict_stroke(), and the square of the unknowns.
+/// What all jacks of cable `c` that pull have come out together at the best estimate of loads and unknowns,
+/// and what it is uncertain by. Cost: that of predict_strokes(), and the square of the unknowns.
 template <class Parts>
-ExpectedExtension<typename Parts::Scalar> expected_extension(Parts& parts, int k) {
+ExpectedExtension<typename Parts::Scalar> expected_extension(Parts& parts, int c) {
   using Scalar = typename Parts::Scalar;
   const auto& jacks = parts.jacks;
   const auto& belief = parts.filter.belief();
   auto& prediction = parts.filter.prediction();
-  predict_stroke(parts.tracker, jacks.end(k), belief, jacks, prediction);
+  predict_strokes(parts.tracker, c, belief, jacks, prediction);
   typename Parts::FilterType::JackReadings best;
   ExpectedExtension<Scalar> extension;
   for (int i = 0; i < jacks.size(); ++i) {
@@ -31,16 +31,32 @@ ExpectedExtension<typename Parts::Scalar> expected_extension(Parts& parts, int k
   return extension;
 }
 
+/// The strokes of all jacks of cable `c` that pull, if all were read: what they amount to together. The first
+/// of these jacks has the check.
 template <class Parts>
-void check_stroke(Parts& parts, int k, typename Parts::Scalar stroke) {
-  auto& jack = parts.jacks[k];
-  if (jack.locked) return;
-  if (!parts.is_bedded(k)) return jack.elongation.begin_leg();
-  // Where a load may have turned, or was not read, so is the extension.
-  const bool is_known = !jack.is_in_doubt() && std::isfinite(stroke);
-  if (is_known ? jack.elongation.take(stroke, expected_extension(parts, k), parts.limits)
-               : jack.elongation.is_off())
-    parts.alarms.add(Parts::alarm_at(Alarm::Kind::elongation, parts.jacks.end(k)));
+void check_strokes(Parts& parts, int c, const typename Parts::ReadingsType& readings) {
+  using Scalar = typename Parts::Scalar;
+  const auto pulls = parts.jacks.pulls(c);
+  Scalar sum = 0, ends = 0;
+  bool is_known = true;
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (!pulls[end]) continue;
+    const auto& given = readings.ends[c][end];
+    if (!given.has_stroke) return;
+    sum += given.stroke;
+    ends += 1;
+    // Where a load may have turned, or was not read, so is the extension.
+    is_known &= !parts.jacks[parts.jacks.find(c, end)].is_in_doubt();
+  }
+  if (ends == 0) return;
+  auto& elongation = parts.jacks[parts.jacks.find(c, pulls[0] ? 0 : 1)].elongation;
+  if (!parts.is_cable_bedded(c)) return elongation.begin_leg();
+  is_known &= std::isfinite(sum);
+  auto limits = parts.limits;
+  if (ends > 1) limits.stroke_sd *= std::sqrt(ends);
+  if (is_known ? !elongation.take(sum, expected_extension(parts, c), limits) : !elongation.is_off()) return;
+  for (std::size_t end = 0; end < 2; ++end)
+    if (pulls[end]) parts.alarms.add(Parts::alarm_at(Alarm::Kind::elongation, Parts::EndType::of(c, end)));
 }
 
 template <class Parts>
@@ -53,12 +69,12 @@ void check_lift_off(Parts& parts, int k, typename Parts::Scalar reading) {
 }
 
 /// Strokes against the elongation that is expected, and the load cells of locked ends. Cost: that of
-/// expected_extension() a stroke, of LoadFilter::take() a locked end.
+/// expected_extension() a cable, of LoadFilter::take() a locked end.
 template <class Parts>
 void check_jacks(Parts& parts, const typename Parts::ReadingsType& readings) {
+  for (int c = 0; c < parts.model().cables.size(); ++c) check_strokes(parts, c, readings);
   for (int k = 0; k < parts.jacks.size(); ++k) {
     const auto& given = parts.jacks.in(readings.ends, k);
-    if (given.has_stroke) check_stroke(parts, k, given.stroke);
     if (given.has_force && parts.jacks[k].locked) check_lift_off(parts, k, given.force);
   }
 }

@@ -1,6 +1,7 @@
 // The conditioned loads of all jacks, and where the tracker has been driven to.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -67,6 +68,11 @@ class JackLoads {
     for (int k = 0; k < size(); ++k)
       if (ends_[k].is(cable, end)) return k;
     return -1;
+  }
+  /// Whether there is a jack at either end of a cable that is not locked.
+  std::array<bool, 2> pulls(int cable) const {
+    const int first = find(cable, 0), last = find(cable, 1);
+    return {first >= 0 && !state_.jack[first].locked, last >= 0 && !state_.jack[last].locked};
   }
   /// Every load as the measurements of the row see it.
   Readings readings(const FrictionPrior<Scalar, Cap>& prior) const {

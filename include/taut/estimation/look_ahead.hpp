@@ -5,6 +5,7 @@
 #include "taut/estimation/estimator_unknowns.hpp"
 #include "taut/estimation/learning.hpp"
 #include "taut/estimation/load_memory.hpp"
+#include "taut/estimation/two_jacks.hpp"
 
 namespace taut {
 
@@ -65,8 +66,7 @@ template <class Parts>
 bool go_straight(Parts& parts, typename Parts::SampleType to) {
   leave_turns(parts, to);
   const auto progress =
-      drive_straight(parts.tracker, parts.jacks, to, Parts::TrackerType::default_budget,
-                     [&](int c) { return parts.filter.relative_deviation(parts.tracker, c); });
+      drive_straight(parts.tracker, to, Parts::TrackerType::default_budget, HoldAsKnown<Parts>{parts});
   return arrive(parts.tracker, parts.jacks, to, progress);
 }
 

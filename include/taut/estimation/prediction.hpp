@@ -36,13 +36,20 @@ void predict_tension(const TrackerType& tracker, int segment, const BeliefType& 
   jacks.count_once(prediction.by_jack, prediction.H);
 }
 
-/// The stroke of a jack [m]: its extension since the start. The same arguments; Cost: all that moves along
-/// the cables once an unknown and jack.
-template <class TrackerType, class Cap, class BeliefType, class Jacks, class PredictionType>
-void predict_stroke(const TrackerType& tracker, const CableEnd<Cap>& at, const BeliefType& unknowns,
-                    const Jacks& jacks, PredictionType& prediction) {
+/// What the strokes of all jacks of cable `c` that are not locked amount to together [m]: by how much it has
+/// grown since the start. How two of them share that is left open where their forces differ by all friction
+/// between them. The other arguments are the same. Cost: all that moves along the cables once an unknown and
+/// jack.
+template <class TrackerType, class BeliefType, class Jacks, class PredictionType>
+void predict_strokes(const TrackerType& tracker, int c, const BeliefType& unknowns, const Jacks& jacks,
+                     PredictionType& prediction) {
   using Scalar = typename TrackerType::Scalar;
-  const auto of = [&](const auto& moving) { return static_cast<Scalar>(at.in(moving.extension)); };
+  const auto pulls = jacks.pulls(c);
+  const auto of = [&](const auto& moving) {
+    const auto& extension = moving.extension[c];
+    return static_cast<Scalar>(pulls[0] && pulls[1] ? extension[0] + extension[1]
+                                                    : extension[pulls[0] ? 0 : 1]);
+  };
   prediction.value = of(tracker.slip_state());
   clear_further(unknowns, prediction);
   for (int p = 0; p < unknowns.carried(); ++p) prediction.H[p] = of(tracker.slip_sensitivity(p));
@@ -52,7 +59,7 @@ void predict_stroke(const TrackerType& tracker, const CableEnd<Cap>& at, const B
 }
 
 /// The axial force of a strut [N], tension positive. `rows` are the CondensedStruts of the scene, `strut` has
-/// the number of the scene; the other arguments as for a stroke. Cost: all that moves along the cables and a
+/// the number of the scene; the other arguments as for strokes. Cost: all that moves along the cables and a
 /// sum over the segments once an unknown and jack.
 template <class TrackerType, class StrutRows, class BeliefType, class Jacks, class PredictionType>
 void predict_strut(const TrackerType& tracker, const StrutRows& rows, int strut, const BeliefType& unknowns,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdlib>
 
 #include "taut/status.hpp"
 #include "taut/tracking/constraints.hpp"
@@ -63,6 +64,30 @@ void shift(Cables& cables, const Derivative& derivative, typename Cables::Scalar
   }
 }
 
+/// Two jacks that pull a cable leave no force between joints that all slide, to either side: once `joint`
+/// does, the nearest one that slides the other way sticks. Cost: a pass over the joints of the cable.
+template <class Cables>
+void leave_one_to_stick(Cables& cables, int joint) {
+  if constexpr (max_jacks<typename Cables::Cap> < 2) return;
+  auto& state = cables.state;
+  int c = 0, pulled = 0;
+  while (joint >= cables.model->cables[c].first_joint + cables.model->cables[c].joints()) ++c;
+  for (const auto& jack : cables.jacks)
+    pulled += jack.cable == c && !state.goal.jack[jack.cable][jack.end].locked ? 1 : 0;
+  if (pulled < 2) return;
+  const auto& cable = cables.model->cables[c];
+  const auto slides = [&](int j) {
+    return state.slides[j] == JointState::forward || state.slides[j] == JointState::backward;
+  };
+  int nearest = -1;
+  for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j) {
+    if (!slides(j)) return;
+    if (state.slides[j] == state.slides[joint]) continue;
+    if (nearest < 0 || std::abs(j - joint) < std::abs(nearest - joint)) nearest = j;
+  }
+  if (nearest >= 0) cables.stop(nearest);
+}
+
 /// Joints that stick outside of their cone slide from here on. Returns whether there are any.
 template <class Cables>
 bool put_on_edge(Cables& cables) {
@@ -74,6 +99,7 @@ bool put_on_edge(Cables& cables) {
           cables.laws.limit(SlipMode::of(j, way)).of(cables.force) < -cables.force_tolerance()) {
         cables.state.slides[j] = way;
         cables.state.order.add(static_cast<std::int16_t>(j));
+        leave_one_to_stick(cables, j);
         any = true;
       }
   }

@@ -141,8 +141,9 @@ class Tracker : public TrackedForces<CondensedType, Parameters> {
 
   /// Brings the present state to what it would be had the friction been `friction(joint)` all along, to first
   /// order; `change` is by how much each unknown differs. Joints that come to lie outside of their cone are
-  /// put on its edge. Fails with `mechanism` where joints on their edges leave a node free; then only stay()
-  /// may follow. Cost: that of one event, and of one more for every joint on the edge.
+  /// put on its edge; between two jacks one joint is left to stick. Fails with `mechanism` where joints on
+  /// their edges leave a node free; then only stay() may follow. Cost: that of one event, and of one more for
+  /// every joint on the edge.
   template <class Friction, class Changes>
   Status adjust(const Friction& friction, const Changes& change) {
     const bool has_map = has_or_makes_map();

@@ -1,0 +1,137 @@
+// Two jacks on one cable: friction holds what their loads differ by.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "taut/estimation/alarms.hpp"
+#include "taut/estimation/held_over.hpp"
+#include "taut/estimation/learning.hpp"
+#include "taut/numerics/larger.hpp"
+
+namespace taut {
+
+/// The jacks of a cable that pull at both ends: the one that pulls less, and the one that pulls more.
+struct UnequalJacks {
+  int less = -1, more = -1;
+
+  template <class Jacks>
+  static UnequalJacks of(const Jacks& jacks, int c) {
+    const int first = jacks.find(c, 0), last = jacks.find(c, 1);
+    if (first < 0 || last < 0) return {};
+    if (jacks[first].at.load < jacks[last].at.load) return {first, last};
+    return {last, first};
+  }
+};
+
+/// Calls visit(unknown, derivative) for what the load of jack `k` varies by with the constants of its load
+/// cell [N].
+template <class Parts, class Visit>
+void for_each_constant(const Parts& parts, int k, const Visit& visit) {
+  const auto& at = parts.jacks.end(k);
+  parts.filter.instruments()
+      .at(at.cable(), at.end)
+      .for_each_error(parts.cell(k), k, parts.jacks[k].erred_up, [&](const auto& error) {
+        visit(static_cast<int>(error.parameter),
+              error.constant + error.proportional * parts.jacks[k].at.load);
+      });
+}
+
+/// The standard deviation of the load of jack `k` by these [N].
+template <class Parts>
+typename Parts::Scalar deviation_by_cell(const Parts& parts, int k) {
+  using Scalar = typename Parts::Scalar;
+  Scalar variance = 0;
+  for_each_constant(parts, k,
+                    [&](int p, Scalar by) { variance += by * by * parts.filter.belief().variance(p); });
+  return std::sqrt(variance);
+}
+
+/// Two jacks pull best estimates that differ by more than all friction between them as it is believed to be:
+/// there is more, Eq. (68), and the tracker is brought to it. Returns false if they do not, or were not both
+/// read in this row, if friction of the cable is known, and if it would have to be off by more than five
+/// sigma: then nothing has changed. Cost: three times the square of the unknowns, and that of
+/// Tracker::adjust().
+template <class Parts>
+bool raise_friction(Parts& parts, int c) {
+  using Scalar = typename Parts::Scalar;
+  if constexpr (Parts::JacksType::capacity < 2) return false;
+  auto& filter = parts.filter;
+  const auto& jacks = parts.jacks;
+  const auto unequal = UnequalJacks::of(jacks, c);
+  const int less = unequal.less, more = unequal.more;
+  if (less < 0 || !jacks[less].is_new || !jacks[more].is_new || parts.loads_are_in_doubt(c) ||
+      !(jacks[less].at.load > 0))
+    return false;
+  const auto& cable = parts.model().cables[c];
+  const Scalar of_less = jacks[less].at.load, of_more = jacks[more].at.load;
+  typename Parts::Values H;
+  const Scalar carried = filter.carry(parts.linear(), cable.first_joint, cable.joints(), H);
+  for_each_constant(parts, more, [&](int p, Scalar by) { H[p] += by / of_more; });
+  for_each_constant(parts, less, [&](int p, Scalar by) { H[p] -= by / of_less; });
+  // A ramp that has been noticed of one and not yet of the other is no friction.
+  const Scalar left = (of_more - 3 * jacks[more].filter.sd()) * carried,
+               read = of_less + 3 * jacks[less].filter.sd();
+  if (!(left > read)) return false;
+  // The logarithm of their quotient, but for the fifth power of u.
+  const Scalar u = (left - read) / (left + read), sd_of_less = jacks[less].at.sd / of_less,
+               sd_of_more = jacks[more].at.sd / of_more;
+  // Of two jacks of a cable, the first has an even half of its own.
+  const int bound = jacks.find(c, 0) / 2;
+  if (!filter.bring_below_zero(bound, 2 * u + 2 * u * u * u / 3, H,
+                               sd_of_less * sd_of_less + sd_of_more * sd_of_more))
+    return false;
+  note(parts, Update::updated, Parts::alarm_at(Alarm::Kind::sensor, jacks.end(less)));
+  return filter.relinearize(parts.tracker, filter.belief().mean());
+}
+
+/// What two jacks were confirmed to pull may differ by more than friction holds in the model, although it
+/// holds their loads: lets the one of cable `c` that pulls more pull only as much as friction holds. Returns
+/// false if and only if the loads themselves differ, by five sigma, by more than friction holds that is five
+/// sigma larger; then nothing is changed. Cost: two passes over the joints.
+template <class Parts, class SampleType>
+[[nodiscard]] bool pull_less(const Parts& parts, int c, SampleType& to) {
+  using Scalar = typename Parts::Scalar;
+  if constexpr (Parts::JacksType::capacity < 2) return false;
+  const auto& jacks = parts.jacks;
+  auto& jack = to.jack[c];
+  const std::size_t more = jack[0].force < jack[1].force ? 1 : 0, less = 1 - more;
+  // Farthest toward the other one that a load can be; where one ramp has been noticed and the other not yet,
+  // they are off by their noise too.
+  const auto at_best = [&](std::size_t end, int way) {
+    const int k = jacks.find(c, end);
+    if (k < 0) return Scalar(0);
+    return jacks[k].at.load + static_cast<Scalar>(way) * (5 * (jacks[k].at.sd + deviation_by_cell(parts, k)) +
+                                                          3 * jacks[k].filter.sd());
+  };
+  // Friction larger by the part x leaves about as much less.
+  const Scalar mu_sd = parts.filter.relative_deviation(parts.tracker, c), held = held_over(parts.tracker, c),
+               least = larger(held - 5 * mu_sd * (1 - held), Scalar(0));
+  if (at_best(less, 1) < least * at_best(more, -1)) return false;
+  const Scalar most = jack[less].force / surely_held_over(parts.tracker, c);
+  jack[more].force = -larger(-jack[more].force, -most);
+  return true;
+}
+
+/// Where a cable is pulled through, for drive_straight(): friction as it is believed to be, or found to be
+/// more on the way.
+template <class Parts>
+struct HoldAsKnown {
+  const Parts& parts;
+  template <class SampleType>
+  bool pull_less(int c, SampleType& to) const {
+    return taut::pull_less(parts, c, to);
+  }
+  bool raise(int) const { return false; }
+};
+template <class Parts>
+struct HoldAndLearn {
+  Parts& parts;
+  template <class SampleType>
+  bool pull_less(int c, SampleType& to) const {
+    return taut::pull_less(parts, c, to);
+  }
+  bool raise(int c) const { return raise_friction(parts, c); }
+};
+
+}  // namespace taut
