@@ -105,6 +105,18 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.ground.two_jacks = true;
     c.with_far = false;
   }
+  {
+    Case& c = add("jacks-in-turn", Demand::model);
+    c.ground.two_jacks = c.jacking.jacks_in_turn = true;
+    c.ground.wedges = c.with_far = false;
+  }
+  {
+    Case& c = add("jacks-in-turn-strokes");
+    c.ground.two_jacks = c.jacking.jacks_in_turn = c.logs_stroke = true;
+    c.ground.wedges = c.with_far = false;
+    c.ground.E_sd = 0.03;
+    c.instruments.jack_gain_sd = 0.01;
+  }
   add("load-stages", Demand::model).jacking.stages = true;
   {
     Case& c = add("turns", Demand::model);

@@ -112,8 +112,9 @@ std::string sensors_text(const Jacked& jacked, const Case& tried, bool far, bool
     };
     add(end, true);
     if (cable.two_jacks || far) add(start, cable.two_jacks);
-    if (declared && tried.logs_stroke)
-      cells.push_back("\"" + end + ".stroke\": { \"sd\": 0.001, \"zero\": \"free\" }");
+    for (const std::string& jack : {start, end})
+      if (declared && tried.logs_stroke && (jack == end || cable.two_jacks))
+        cells.push_back("\"" + jack + ".stroke\": { \"sd\": 0.001, \"zero\": \"free\" }");
   }
   return joined(cells, [](const std::string& cell) { return cell; });
 }
@@ -156,7 +157,10 @@ std::string log_text(const Jacked& jacked, const Case& tried, bool far) {
   if (tried.logs_dead) text += ",dead";
   if (tried.logs_sun) text += ",sun";
   if (tried.logs_stroke)
-    for (std::size_t c = 0; c < cables.size(); ++c) text += "," + cable_name(c) + ".end.stroke";
+    for (std::size_t c = 0; c < cables.size(); ++c) {
+      text += "," + cable_name(c) + ".end.stroke";
+      if (cables[c].two_jacks) text += "," + cable_name(c) + ".start.stroke";
+    }
   text += '\n';
   for (std::size_t i = 0; i < jacked.rows.size(); ++i) {
     const Deed& deed = jacked.rows[i];
@@ -170,8 +174,12 @@ std::string log_text(const Jacked& jacked, const Case& tried, bool far) {
     if (tried.logs_dead) text += ',' + number(deed.factor[dead]);
     if (tried.logs_sun) text += ',' + number(deed.logged_sun);
     if (tried.logs_stroke)
-      for (std::size_t c = 0; c < cables.size(); ++c)
-        text += ',' + (deed.pulls[c].locked[1] ? "" : rounded(jacked.readings[c].stroke[i], 4));
+      for (std::size_t c = 0; c < cables.size(); ++c) {
+        const auto& locked = deed.pulls[c].locked;
+        const auto& stroke = jacked.readings[c].stroke;
+        text += ',' + (locked[1] ? "" : rounded(stroke[1][i], 4));
+        if (cables[c].two_jacks) text += ',' + (locked[0] ? "" : rounded(stroke[0][i], 4));
+      }
     text += '\n';
   }
   return text;
@@ -204,8 +212,8 @@ std::string true_log_text(const Jacked& jacked) {
     text += number(deed.time);
     for (std::size_t c = 0; c < cables.size(); ++c) {
       const Pull& pull = deed.pulls[c];
-      text += ',' + number(pull.force[1]) + (pull.locked[1] ? ",1" : ",0");
-      if (cables[c].two_jacks) text += ',' + number(pull.force[0]) + (pull.locked[0] ? ",1" : ",0");
+      text += ',' + number(pull.force[1]) + (pull.is_held(1) ? ",1" : ",0");
+      if (cables[c].two_jacks) text += ',' + number(pull.force[0]) + (pull.is_held(0) ? ",1" : ",0");
     }
     if (has_dead) text += ',' + number(deed.factor[dead]);
     text += ',' + number(deed.factor[sun]) + '\n';

@@ -1,6 +1,7 @@
 // The files of a jacking: what the estimator gets, and what is true.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,10 @@ namespace estimation_site {
 
 /// What the instruments of a cable show, row by row.
 struct Readings {
-  std::vector<double> start, end, stroke;  ///< NaN: an empty field
-  double sd = 0;                           ///< of the noise, as stated [N]
-  double step = 0;                         ///< of the display [N]
+  std::vector<double> start, end;             ///< NaN: an empty field
+  std::array<std::vector<double>, 2> stroke;  ///< of the jack at the start, if there is one, and at the end
+  double sd = 0;                              ///< of the noise, as stated [N]
+  double step = 0;                            ///< of the display [N]
 };
 
 /// A site that is jacked, and what was read.

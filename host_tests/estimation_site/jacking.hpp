@@ -15,18 +15,19 @@ namespace estimation_site {
 
 /// What a case asks of the jacking.
 struct JackingRules {
-  bool stages = false;     ///< a row a load stage
-  double least_rate = 1;   ///< rows a second
-  bool every_row = false;  ///< rows come at their rate, none is left out
-  bool lock = false;       ///< always, not now and then
-  bool visit = false;      ///< a second one, always
-  bool swings = false;     ///< the load goes down and up again, some of it within the swing before
-  bool loop = false;       ///< a ramp and a release, and no more
-  bool in_turns = false;   ///< one cable after the other, in one round or two
-  bool together = false;   ///< the same with all cables at once, by one pump
-  bool any_pace = false;   ///< the log begins before the pump runs; it is fast or slow, and so are rows
-  bool dead_load = false;  ///< comes on while jacking, and changes in holds
-  double warming = 0;      ///< sd of the temperature's way in the last hold, and of that after lock-off [K]
+  bool stages = false;         ///< a row a load stage
+  double least_rate = 1;       ///< rows a second
+  bool every_row = false;      ///< rows come at their rate, none is left out
+  bool lock = false;           ///< always, not now and then
+  bool visit = false;          ///< a second one, always
+  bool swings = false;         ///< the load goes down and up again, some of it within the swing before
+  bool loop = false;           ///< a ramp and a release, and no more
+  bool in_turns = false;       ///< one cable after the other, in one round or two
+  bool together = false;       ///< the same with all cables at once, by one pump
+  bool jacks_in_turn = false;  ///< one of two jacks pulls while the valve of the other one is shut
+  bool any_pace = false;       ///< the log begins before the pump runs; it is fast or slow, and so are rows
+  bool dead_load = false;      ///< comes on while jacking, and changes in holds
+  double warming = 0;  ///< sd of the temperature's way in the last hold, and of that after lock-off [K]
   double warming_locked = 0;             ///< sd of the temperature's way after lock-off [K]
   bool sized = false;                    ///< warming is as large as its sd, up or down
   int year_rows = 0;                     ///< a ramp, and a year after lock-off in so many rows
@@ -37,9 +38,9 @@ struct JackingRules {
   double least_leak = 0, most_leak = 0;  ///< of the force that the pump loses in a hold, part
 
   auto all() const {
-    return std::tie(stages, least_rate, every_row, lock, visit, swings, loop, in_turns, together, any_pace,
-                    dead_load, warming, warming_locked, sized, year_rows, year_sd, relaxation, ram, ram_sd,
-                    ripple, least_leak, most_leak);
+    return std::tie(stages, least_rate, every_row, lock, visit, swings, loop, in_turns, together,
+                    jacks_in_turn, any_pace, dead_load, warming, warming_locked, sized, year_rows, year_sd,
+                    relaxation, ram, ram_sd, ripple, least_leak, most_leak);
   }
 };
 
@@ -61,7 +62,10 @@ class Jacking {
     rate_ = log_between(random, rules.least_rate, 50);
     stages_ = 5 + random.below(6);
     ripple_period_ = random.between(6, 20);
-    rules.in_turns || rules.together ? run_in_rounds() : run();
+    if (rules.jacks_in_turn)
+      run_jack_by_jack();
+    else
+      rules.in_turns || rules.together ? run_in_rounds() : run();
     good_ = good_ && truth_.follow(rows_);
   }
   /// False if the truth has no answer.
@@ -154,6 +158,32 @@ class Jacking {
         }
         if (random_.below(4) > 0) lock(Phase::locked, 0);
       }
+  }
+
+  /// In some stages, each of the two jacks in its turn.
+  void run_jack_by_jack() {
+    const int stages = 2 + random_.below(4);
+    std::size_t end = random_.coin() ? 0 : 1;
+    for (int i = 1; i <= 2 * stages; ++i, end = 1 - end)
+      if (!pull_alone(end, double((i + 1) / 2) / stages)) return;
+  }
+  /// From where it holds; false if what goes before has no answer.
+  bool pull_alone(std::size_t end, double to) {
+    if (!truth_.follow(rows_)) return false;
+    const double from = rows_.empty() ? 0 : tension_at(last(), ground_.cables[0], end) / cable().full;
+    if (from > to) return true;
+    const Pace moving = pace(std::fmax(to - from, 0.05)), waiting = pace(random_.between(0.2, 0.5));
+    for (int i = 1; i <= moving.rows + waiting.rows; ++i) {
+      const bool moves = i <= moving.rows;
+      Deed deed = moves ? next(Phase::ramp, i, moving) : next(Phase::hold, i - moving.rows, waiting);
+      Pull& pull = deed.pulls[0];
+      pull.shut[end] = false;
+      pull.shut[1 - end] = true;
+      pull.level = pull.force[end] = pull.gauge[end] =
+          cable().full * (moves ? from + (to - from) * i / moving.rows : to);
+      rows_.push_back(deed);
+    }
+    return true;
   }
 
   const Deed& last() const { return rows_.back(); }

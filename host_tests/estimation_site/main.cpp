@@ -60,14 +60,19 @@ Readings read_cable(Random& random, const InstrumentRules& rules, const Jacked& 
   for (std::size_t i = 0; i < jacked.rows.size(); ++i) {
     const Deed& deed = jacked.rows[i];
     const Pull& pull = deed.pulls[c];
-    readings.end.push_back(at_jack.read(random, pull.gauge[1], deed.time));
-    const double at_far =
-        cable.two_jacks ? pull.gauge[0] : deed.tension[static_cast<std::size_t>(cable.first_segment)];
-    readings.start.push_back(at_start.read(random, at_far, deed.time));
-    readings.stroke.push_back(mark + pull.extension[1] + 0.001 * gaussian(random));
+    const auto shown = [&](std::size_t end) {
+      return pull.shut[end] || (end == 0 && !cable.two_jacks) ? tension_at(deed, cable, end)
+                                                              : pull.gauge[end];
+    };
+    readings.end.push_back(at_jack.read(random, shown(1), deed.time));
+    readings.start.push_back(at_start.read(random, shown(0), deed.time));
+    readings.stroke[1].push_back(mark + pull.extension[1] + 0.001 * gaussian(random));
     if (!pull.locked[1]) last_free = static_cast<int>(i);
     if (pull.phase == Phase::ramp) last_of_ramp = static_cast<int>(i);
   }
+  if (cable.two_jacks)
+    for (const Deed& deed : jacked.rows)
+      readings.stroke[0].push_back(deed.pulls[c].extension[0] + 0.001 * gaussian(random));
   if (rules.in_turn) read_in_turn(readings.end, readings.start);
   if (rules.loose_plug) loosen_plug(random, full, readings.end, last_free);
   if (rules.far_freezes) freeze(readings.start, static_cast<int>(last_of_ramp * random.between(0.3, 0.8)));

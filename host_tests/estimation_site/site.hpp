@@ -146,13 +146,15 @@ inline Ground random_saddles(Random& random, int joints) {
 
 /// What a case asks of the scene and its reality.
 struct GroundRules {
-  bool truss_only = false, shared = true, two_jacks = false;
+  bool truss_only = false, shared = true, two_jacks = false, wedges = true;
   int most_cables = 1;    ///< of a truss: two at least, if more than one
   double scatter = 0;     ///< relative sd of mu from joint to joint about the common one
   double E_sd = 0;        ///< relative sd of E A
   double seating_sd = 0;  ///< relative to the nominal draw-in
 
-  auto all() const { return std::tie(truss_only, shared, two_jacks, most_cables, scatter, E_sd, seating_sd); }
+  auto all() const {
+    return std::tie(truss_only, shared, two_jacks, wedges, most_cables, scatter, E_sd, seating_sd);
+  }
 };
 
 inline void draw_cable(Random& random, const GroundRules& rules, const Ground& ground, bool truss,
@@ -169,6 +171,7 @@ inline void draw_cable(Random& random, const GroundRules& rules, const Ground& g
   cable.shared = rules.shared;
   cable.two_jacks = rules.two_jacks;
   cable.seating = random.between(0.02, 0.1) * cable.full * ground.length(cable) / (cable.E * cable.A);
+  if (!rules.wedges) cable.seating = 0;
 }
 
 inline Ground random_ground(Random& random, const GroundRules& rules) {

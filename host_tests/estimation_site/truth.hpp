@@ -16,8 +16,8 @@ inline reference::Row row_of(const Deed& deed) {
   reference::Row row;
   for (const double factor : deed.factor) row.factor.add(factor);
   for (const Pull& pull : deed.pulls)
-    row.jack.add({taut::Jack<double>{pull.force[0], pull.locked[0]},
-                  taut::Jack<double>{pull.force[1], pull.locked[1]}});
+    row.jack.add({taut::Jack<double>{pull.force[0], pull.is_held(0)},
+                  taut::Jack<double>{pull.force[1], pull.is_held(1)}});
   return row;
 }
 
@@ -61,7 +61,9 @@ class Truth {
   }
   static bool has_same_wedges(const Deed& a, const Deed& b) {
     return std::equal(a.pulls.begin(), a.pulls.end(), b.pulls.begin(),
-                      [](const Pull& one, const Pull& other) { return one.locked == other.locked; });
+                      [](const Pull& one, const Pull& other) {
+                        return one.locked == other.locked && one.shut == other.shut;
+                      });
   }
   /// Whether the loads go on past a row as they came to it.
   bool is_straight(const std::vector<Deed>& rows, std::size_t i) const {
