@@ -122,11 +122,11 @@
 //
 //   Costs n + K + P^2 a row without an event. With events the path has up to five parts (to where jacks were
 //   when other loads began to change, twice, to reversals, to lock-offs, to the row), and where it has no
-//   answer three more; each is up to one call of Tracker::advance() and one more for every cable, with the
-//   event budget each. A measurement adjusts the tracker up to four times, J + 1 maps each.
-//   estimate(segment) costs P (P + K + L), const. take_strut() and take_stroke() are for after an advance()
-//   that came to its end, and cost P n (K + L) and a measurement. Where two jacks pull a cable both strokes
-//   of a row count together.
+//   answer three more; each is up to one call of Tracker::advance(), and four more for every cable that two
+//   jacks pull, with the event budget each. A measurement adjusts the tracker up to four times, J + 1 maps
+//   each. estimate(segment) costs P (P + K + L), const. take_strut() and take_stroke() are for after an
+//   advance() that came to its end, and cost P n (K + L) and a measurement. Where two jacks pull a cable both
+//   strokes of a row count together.
 //
 // find_bounds(): least and largest force of every segment of a cable whose past is not known, from load
 // cells and a band of mu. `ranges` has n entries [N]; those of the cable are filled. Returns false if no

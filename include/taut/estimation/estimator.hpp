@@ -146,9 +146,9 @@ class Estimator {
   /// reading that is not finite, or more than the cable can carry, is refused with an alarm.
   ///
   /// Cost: without an event that of a reading in LoadFilter a jack, and of gathering a reading of the far
-  /// end. At worst 8 (1 + cables) paths of `event_budget` events each; for every far end, and once for what
-  /// was gathered, an update with four calls of Tracker::adjust(); one such call for every jack that
-  /// reversed.
+  /// end. At worst 8 paths, and 32 a cable with two jacks, of `event_budget` events each; for every far end,
+  /// and once for what was gathered, an update with four calls of Tracker::adjust(); one such call for every
+  /// jack that reversed, and 16 for a cable with two jacks.
   Progress<Scalar> advance(const ReadingsType& readings, int event_budget = TrackerType::default_budget);
 
   /// A strain gauge on a strut, read together with the last row: its axial force [N], tension positive, with
