@@ -52,7 +52,7 @@ class Jacking {
       : ground_(ground),
         rules_(rules),
         random_(random),
-        truth_(true_structure(ground, reality), full_forces(ground), fineness),
+        truth_(true_structure(ground, reality), full_forces(ground), fineness * finer_by(rules)),
         rigs_(ground.cables.size()) {
     for (std::size_t c = 0; c < rigs_.size(); ++c) {
       if (ground.cables[c].two_jacks) rigs_[c].room = room_between_jacks(ground.cables[c], reality[c]);
@@ -73,6 +73,8 @@ class Jacking {
   const std::vector<Deed>& rows() const { return rows_; }
 
  private:
+  /// A jack whose valve is shut begins to hold more within a step, as no force does that is given.
+  static int finer_by(const JackingRules& rules) { return rules.jacks_in_turn ? 4 : 1; }
   static std::vector<double> full_forces(const Ground& ground) {
     std::vector<double> full;
     for (const Cable& cable : ground.cables) full.push_back(cable.full);
