@@ -109,8 +109,7 @@ std::vector<Sentence> PlausibleLog::doubts() const {
       const std::string column = column_of(scene_.cables[c], end);
       doubts.emplace_back(
           "the load of {1} falls from {2} to {3} N after line {4}, and the end is locked in line {5}: if its "
-          "wedge was "
-          "drawn in before, {6} is 1 from line {7} on",
+          "wedge was drawn in before, {6} is 1 from line {7} on",
           std::vector<Sentence>{{quote(column)},
                                 {plain(rounded(lock.held(), 4))},
                                 {plain(rounded(lock.left(), 4))},

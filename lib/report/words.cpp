@@ -562,8 +562,7 @@ constexpr Translation translations[] = {
     {"the log has no column {1}: this jack force stays 0", "记录中没有列 {1}：该张拉力保持为 0",
      "das Protokoll hat keine Spalte {1}: diese Pressenkraft bleibt 0"},
     {"the load of {1} falls from {2} to {3} N after line {4}, and the end is locked in line {5}: if its "
-     "wedge was "
-     "drawn in before, {6} is 1 from line {7} on",
+     "wedge was drawn in before, {6} is 1 from line {7} on",
      "{1} 的荷载在第 {4} 行之后从 {2} 降到 {3} N，而该端在第 {5} 行才锚固：如果夹片此前已回缩，则 {6} 应从第 "
      "{7} 行起为 1",
      "die Last von {1} fällt nach Zeile {4} von {2} auf {3} N, und das Ende ist erst in Zeile {5} verankert: "

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "taut/estimation/force_estimate.hpp"
+#include "taut/estimation/held_over.hpp"
 #include "taut/numerics/larger.hpp"
 
 namespace taut {
@@ -29,7 +30,8 @@ typename Parts::Scalar deviation_between_jacks(const Parts& parts, int segment,
   for (std::size_t end = 0; end < 2; ++end) {
     const int first = end == 0 ? 0 : before, joints = end == 0 ? before : cable.joints() - before;
     typename Parts::Values H;
-    const Scalar carried = parts.filter.carry(parts.linear(), cable.first_joint + first, joints, H);
+    const Scalar carried = held_between(parts.tracker, cable.first_joint + first, joints);
+    parts.filter.add_log_slopes(parts.tracker, cable.first_joint + first, joints, H);
     Scalar change = 0;
     for (int p = 0; p < belief.friction(); ++p) change += H[p] * (belief.mean(p) - belief.linearized_at(p));
     const Scalar load = parts.jacks[parts.jacks.find(c, end)].best(),

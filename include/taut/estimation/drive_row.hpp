@@ -119,7 +119,7 @@ template <class Parts>
         remember_load(parts, k);
         forget_leg(parts);
       },
-      HoldAndLearn<Parts>{parts});
+      HoldByFriction<true, Parts>{parts});
   if (corners.any() || progress.events > 0) {
     parts.far_ends.restart();
     follow_sliding(parts);

@@ -58,14 +58,20 @@ JackError<typename Parts::Scalar> resting_error(const Parts& parts, int k) {
           Scalar(1), Scalar(0)};
 }
 
-/// Calls visit(JackError) for every unknown that the force of jack `k` depends on.
+/// Calls visit(JackError) for every unknown of the load cell of jack `k`.
 template <class Parts, class Visit>
-void for_each_load_error(const Parts& parts, int k, const Visit& visit) {
+void for_each_cell_error(const Parts& parts, int k, const Visit& visit) {
   const auto& at = parts.jacks.end(k);
   parts.filter.instruments()
       .at(at.cable(), at.end)
       .for_each_error(parts.cell(k), 2 * at.cable() + static_cast<int>(at.end), parts.jacks[k].erred_up,
                       visit);
+}
+
+/// The same for every unknown that the force of jack `k` depends on.
+template <class Parts, class Visit>
+void for_each_load_error(const Parts& parts, int k, const Visit& visit) {
+  for_each_cell_error(parts, k, visit);
   if (parts.jacks[k].at_rest >= 0) visit(resting_error(parts, k));
 }
 

@@ -336,18 +336,14 @@ class FrictionFilter {
     belief_.renew(p, sd);
   }
 
-  /// What `joints` joints in a row leave of a force where they all slide, the product of their rho where the
-  /// filter is linearized; the derivatives of its logarithm by the unknowns are added to `H`. Cost: a pass
-  /// over them.
-  Scalar carry(const Linear& model, int first_joint, int joints, Values& H) const {
-    Scalar carried = 1;
+  /// Adds to `H` the derivatives, by the unknowns, of the logarithm of what `joints` joints in a row leave of
+  /// a force where they all slide, held_between(). Cost: a pass over them.
+  void add_log_slopes(const TrackerType& tracker, int first_joint, int joints, Values& H) const {
     for (int j = first_joint; j < first_joint + joints; ++j) {
-      const auto joint = friction_of(model, j, belief_.save().linearized_at);
-      const Real rho = joint.parameter < 0 ? model.rho[j] : joint.rho;
-      carried *= static_cast<Scalar>(rho);
-      if (joint.parameter >= 0 && rho > 0) H[joint.parameter] += static_cast<Scalar>(joint.slope / rho);
+      const Real rho = tracker.rho(j);
+      if (unknown_of_[j] >= 0 && rho > 0)
+        H[unknown_of_[j]] += static_cast<Scalar>(tracker.rho_slope(j) / rho);
     }
-    return carried;
   }
   /// A number that is `value` where the filter is linearized, with the derivatives `H` and an error of this
   /// variance, is known not to be above zero, see Belief::bring_below_zero(). Returns false if the best

@@ -66,7 +66,7 @@ template <class Parts>
 bool go_straight(Parts& parts, typename Parts::SampleType to) {
   leave_turns(parts, to);
   const auto progress =
-      drive_straight(parts.tracker, to, Parts::TrackerType::default_budget, HoldAsKnown<Parts>{parts});
+      drive_straight(parts.tracker, to, Parts::TrackerType::default_budget, HoldByFriction<false, Parts>{parts});
   return arrive(parts.tracker, parts.jacks, to, progress);
 }
 

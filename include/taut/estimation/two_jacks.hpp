@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include "taut/estimation/alarms.hpp"
+#include "taut/estimation/estimator_unknowns.hpp"
 #include "taut/estimation/held_over.hpp"
 #include "taut/estimation/learning.hpp"
 #include "taut/numerics/larger.hpp"
@@ -28,13 +30,9 @@ struct UnequalJacks {
 /// cell [N].
 template <class Parts, class Visit>
 void for_each_constant(const Parts& parts, int k, const Visit& visit) {
-  const auto& at = parts.jacks.end(k);
-  parts.filter.instruments()
-      .at(at.cable(), at.end)
-      .for_each_error(parts.cell(k), k, parts.jacks[k].erred_up, [&](const auto& error) {
-        visit(static_cast<int>(error.parameter),
-              error.constant + error.proportional * parts.jacks[k].at.load);
-      });
+  for_each_cell_error(parts, k, [&](const auto& error) {
+    visit(static_cast<int>(error.parameter), error.constant + error.proportional * parts.jacks[k].at.load);
+  });
 }
 
 /// The standard deviation of the load of jack `k` by these [N].
@@ -66,11 +64,11 @@ bool raise_friction(Parts& parts, int c) {
   const auto& cable = parts.model().cables[c];
   const Scalar of_less = jacks[less].at.load, of_more = jacks[more].at.load;
   typename Parts::Values H;
-  const Scalar carried = filter.carry(parts.linear(), cable.first_joint, cable.joints(), H);
+  filter.add_log_slopes(parts.tracker, cable.first_joint, cable.joints(), H);
   for_each_constant(parts, more, [&](int p, Scalar by) { H[p] += by / of_more; });
   for_each_constant(parts, less, [&](int p, Scalar by) { H[p] -= by / of_less; });
   // A ramp that has been noticed of one and not yet of the other is no friction.
-  const Scalar left = (of_more - 3 * jacks[more].filter.sd()) * carried,
+  const Scalar left = (of_more - 3 * jacks[more].filter.sd()) * held_over(parts.tracker, c),
                read = of_less + 3 * jacks[less].filter.sd();
   if (!(left > read)) return false;
   // The logarithm of their quotient, but for the fifth power of u.
@@ -113,25 +111,19 @@ template <class Parts, class SampleType>
   return true;
 }
 
-/// Where a cable is pulled through, for drive_straight(): friction as it is believed to be, or found to be
-/// more on the way.
-template <class Parts>
-struct HoldAsKnown {
-  const Parts& parts;
+/// Where a cable is pulled through, for drive_straight(): friction as it is believed to be, or, if that
+/// `learns`, found to be more on the way.
+template <bool learns, class Parts>
+struct HoldByFriction {
+  std::conditional_t<learns, Parts&, const Parts&> parts;
   template <class SampleType>
   bool pull_less(int c, SampleType& to) const {
     return taut::pull_less(parts, c, to);
   }
-  bool raise(int) const { return false; }
-};
-template <class Parts>
-struct HoldAndLearn {
-  Parts& parts;
-  template <class SampleType>
-  bool pull_less(int c, SampleType& to) const {
-    return taut::pull_less(parts, c, to);
+  bool raise(int c) const {
+    if constexpr (learns) return raise_friction(parts, c);
+    return false;
   }
-  bool raise(int c) const { return raise_friction(parts, c); }
 };
 
 }  // namespace taut

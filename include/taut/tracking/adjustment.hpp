@@ -70,8 +70,8 @@ template <class Cables>
 void leave_one_to_stick(Cables& cables, int joint) {
   if constexpr (max_jacks<typename Cables::Cap> < 2) return;
   auto& state = cables.state;
-  int c = 0, pulled = 0;
-  while (joint >= cables.model->cables[c].first_joint + cables.model->cables[c].joints()) ++c;
+  const int c = cables.model->cable_of(cables.laws.sides(joint)[0]);
+  int pulled = 0;
   for (const auto& jack : cables.jacks)
     pulled += jack.cable == c && !state.goal.jack[jack.cable][jack.end].locked ? 1 : 0;
   if (pulled < 2) return;

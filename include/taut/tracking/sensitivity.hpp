@@ -58,6 +58,8 @@ class Sensitivity {
   /// The derivative of rho has changed by this factor.
   void scale(int joint, Real by) { slope_[joint] *= by; }
   bool depends(int joint) const { return parameter_[joint] >= 0; }
+  /// That derivative; 0 where nothing that is unknown matters to the joint.
+  Real rho_slope(int joint) const { return depends(joint) ? slope_[joint] : Real(0); }
   /// A parameter that the force of a jack depends on, or that it depends on in another way from here on.
   void depend_on_load(const JackError<Scalar>& error) {
     use(error.parameter);
@@ -333,6 +335,7 @@ class Sensitivity<CondensedType, Laws, 0> {
   struct Frozen {};
 
   static constexpr int used() { return 0; }
+  static constexpr typename CondensedType::Real rho_slope(int) { return 0; }
   template <class Change>
   static void for_each(const Change&) {}
   static void depend_on_load(const JackError<Scalar>&) {}

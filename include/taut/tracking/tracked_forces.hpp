@@ -26,6 +26,8 @@ class TrackedForces {
   bool is_at_limit(int joint) const { return cables_.state.slides[joint] != JointState::stick; }
   /// rho of a joint as it is used now.
   Real rho(int joint) const { return is_started() ? cables_.laws.rho(joint) : Real(0); }
+  /// Its derivative with respect to the unknown that friction of the joint depends on; 0 if there is none.
+  Real rho_slope(int joint) const { return is_started() ? cables_.derivatives.rho_slope(joint) : Real(0); }
 
   /// How much of what friction can hold at a joint is used, |T1 - T2| / (kappa (T1 + T2)) [-]: 1 where it
   /// slides. For a strut whose foot the cable alone holds that is tan(lambda) / mu, lambda being its angle to
