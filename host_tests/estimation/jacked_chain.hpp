@@ -110,12 +110,12 @@ class Jacked {
   /// A load stage.
   void stage(double reading) { row(reading, false, 60); }
   void lock() { row(0, true); }
-  /// A row with the far end's reading.
+  /// A row with the far end's reading, below zero if it is not read; the jack's is no number then.
   void row(double force, bool locked, double dt, double far) {
     taut::Readings<double, PlaneCapacity> readings;
     readings.dt = dt;
     readings.sample.jack[0][1].locked = locked;
-    readings.ends[0][1].has_force = !locked;
+    readings.ends[0][1].has_force = !locked && std::isfinite(force);
     readings.ends[0][1].force = force;
     readings.ends[0][0].has_force = far >= 0;
     readings.ends[0][0].force = far;

@@ -85,11 +85,11 @@ TEST_CASE("a jack that takes over from a wedge moves nothing, by whatever its ce
     const auto jacked = std::make_unique<Jacked>(0.004, said);
     Chain chain(mu * std::max(0.1, 1 + 0.3 * support::gaussian(random)));
     const double gain = 1 + said.gain_sd * support::gaussian(random);
-    const auto pull = [&](double from, double to, int rows) {
+    const auto pull = [&](double from, double to, int rows, bool reads_far_end = true) {
       for (int i = 1; i <= rows; ++i) {
         const double force = from + (to - from) * i / rows;
         chain.pull(force);
-        const double far = chain[0] + said.far_sd * support::gaussian(random);
+        const double far = reads_far_end ? chain[0] + said.far_sd * support::gaussian(random) : -1;
         jacked->row(gain * (force + said.jack_sd * support::gaussian(random)), false, 1, far);
       }
     };
@@ -100,7 +100,8 @@ TEST_CASE("a jack that takes over from a wedge moves nothing, by whatever its ce
     const double by_wedge = chain[segments - 1];
     std::vector<taut::ForceEstimate<double>> before;
     for (int i = 0; i < segments; ++i) before.push_back((*jacked)[i]);
-    pull(1.001 * by_wedge, 1.001 * by_wedge, 1);
+    // The cell at the far end would tell something of what friction remembers.
+    pull(1.001 * by_wedge, 1.001 * by_wedge, 1, false);
     // Those beside the jack may go on with it.
     for (int i = 0; i + 2 < segments; ++i) {
       const auto& then = before[static_cast<std::size_t>(i)];

@@ -293,6 +293,10 @@ class Belief {
   /// that which is due to unknowns and jacks.
   Scalar innovation() const { return innovation_.value; }
   Scalar innovation_variance() const { return innovation_.variance; }
+  /// By how much that is off the mean before, but for the bounds of unknown `p`.
+  Scalar change(int p) const {
+    return innovation_.with_unknown[p] * innovation_.precision * innovation_.value;
+  }
   /// After innovate(): the reading is known from here on, Eq. (23), and what it says of the jacks' errors.
   /// Cost: half the square of the unknowns in use, and the square of the jacks.
   void update(const JackReadings& jacks) {

@@ -177,6 +177,12 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   /// Whether what is read of a cable cannot be compared with what its own jacks would make of it, for their
   /// loads may be others; any jack counts if `cable` is negative.
   bool loads_are_in_doubt(int cable = -1) const { return jacks.are_in_doubt(cable); }
+  /// Whether it is known of all its jacks that are not locked what they pull.
+  bool loads_are_read(int c) const {
+    for (int k = 0; k < jacks.size(); ++k)
+      if (jacks.end(k).cable() == c && !jacks[k].locked && !jacks[k].at.is_sure()) return false;
+    return true;
+  }
   /// Whether what is read of a cable can teach anything.
   bool can_teach(int cable) const { return filter.belief().has_friction() && !loads_are_in_doubt(cable); }
   /// Forces teach nothing of a cable for whose own jacks the tracker is ahead: what is read belongs to no

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "taut/estimation/between_readings.hpp"
 #include "taut/estimation/cable_end.hpp"
 #include "taut/estimation/cell_watch.hpp"
+#include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/friction_filter.hpp"
 #include "taut/estimation/gathered.hpp"
 #include "taut/numerics/fixed_list.hpp"
@@ -32,6 +34,7 @@ class FarEnds {
     std::uint8_t learned = 0;                              ///< readings since something has happened
     FixedArray<CellWatch<Scalar>, 2 * Cap::cables> watch;  ///< over the cells in the order of ends()
     FixedArray<Scalar, 2 * Cap::cables> bent;  ///< variance that forces there have beside a line [N^2]
+    FixedArray<BetweenReadings<Scalar>, 2 * Cap::cables> between;
   };
 
   /// Finds the ends; after FilterType::start() and Jacks::start().
@@ -46,6 +49,7 @@ class FarEnds {
     state_.gathered = {};
     state_.learned = 0;
     state_.bent.fill(Scalar(0));
+    state_.between.fill({});
   }
   const State& save() const { return state_; }
   void restore(const State& state) { state_ = state; }
@@ -54,6 +58,9 @@ class FarEnds {
   const FixedList<EndType, 2 * Cap::cables>& ends() const { return ends_; }
 
   void begin_row() { has_gathered_ = false; }
+  void begin_memory() { corrects_memory_ = false; }
+  /// Since begin_memory(): whether a reading has corrected what friction remembers of loads.
+  bool corrects_memory() const { return corrects_memory_; }
   /// Something has happened: what is read next is worth most, and none of it waits for long.
   void restart() { state_.learned = 0; }
   bool has_waiting() const { return state_.gathered.size > 0; }
@@ -68,7 +75,10 @@ class FarEnds {
 
   /// The load of a jack has left the line that it was on.
   void bend() {
-    for (int e = 0; e < ends_.size(); ++e) state_.watch[e].noise.bend();
+    for (int e = 0; e < ends_.size(); ++e) {
+      state_.watch[e].noise.bend();
+      state_.between[e].drop();
+    }
   }
   /// From here on forces at the ends of a cable differ by variance(segment) [N^2] from a straight line in
   /// friction: their cells teach no more than that leaves.
@@ -77,6 +87,7 @@ class FarEnds {
     for (int e = 0; e < ends_.size(); ++e)
       if (ends_[e].cable() == cable) state_.bent[e] = variance(ends_[e].segment(model));
   }
+  BetweenReadings<Scalar>& between(int e) { return state_.between[e]; }
   CellWatch<Scalar>& watch(int e) { return state_.watch[e]; }
   const CellWatch<Scalar>& watch(int e) const { return state_.watch[e]; }
   /// Whether some cell is off the model by more than chance allows.
@@ -112,22 +123,30 @@ class FarEnds {
     note(e, reading, lasting, filter);
     return update;
   }
-  /// Compares a reading [N] of cell `e` with what is expected, and learns nothing from it: joints of its
-  /// cable stick, and which ones do depends on friction; what friction holds is as uncertain as that. Cost:
-  /// that of Belief::expect().
+  /// Compares a reading [N] of cell `e` with what is expected, and corrects with it what friction remembers,
+  /// as correct_memory() does. Cost: that.
   [[nodiscard]] Update compare(int e, Scalar reading, const TrackerType& tracker, FilterType& filter,
                                const Jacks& jacks) {
-    const EndType& end = ends_[e];
-    const auto& cable = tracker.model().cables[end.cable()];
-    const Scalar sd = state_.watch[e].sd,
-                 held = tracker.tension(cable.end_segment(0)) - tracker.tension(cable.end_segment(1)),
-                 in_doubt = held * filter.relative_deviation(tracker, end.cable());
-    predict_at(end, tracker, filter, jacks, filter.prediction());
-    const Expected<Scalar> force =
-        filter.belief().expect(filter.prediction(), jacks.readings(filter.prior()), Scalar(0));
-    const Scalar lasting = variance_that_lasts(e, filter, jacks);
-    state_.watch[e].take(reading, force.value, force.variance + in_doubt * in_doubt + lasting, sd * sd);
+    const Scalar sd = state_.watch[e].sd;
+    predict_at(ends_[e], tracker, filter, jacks, filter.prediction());
+    const auto loads = jacks.readings(filter.prior());
+    const Expected<Scalar> force = filter.belief().expect(filter.prediction(), loads, Scalar(0));
+    const Scalar lasting = variance_while_stuck(e, tracker, filter, jacks);
+    state_.watch[e].take(reading, force.value, force.variance + lasting, sd * sd);
+    correct_memory(e, reading, lasting, filter, jacks);
     return Update::no_information;
+  }
+  /// The same where a load of the cable may have turned, so that its joints stick here: they may slide yet.
+  void compare_in_doubt(int e, Scalar reading, const TrackerType& tracker, FilterType& filter,
+                        const Jacks& jacks) {
+    predict_at(ends_[e], tracker, filter, jacks, filter.prediction());
+    Scalar lasting = variance_while_stuck(e, tracker, filter, jacks);
+    for (int k = 0; k < jacks.size(); ++k) {
+      const Scalar part =
+          carried_over(tracker, jacks.end(k), ends_[e].segment(tracker.model())) * jacks[k].at.sd;
+      lasting += part * part;
+    }
+    correct_memory(e, reading, lasting, filter, jacks);
   }
   /// A reading [N] of cell `e` of a cable that is locked corrects what drifts there, the unknowns with
   /// is_of(p), through the elastic response; of friction nothing is learned. Cost: that of
@@ -230,6 +249,25 @@ class FarEnds {
   Scalar variance_that_lasts(int e, const FilterType& filter, const Jacks& jacks) const {
     return variance_that_lasts(e, filter, jacks, [&](int k) { return filter.prediction().by_jack[k]; });
   }
+  /// The same while joints stick: which ones do depends on friction, and what it holds is as uncertain.
+  Scalar variance_while_stuck(int e, const TrackerType& tracker, const FilterType& filter,
+                              const Jacks& jacks) const {
+    const auto& cable = tracker.model().cables[ends_[e].cable()];
+    const Scalar held = tracker.tension(cable.end_segment(0)) - tracker.tension(cable.end_segment(1)),
+                 in_doubt = held * filter.relative_deviation(tracker, ends_[e].cable());
+    return variance_that_lasts(e, filter, jacks) + in_doubt * in_doubt;
+  }
+  /// After predict_at(): of friction a reading teaches nothing while joints stick, and of what it remembers
+  /// of loads as much as is not `lasting`, Eq. (70).
+  void correct_memory(int e, Scalar reading, Scalar lasting, FilterType& filter, const Jacks& jacks) {
+    const auto& watch = state_.watch[e];
+    const auto loads = jacks.readings(filter.prior());
+    const Scalar counted = filter.counted_deviation(watch.sd, lasting, loads);
+    if (!(counted > 0) || !watch.noise.is_other()) return;
+    const auto is_memory = [&](int p) { return jacks.remember(p); };
+    corrects_memory_ =
+        filter.update_alone(is_memory, loads, {reading, counted, Scalar(0)}) == Update::updated;
+  }
   /// The same of the only cell, once its readings are gathered.
   Scalar variance_in_common(const FilterType& filter, const Jacks& jacks) const {
     return variance_that_lasts(0, filter, jacks, [&](int) { return state_.gathered.slope; });
@@ -296,6 +334,7 @@ class FarEnds {
   State state_;
   bool can_gather_ = false;
   bool has_gathered_ = false;  // in this row
+  bool corrects_memory_ = false;
 };
 
 }  // namespace taut

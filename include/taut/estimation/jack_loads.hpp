@@ -87,6 +87,13 @@ class JackLoads {
       if (state_.jack[k].is_in_doubt() && (cable < 0 || ends_[k].cable() == cable)) return true;
     return false;
   }
+  /// Whether unknown `p` is an error of a load that friction remembers.
+  bool remember(int p) const {
+    for (int k = 0; k < size(); ++k)
+      for (const int memory : state_.jack[k].memory)
+        if (memory == p) return true;
+    return false;
+  }
   /// While other loads change, a jack's load is off by what friction comes to rest at: an error that is an
   /// unknown, and that its readings have, too. It counts with them, so that derivatives `H` by the unknowns
   /// are those with the load as it is read. Cost: a few operations a jack.

@@ -1,6 +1,7 @@
 // What friction remembers: errors of the loads at which jacks reversed, were locked, or rested.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -128,6 +129,18 @@ bool another_has_gone(const Parts& parts, int k) {
   return false;
 }
 
+/// Whether all that depends on the error of jack `k` at rest depends on its load in the same way, where the
+/// tracker is: nothing has come to rest at a load of before. Cost: two derivatives a segment.
+template <class Parts>
+bool follows_throughout(const Parts& parts, int k) {
+  using Scalar = typename Parts::Scalar;
+  for (int s = 0; s < parts.model().segments; ++s) {
+    const Scalar slope = parts.tracker.slope(k, s);
+    if (std::fabs(parts.tracker.sensitivity(parts.jacks[k].at_rest, s) - slope) > Scalar(1e-3)) return false;
+  }
+  return true;
+}
+
 /// While other loads change, friction comes to rest at the loads that jacks have then, known or not. To a
 /// jack at rest another jack's load is one, too, and so it is to one that may have turned, or that goes on
 /// where the other one is found to have turned; it then rests beside it until it surely goes on itself. Cost:
@@ -152,7 +165,12 @@ void follow_other_loads(Parts& parts, const typename Parts::ReadingsType& readin
       jack.come_to_farthest(parts.cell(k));
     else if (changes)
       jack.come_to_best(parts.cell(k));
-    if (changes && jack.at_rest >= 0) parts.filter.widen(jack.at_rest, jack.come_sd);
+    if (changes && jack.at_rest >= 0) {
+      if (follows_throughout(parts, k))
+        parts.filter.know(jack.at_rest, parts.filter.belief().linearized_at(jack.at_rest), jack.come_sd);
+      else
+        parts.filter.widen(jack.at_rest, jack.come_sd);
+    }
     jack.rests_beside = changes || (rests && jack.at_rest >= 0);
     corners.loads |= jack.changes_rest();
   }

@@ -65,8 +65,8 @@ void go_back(Parts& parts) {
 template <class Parts>
 bool go_straight(Parts& parts, typename Parts::SampleType to) {
   leave_turns(parts, to);
-  const auto progress =
-      drive_straight(parts.tracker, to, Parts::TrackerType::default_budget, HoldByFriction<false, Parts>{parts});
+  const auto progress = drive_straight(parts.tracker, to, Parts::TrackerType::default_budget,
+                                       HoldByFriction<false, Parts>{parts});
   return arrive(parts.tracker, parts.jacks, to, progress);
 }
 

@@ -80,6 +80,34 @@ bool measure_far_end(Parts& parts, int e, typename Parts::Scalar reading, bool g
   return update == Update::updated;
 }
 
+/// What the cell at anchored end `e` reads in a row, `given`. Where the jack of its cable is not read, and
+/// may have gone on, that waits for the next row with its load: there it is returned, as far as the load has
+/// come since. Cost: a few operations.
+template <class Parts>
+EndReading<typename Parts::Scalar> read_in_turn(Parts& parts, int e, typename Parts::Scalar dt,
+                                                EndReading<typename Parts::Scalar> given) {
+  const auto& end = parts.far_ends.ends()[e];
+  auto& between = parts.far_ends.between(e);
+  const int k = parts.jacks.find(end.cable(), 1 - end.end);
+  if (k < 0) return given;
+  const auto& jack = parts.jacks[k];
+  between.go_on(dt);
+  if (parts.can_be(given, end.cable()) && jack.is_unread && !jack.locked && jack.is_in_doubt()) {
+    between.drop();
+    if (parts.filter.slides_throughout(parts.tracker, end.cable()))
+      between.wait(given.force, jack.at.load, jack.since);
+  } else if (given.has_force || !jack.is_unread) {
+    constexpr int straight = 3;
+    const bool is_straight = jack.is_new && !jack.is_in_doubt() && jack.filter.run_length() >= straight;
+    if (between.waits() && !given.has_force && !jack.locked && is_straight) {
+      given.has_force = true;
+      given.force = between.taken_on(parts.tracker.slope(k, end.segment(parts.model())), jack.at.load);
+    }
+    between.drop();
+  }
+  return given;
+}
+
 /// The cells at anchored ends of the cables with is_chosen(cable). Returns whether anything was learned.
 /// Cost: that of measure_far_end() for each.
 template <class Parts, class IsChosen>
@@ -89,14 +117,19 @@ bool measure_far_ends(Parts& parts, const typename Parts::ReadingsType& readings
   bool learns = false;
   for (int e = 0; e < far_ends.ends().size(); ++e) {
     const auto& end = far_ends.ends()[e];
-    const auto& given = end.in(readings.ends);
     if (!is_chosen(end.cable())) continue;
+    const auto given = read_in_turn(parts, e, readings.dt, end.in(readings.ends));
     const bool is_reading = parts.can_be(given, end.cable());
     if (given.has_force && !is_reading) parts.alarms.add(Parts::alarm_at(Alarm::Kind::sensor, end));
     if (is_reading && sees_unread(parts, e, given.force)) continue;
     // Another cable's load that is in doubt makes the reading less certain; its own, what slides.
-    if (parts.loads_are_in_doubt(end.cable())) continue;
-    if (is_reading) learns |= measure_far_end(parts, e, given.force, gathers);
+    const bool in_doubt = parts.loads_are_in_doubt(end.cable());
+    far_ends.begin_memory();
+    if (in_doubt && is_reading && parts.loads_are_read(end.cable()))
+      far_ends.compare_in_doubt(e, given.force, parts.tracker, parts.filter, parts.jacks);
+    if (!in_doubt && is_reading) learns |= measure_far_end(parts, e, given.force, gathers);
+    if (far_ends.corrects_memory()) correct_turned(parts);
+    if (in_doubt) continue;
     if (!(far_ends.watch(e).fit.misfit() > 0)) continue;
     parts.misfits = true;
     if (given.has_force) parts.alarms.add(Parts::alarm_at(Alarm::Kind::misfit, end));

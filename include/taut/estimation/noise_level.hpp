@@ -81,6 +81,9 @@ class NoiseLevel {
   }
   Scalar sd() const { return found().sd; }
   Scalar lasting() const { return found().lasting; }
+  /// Whether the last reading is another than the one before: the same one again of a force that stays is the
+  /// step of a display, and no news.
+  bool is_other() const { return last_ != before_; }
 
   /// The readings have left the line that they were on.
   void bend() {

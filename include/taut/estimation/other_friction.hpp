@@ -61,20 +61,37 @@ typename Parts::Scalar by_move(const Parts& parts, int leader, int segment) {
   return change;
 }
 
-/// The standard deviation of a segment's force by the loads that friction remembers [N], and by that of jack
-/// `k` if it turns here. Cost: a derivative a memory.
+/// Calls visit(unknown) for every load that friction remembers.
+template <class Parts, class Visit>
+void for_each_memory(const Parts& parts, const Visit& visit) {
+  for (int k = 0; k < parts.jacks.size(); ++k)
+    for (const int p : parts.jacks[k].memory)
+      if (p >= 0) visit(p);
+}
+
+/// The standard deviation of a segment's force by the loads that friction remembers [N], and by one that has
+/// the variance `here` in it [N^2]. Cost: a derivative a memory.
 template <class Parts>
-typename Parts::Scalar known_by_loads(const Parts& parts, int k, int segment) {
-  using Scalar = typename Parts::Scalar;
-  const Scalar here = parts.tracker.slope(k, segment) * parts.jacks[k].turn_sd;
-  Scalar variance = here * here;
-  for (int other = 0; other < parts.jacks.size(); ++other)
-    for (const int p : parts.jacks[other].memory) {
-      if (p < 0) continue;
-      const Scalar S = parts.tracker.sensitivity(p, segment);
-      variance += S * S * parts.filter.belief().variance(p);
-    }
+typename Parts::Scalar known_by_loads(const Parts& parts, int segment, typename Parts::Scalar here) {
+  typename Parts::Scalar variance = here;
+  for_each_memory(parts, [&](int p) {
+    const auto S = parts.tracker.sensitivity(p, segment);
+    variance += S * S * parts.filter.belief().variance(p);
+  });
   return std::sqrt(variance);
+}
+
+/// A reading has told of the loads that friction remembers, in the last update: so it has of the forces where
+/// jacks turned, of segments that still have those. Cost: three derivatives a segment and memory.
+template <class Parts>
+void correct_turned(Parts& parts) {
+  using Scalar = typename Parts::Scalar;
+  for (int i = 0; i < parts.model().segments; ++i) {
+    Scalar change = 0;
+    for_each_memory(
+        parts, [&](int p) { change += parts.tracker.sensitivity(p, i) * parts.filter.belief().change(p); });
+    parts.turned.correct(i, best_tension(parts, i) - change, change, known_by_loads(parts, i, Scalar(0)));
+  }
 }
 
 /// Jack `k` turns here, or takes hold of a cable that was locked. Cost: a derivative a segment and unknown.
@@ -88,7 +105,8 @@ void turn_forces(Parts& parts, int k) {
   const Scalar sd = leader < 0 ? Scalar(0) : std::sqrt(belief.variance(leader));
   for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i) {
     const Scalar force = best_tension(parts, i);
-    turned.turn(i, force, known_by_loads(parts, k, i));
+    const Scalar here = parts.tracker.slope(k, i) * parts.jacks[k].turn_sd;
+    turned.turn(i, force, known_by_loads(parts, i, here * here));
     if (leader < 0) continue;
     Scalar sticks = by_move(parts, leader, i), apart = parts.filter.scatter(i);
     if (turned.leader_of(i) == leader) {

@@ -45,6 +45,14 @@ class TurnedForces {
     by_loads_[segment] = larger(by_loads, deviation_by_loads(segment, force));
     force_[segment] = force;
   }
+  /// The force of a segment [N] is found to be another one by `change` than it was taken for, and its errors
+  /// of loads to be `by_loads` [N]: so they were where it turned, if it still has that force.
+  void correct(int segment, Scalar force, Scalar change, Scalar by_loads) {
+    if (has_gone_on(segment, force)) return;
+    force_[segment] += change;
+    by_loads_[segment] = -larger(-by_loads_[segment], -by_loads);
+    if constexpr (drawn_segments > 0) drawn_force_[segment] += change;
+  }
   /// Whether a segment has another force now [N] than where it turned.
   bool has_gone_on(int segment, Scalar force) const {
     return std::fabs(force - force_[segment]) > Scalar(1e-4) * force_[segment];
