@@ -137,8 +137,8 @@ class FarEnds {
     return Update::no_information;
   }
   /// The same where a load of the cable may have turned, so that its joints stick here: they may slide yet.
-  void compare_in_doubt(int e, Scalar reading, const TrackerType& tracker, FilterType& filter,
-                        const Jacks& jacks) {
+  [[gnu::noinline]] void compare_in_doubt(int e, Scalar reading, const TrackerType& tracker,
+                                          FilterType& filter, const Jacks& jacks) {
     predict_at(ends_[e], tracker, filter, jacks, filter.prediction());
     Scalar lasting = variance_while_stuck(e, tracker, filter, jacks);
     for (int k = 0; k < jacks.size(); ++k) {
@@ -259,7 +259,8 @@ class FarEnds {
   }
   /// After predict_at(): of friction a reading teaches nothing while joints stick, and of what it remembers
   /// of loads as much as is not `lasting`, Eq. (70).
-  void correct_memory(int e, Scalar reading, Scalar lasting, FilterType& filter, const Jacks& jacks) {
+  [[gnu::noinline]] void correct_memory(int e, Scalar reading, Scalar lasting, FilterType& filter,
+                                        const Jacks& jacks) {
     const auto& watch = state_.watch[e];
     const auto loads = jacks.readings(filter.prior());
     const Scalar counted = filter.counted_deviation(watch.sd, lasting, loads);

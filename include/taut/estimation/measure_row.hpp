@@ -80,32 +80,25 @@ bool measure_far_end(Parts& parts, int e, typename Parts::Scalar reading, bool g
   return update == Update::updated;
 }
 
-/// What the cell at anchored end `e` reads in a row, `given`. Where the jack of its cable is not read, and
-/// may have gone on, that waits for the next row with its load: there it is returned, as far as the load has
-/// come since. Cost: a few operations.
+/// A reading of the cell at anchored end `e` that waits, see sees_unread(): what the cell would read in this
+/// row, in which the jack of its cable is read and it is not. None where the load has not come straight on.
+/// Cost: a few operations.
 template <class Parts>
-EndReading<typename Parts::Scalar> read_in_turn(Parts& parts, int e, typename Parts::Scalar dt,
-                                                EndReading<typename Parts::Scalar> given) {
+[[gnu::noinline]] EndReading<typename Parts::Scalar> read_in_turn(Parts& parts, int e) {
+  constexpr int straight = 3;
   const auto& end = parts.far_ends.ends()[e];
   auto& between = parts.far_ends.between(e);
   const int k = parts.jacks.find(end.cable(), 1 - end.end);
-  if (k < 0) return given;
   const auto& jack = parts.jacks[k];
-  between.go_on(dt);
-  if (parts.can_be(given, end.cable()) && jack.is_unread && !jack.locked && jack.is_in_doubt()) {
-    between.drop();
-    if (parts.filter.slides_throughout(parts.tracker, end.cable()))
-      between.wait(given.force, jack.at.load, jack.since);
-  } else if (given.has_force || !jack.is_unread) {
-    constexpr int straight = 3;
-    const bool is_straight = jack.is_new && !jack.is_in_doubt() && jack.filter.run_length() >= straight;
-    if (between.waits() && !given.has_force && !jack.locked && is_straight) {
-      given.has_force = true;
-      given.force = between.taken_on(parts.tracker.slope(k, end.segment(parts.model())), jack.at.load);
-    }
-    between.drop();
+  EndReading<typename Parts::Scalar> read;
+  if (jack.is_unread) return read;
+  if (jack.is_new && !jack.locked && !jack.is_in_doubt() && jack.filter.run_length() >= straight) {
+    read.has_force = true;
+    read.force =
+        between.taken_on(parts.tracker.slope(k, end.segment(parts.model())), jack.at.load, jack.stride);
   }
-  return given;
+  between.drop();
+  return read;
 }
 
 /// The cells at anchored ends of the cables with is_chosen(cable). Returns whether anything was learned.
@@ -118,7 +111,14 @@ bool measure_far_ends(Parts& parts, const typename Parts::ReadingsType& readings
   for (int e = 0; e < far_ends.ends().size(); ++e) {
     const auto& end = far_ends.ends()[e];
     if (!is_chosen(end.cable())) continue;
-    const auto given = read_in_turn(parts, e, readings.dt, end.in(readings.ends));
+    const auto& read = end.in(readings.ends);
+    auto& between = far_ends.between(e);
+    EndReading<typename Parts::Scalar> waited;
+    if (read.has_force)
+      between.drop();
+    else if (between.waits())
+      waited = read_in_turn(parts, e);
+    const auto& given = read.has_force ? read : waited;
     const bool is_reading = parts.can_be(given, end.cable());
     if (given.has_force && !is_reading) parts.alarms.add(Parts::alarm_at(Alarm::Kind::sensor, end));
     if (is_reading && sees_unread(parts, e, given.force)) continue;

@@ -84,7 +84,7 @@ typename Parts::Scalar known_by_loads(const Parts& parts, int segment, typename 
 /// A reading has told of the loads that friction remembers, in the last update: so it has of the forces where
 /// jacks turned, of segments that still have those. Cost: three derivatives a segment and memory.
 template <class Parts>
-void correct_turned(Parts& parts) {
+[[gnu::noinline]] void correct_turned(Parts& parts) {
   using Scalar = typename Parts::Scalar;
   for (int i = 0; i < parts.model().segments; ++i) {
     Scalar change = 0;

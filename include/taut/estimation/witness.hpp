@@ -39,8 +39,9 @@ bool sees_rise(const Parts& parts, int k, typename Parts::Scalar reading,
 
 /// In a row in which the jack of its cable is not read, the load cell at anchored end `e` reads [N] what it
 /// could not if the load were where it was. Then the load has gone on, by as much at least, if it can have
-/// meanwhile; else the cell is wrong, which raises an alarm. Returns whether either is so: nothing is learned
-/// then. Cost: that of FarEnds::expect().
+/// meanwhile; else the cell is wrong, which raises an alarm. While the cable slides throughout, and the load
+/// may have gone on, the reading waits for the next one of the jack, see BetweenReadings. Returns whether
+/// either is so: nothing is learned then. Cost: that of FarEnds::expect().
 template <class Parts>
 bool sees_unread(Parts& parts, int e, typename Parts::Scalar reading) {
   using Scalar = typename Parts::Scalar;
@@ -49,6 +50,8 @@ bool sees_unread(Parts& parts, int e, typename Parts::Scalar reading) {
   for (int k = 0; k < parts.jacks.size(); ++k) {
     auto& jack = parts.jacks[k];
     if (parts.jacks.end(k).cable() != end.cable() || !jack.is_unread || jack.locked) continue;
+    if (jack.is_in_doubt() && parts.filter.slides_throughout(parts.tracker, end.cable()))
+      parts.far_ends.between(e).wait(reading, jack.at.load, jack.since);
     const auto expected = parts.far_ends.expect(e, parts.tracker, parts.filter, parts.jacks);
     const Scalar off = std::fabs(reading - expected.value);
     if (off * off <= surely * surely * expected.variance) return false;
