@@ -65,16 +65,21 @@ Held hold_after_turn(const Said& said, const Read& read) {
   return held;
 }
 
+/// The same with a load cell that scatters, and friction known to `mu_sd`.
+Held hold_beside_cell(double mu_sd) {
+  Said said;
+  said.mu_sd = mu_sd;
+  said.jack_sd = 5e-3 * full;
+  said.far_sd = 1e-3 * full;
+  return hold_after_turn(said, [&](double force, support::Random& random) {
+    return force + said.far_sd * support::gaussian(random);
+  });
+}
+
 }  // namespace
 
 TEST_CASE("a far end that is read while the cable sticks tells of the load at which it came to rest") {
-  Said said;
-  said.mu_sd = 1e-6;
-  said.jack_sd = 5e-3 * full;
-  said.far_sd = 1e-3 * full;
-  Held held = hold_after_turn(said, [&](double force, support::Random& random) {
-    return force + said.far_sd * support::gaussian(random);
-  });
+  Held held = hold_beside_cell(1e-6);
   CHECK(held.before.share() > 0.93);
   CHECK(held.after.share() > 0.93);
   CHECK(held.after.rms() > 0.7);
@@ -83,13 +88,7 @@ TEST_CASE("a far end that is read while the cable sticks tells of the load at wh
 }
 
 TEST_CASE("with friction that is not known either, bars hold what a far end has corrected") {
-  Said said;
-  said.mu_sd = likely;
-  said.jack_sd = 5e-3 * full;
-  said.far_sd = 1e-3 * full;
-  Held held = hold_after_turn(said, [&](double force, support::Random& random) {
-    return force + said.far_sd * support::gaussian(random);
-  });
+  Held held = hold_beside_cell(likely);
   CHECK(held.before.share() > 0.92);
   CHECK(held.after.share() > 0.93);
   CHECK(held.error_after < held.error_before);

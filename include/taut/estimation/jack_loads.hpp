@@ -87,12 +87,18 @@ class JackLoads {
       if (state_.jack[k].is_in_doubt() && (cable < 0 || ends_[k].cable() == cable)) return true;
     return false;
   }
-  /// Whether unknown `p` is an error of a load that friction remembers.
-  bool remember(int p) const {
+  /// Calls visit(unknown) for the error of every load that friction remembers.
+  template <class Visit>
+  void for_each_memory(const Visit& visit) const {
     for (int k = 0; k < size(); ++k)
-      for (const int memory : state_.jack[k].memory)
-        if (memory == p) return true;
-    return false;
+      for (const int p : state_.jack[k].memory)
+        if (p >= 0) visit(p);
+  }
+  /// Whether unknown `p` is one of them.
+  bool remember(int p) const {
+    bool any = false;
+    for_each_memory([&](int memory) { any |= memory == p; });
+    return any;
   }
   /// While other loads change, a jack's load is off by what friction comes to rest at: an error that is an
   /// unknown, and that its readings have, too. It counts with them, so that derivatives `H` by the unknowns

@@ -61,20 +61,12 @@ typename Parts::Scalar by_move(const Parts& parts, int leader, int segment) {
   return change;
 }
 
-/// Calls visit(unknown) for every load that friction remembers.
-template <class Parts, class Visit>
-void for_each_memory(const Parts& parts, const Visit& visit) {
-  for (int k = 0; k < parts.jacks.size(); ++k)
-    for (const int p : parts.jacks[k].memory)
-      if (p >= 0) visit(p);
-}
-
 /// The standard deviation of a segment's force by the loads that friction remembers [N], and by one that has
 /// the variance `here` in it [N^2]. Cost: a derivative a memory.
 template <class Parts>
 typename Parts::Scalar known_by_loads(const Parts& parts, int segment, typename Parts::Scalar here) {
   typename Parts::Scalar variance = here;
-  for_each_memory(parts, [&](int p) {
+  parts.jacks.for_each_memory([&](int p) {
     const auto S = parts.tracker.sensitivity(p, segment);
     variance += S * S * parts.filter.belief().variance(p);
   });
@@ -88,8 +80,8 @@ template <class Parts>
   using Scalar = typename Parts::Scalar;
   for (int i = 0; i < parts.model().segments; ++i) {
     Scalar change = 0;
-    for_each_memory(
-        parts, [&](int p) { change += parts.tracker.sensitivity(p, i) * parts.filter.belief().change(p); });
+    parts.jacks.for_each_memory(
+        [&](int p) { change += parts.tracker.sensitivity(p, i) * parts.filter.belief().change(p); });
     parts.turned.correct(i, best_tension(parts, i) - change, change, known_by_loads(parts, i, Scalar(0)));
   }
 }
