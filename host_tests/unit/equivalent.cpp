@@ -1,4 +1,5 @@
 // The same structure written down differently gives the same answer.
+#include <Eigen/Geometry>
 #include <numeric>
 
 #include "support/bench.hpp"
