@@ -15,7 +15,7 @@ namespace rolling_cable_strut_joint_three_set_ups_side_by_side {
 /// Fits the condensed scene exactly.
 struct Capacity : ::taut::Capacity {
   static constexpr int nodes = 0, struts = 0, cables = 3, jacks = 3, spans = 3, segments = 6, joints = 3, substructures = 0, loads = 0;
-  static constexpr bool hoops = false, prestrain = false, smooth = false, strokes = false, seating = false;
+  static constexpr bool hoops = false, prestrain = false, smooth = false, strokes = false, seating = false, lags = false;
 };
 
 namespace detail {

@@ -14,6 +14,7 @@ namespace {
 
 struct Exact : taut::Capacity {
   static constexpr int nodes = 5, cables = 1, jacks = 1, segments = 4, joints = 3;
+  static constexpr bool lags = false;
 };
 struct Wide : taut::Capacity {
   static constexpr int nodes = 30, cables = 3, segments = 20, joints = 20, loads = 4, temperatures = 2;
@@ -71,4 +72,24 @@ TEST_CASE_TEMPLATE("a scene has the same forces and deviations, bit for bit, in 
   std::size_t others = 0;
   for (std::size_t i = 0; i < exact.size(); ++i) others += exact[i] == wide[i] ? 0 : 1;
   CHECK(others == 0);
+}
+
+TEST_CASE("a load cell that lags is refused by its cable where the capacity has none") {
+  using Model = taut::Condensed<double, Exact>;
+  const auto scene = std::make_unique<taut::Scene<double, 2, Exact>>();
+  taut::Cable<double> cable = support::steel_cable(0.2);
+  cable.cell[1].sd = 500;
+  cable.cell[1].lag = 0.5;
+  support::rigid_saddles(*scene, cable, support::chain_points(4));
+  const auto condensed = std::make_unique<Model>();
+  REQUIRE(std::make_unique<taut::Condensation<double, taut::Scene<double, 2, Exact>>>()
+              ->run(*scene, *condensed)
+              .ok());
+  const auto prior = std::make_unique<taut::FrictionPrior<double, Exact>>();
+  taut::find_friction_prior(*scene, *prior);
+  const auto estimator = std::make_unique<taut::Estimator<Model, 12, 4>>();
+  const taut::Status status = estimator->start(*condensed, *prior).status;
+  CHECK(status.code == taut::Code::capacity_exceeded);
+  CHECK(status.place == taut::Place::cable);
+  CHECK(status.index == 0);
 }

@@ -70,7 +70,8 @@ class Chain {
 
 /// What is said of the cable beside its seating; `seating_sd` is that of a part of it.
 struct Said {
-  double mu_sd = likely, jack_sd = estimation::jack_sd, far_sd = 0, scatter = 0, gain_sd = 0, seating_sd = 0;
+  double mu_sd = likely, jack_sd = estimation::jack_sd, far_sd = 0, scatter = 0, gain_sd = 0, seating_sd = 0,
+         lag = 0;
   bool has_two_jacks = false;
 
   /// What a wedge is really drawn in by [m].
@@ -96,6 +97,7 @@ class Jacked {
     cable.cell[1].sd = said.jack_sd;
     cable.cell[1].gain_sd = said.gain_sd;
     cable.cell[0].sd = said.has_two_jacks ? said.jack_sd : said.far_sd;
+    cable.cell[0].lag = cable.cell[1].lag = said.lag;
     cable.seating = seating;
     cable.seating_sd = said.seating_sd * seating;
     const auto scene = std::make_unique<Plane>();

@@ -74,6 +74,10 @@ TEST_CASE("a capacity says what a scene has not, and nothing that it has") {
   CHECK_FALSE(saddles::Capacity::smooth);
   CHECK_FALSE(saddles::Capacity::strokes);
   CHECK(arch::Capacity::strokes);
+  CHECK_FALSE(saddles::Capacity::lags);
+  CHECK(mast::Capacity::lags);
+  CHECK(mast::prior<float>.cell[0][0].lag == 0.25F);
+  CHECK(mast::prior<float>.cell[0][1].lag == 0);
 }
 
 TEST_CASE("a header goes to standard output or, the same, to a file") {

@@ -238,7 +238,7 @@ TEST_CASE("every key of an instrument arrives") {
                   "friction": { "law": "point", "mu": 0.1, "scatter": 0.2, "drift": 0.01 } } ],
     "sensors": {
       "C.start": { "exact": true },
-      "C.end": { "sd": 200, "gain_sd": 0.01, "zero_sd": 500, "resolution": 1000,
+      "C.end": { "sd": 200, "gain_sd": 0.01, "zero_sd": 500, "resolution": 1000, "lag": 0.5,
                  "hysteresis": { "part": 0.03, "sd": 0.01, "calibrated": "up" },
                  "calibration": [[0, 100], [10, 300e3], [40, 1200e3]] },
       "C.end.stroke": { "sd": 0.002, "zero": "start", "resolution": 0.001 },
@@ -259,6 +259,7 @@ TEST_CASE("every key of an instrument arrives") {
   CHECK(cell.gain_sd.value_or(0) == 0.01);
   CHECK(cell.zero_sd.value_or(0) == 500);
   CHECK(cell.resolution == 1000);
+  CHECK(cell.lag == 0.5);
   CHECK(cell.part == 0.03);
   CHECK(cell.part_sd == 0.01);
   CHECK(cell.right_while_it_pulls);

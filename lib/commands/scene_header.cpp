@@ -351,7 +351,7 @@ class Constants {
     const std::string zero =
         std::isfinite(of.zero_sd) ? scalar(of.zero_sd) : "::taut::free_zero<" + name() + ">";
     return "{" + scalar(of.sd) + ", " + scalar(of.gain_sd) + ", " + zero + ", " + scalar(of.hysteresis_sd) +
-           ", " + scalar(of.up) + ", " + scalar(of.down) + "}";
+           ", " + scalar(of.up) + ", " + scalar(of.down) + (of.lag > 0 ? ", " + scalar(of.lag) : "") + "}";
   }
   std::string cells(const std::vector<std::array<LoadCell<double>, 2>>& table) const {
     std::vector<std::string> items;
@@ -457,7 +457,7 @@ std::string head(const std::vector<ExportedScene>& scenes, const CondensedCounts
 
 // What only an estimator needs to know.
 struct EstimatedParts {
-  bool strokes = false, seating = false;
+  bool strokes = false, seating = false, lags = false;
 };
 
 // What none of the scenes has.
@@ -471,6 +471,7 @@ std::string has_not(const CondensedCounts& counts, const EstimatedParts& has) {
   add("smooth", counts.smooth);
   add("strokes", has.strokes);
   add("seating", has.seating);
+  add("lags", has.lags);
   return names.empty() ? "" : "  static constexpr bool " + names + ";\n";
 }
 
@@ -530,6 +531,8 @@ struct Shared {
       }
       has.strokes |= !scene.in_double.prior.stroke.empty();
       for (const double sd : scene.in_double.prior.seating_sd) has.seating |= sd > 0;
+      for (const auto& ends : scene.in_double.prior.cell)
+        for (const LoadCell<double>& cell : ends) has.lags |= cell.lag > 0;
     }
     capacity = most.value_or(CondensedCounts{});
   }

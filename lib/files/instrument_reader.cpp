@@ -7,7 +7,7 @@ namespace {
 
 const Keys force_keys = {
     {"sd", false, ""},         {"gain_sd", false, ""},     {"zero_sd", false, ""}, {"resolution", false, ""},
-    {"hysteresis", false, ""}, {"calibration", false, ""}, {"exact", false, ""},
+    {"hysteresis", false, ""}, {"calibration", false, ""}, {"exact", false, ""},   {"lag", false, ""},
 };
 const Keys stroke_keys = {{"sd", false, ""}, {"zero", false, ""}, {"resolution", false, ""}};
 const Keys hysteresis_keys = {
@@ -75,6 +75,11 @@ void read_force_cell(const Field& item, bool may_be_exact, InstrumentDescription
     instrument.resolution = step->amount("the step of the display [N] as a number");
     if (!(instrument.resolution >= 0))
       step->refuse("a step of " + plain(instrument.resolution), "write zero or more");
+  }
+  if (const auto lag = item.find("lag")) {
+    instrument.lag = lag->amount("the time constant of a filter [s] as a number");
+    if (!(instrument.lag >= 0 && instrument.lag <= 60))
+      lag->refuse("a time constant of " + plain(instrument.lag) + " s", "write one from 0 to 60: it is in seconds");
   }
   if (const auto hysteresis = item.find("hysteresis")) read_hysteresis(*hysteresis, instrument);
   if (const auto calibration = item.find("calibration")) read_calibration(*calibration, instrument);

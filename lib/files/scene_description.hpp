@@ -25,6 +25,7 @@ struct InstrumentDescription {
   bool exact = false;       ///< has no error at all
   std::optional<double> sd, gain_sd, zero_sd;
   double resolution = 0;
+  double lag = 0;                ///< time constant of its filter [s]
   bool has_hysteresis = false;   ///< by the file
   double part = 0, part_sd = 0;  ///< hysteresis of a ram, relative to the force
   bool right_while_it_pulls = false;

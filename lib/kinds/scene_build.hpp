@@ -24,6 +24,7 @@ std::array<double, static_cast<std::size_t>(Dimension)> shortened(const std::arr
 /// known which way a ram goes; elsewhere its friction is one more error of gain.
 inline LoadCell<double> load_cell(const InstrumentDescription& described, bool at_jack) {
   LoadCell<double> cell;
+  cell.lag = described.lag;
   if (described.exact) return cell;
   // A display that steps scatters by its step.
   const double step = described.resolution;

@@ -9,6 +9,7 @@ namespace monitor::scenes {
 
 struct TrussStringCapacity : taut::Capacity {
   static constexpr int nodes = 8, struts = 13, cables = 1, segments = 4, joints = 3, loads = 1, forces = 3;
+  static constexpr bool lags = false;
 };
 using TrussString = taut::Scene<double, 2, TrussStringCapacity>;
 

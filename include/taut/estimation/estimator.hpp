@@ -74,6 +74,7 @@ class Estimator {
     typename Parts::LockOff lock_off;
     typename ForceWatchType::State forces;
     typename Parts::TurnedForcesType turned;
+    typename Parts::LaggingCellsType lagging;
   };
 
   // Beginning.
@@ -83,8 +84,8 @@ class Estimator {
   /// take_strut() and take_stroke() are given. Fails with `capacity_exceeded` if and only if there are more
   /// unknown mu than Parameters, or more gauges, or unknowns of them, than Further (the amount is what is
   /// missing), or no room for the unknown draw-in of a wedge, as is the case without Capacity::seating, or
-  /// for the strain that a locked cable takes on (names the cable), else as Tracker::start() does. Cost: that
-  /// of the prestrain.
+  /// for the strain that a locked cable takes on, or for a load cell that lags without Capacity::lags (names
+  /// the cable), else as Tracker::start() does. Cost: that of the prestrain.
   Progress<Scalar> start(const CondensedType& condensed, const PriorType& prior,
                          const AlarmLimits<Scalar>& limits = {});
   template <class Cells>
@@ -105,7 +106,8 @@ class Estimator {
     return {parts_.tracker.save(),  parts_.jacks.save(),  parts_.filter.save(),
             parts_.far_ends.save(), parts_.gauges.save(), parts_.sliding_way,
             parts_.confirmed,       parts_.is_ahead,      parts_.leg,
-            parts_.lock_off,        parts_.forces.save(), parts_.turned};
+            parts_.lock_off,        parts_.forces.save(), parts_.turned,
+            parts_.lagging};
   }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `capacity_exceeded` if and
   /// only if start() would, and with `bad_sample` if the state was saved before start(), or is seen to be
@@ -132,6 +134,7 @@ class Estimator {
     parts_.is_beyond.fill(state.is_ahead);
     parts_.leg = state.leg;
     parts_.lock_off = state.lock_off;
+    parts_.lagging = state.lagging;
     const Status restored = parts_.tracker.restore(condensed, parts_.filter.friction(linear_part(condensed)),
                                                    state.tracker, load_errors(parts_));
     return restored ? restored : forget(restored);
@@ -234,6 +237,7 @@ class Estimator {
     parts_.forces.start();
     parts_.turned.clear();
     parts_.sliding_way = {};
+    parts_.lagging = {};
     return number_unknowns(parts_, condensed, prior, gauges);
   }
   /// As before start(). Returns why.
@@ -241,6 +245,8 @@ class Estimator {
     new (static_cast<void*>(&parts_)) Parts();
     return why;
   }
+  /// advance() with readings that have no lag.
+  Progress<Scalar> follow_row(const ReadingsType& readings, int event_budget);
   /// What a row measures, once the tracker has come to its loads; the tracker looks ahead.
   [[gnu::always_inline]] void measure_row(const ReadingsType& readings, Corners<Scalar>& corners) {
     if (corners.bends) {
@@ -304,6 +310,18 @@ auto Estimator<CondensedType, Parameters, Further>::advance(const ReadingsType& 
   for (int i = 0; i < parts_.jacks.patterns(); ++i)
     if (!(std::fabs(readings.sample.factor[i]) <= parts_.model().most_factor[i]))
       return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
+  if constexpr (Cap::lags) {
+    ReadingsType undone = readings;
+    parts_.lagging.undo(parts_.filter.prior().cell, undone);
+    return follow_row(undone, event_budget);
+  } else {
+    return follow_row(readings, event_budget);
+  }
+}
+
+template <class CondensedType, int Parameters, int Further>
+auto Estimator<CondensedType, Parameters, Further>::follow_row(const ReadingsType& readings, int event_budget)
+    -> Progress<Scalar> {
   begin_row(parts_);
   parts_.strokes.begin_row();
   Corners<Scalar> corners;

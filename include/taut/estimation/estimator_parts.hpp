@@ -15,6 +15,7 @@
 #include "taut/estimation/gauges.hpp"
 #include "taut/estimation/jack_loads.hpp"
 #include "taut/estimation/joint_reach.hpp"
+#include "taut/estimation/lagging_reading.hpp"
 #include "taut/estimation/readings.hpp"
 #include "taut/estimation/row_strokes.hpp"
 #include "taut/estimation/sliding_way.hpp"
@@ -41,7 +42,8 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   /// Where the tracker is driven to, by jack.
   using Drives = FixedArray<Jack<Scalar>, JacksType::capacity>;
   using FarEndsType = FarEnds<FilterType, JacksType>;
-  using GaugesType = Gauges<Scalar, Further>;
+  using GaugesType = Gauges<Scalar, Further, Cap::lags>;
+  using LaggingCellsType = LaggingCells<Scalar, Cap>;
   using SlidingWayType = SlidingWay<Scalar, Cap::cables>;
   using ForceWatchType = ForceWatch<Scalar, Cap::segments>;
   using Strokes = RowStrokes<Scalar, JacksType::capacity == 1 ? 0 : Cap::cables>;
@@ -94,6 +96,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   TrackerType tracker;
   FilterType filter;
   GaugesType gauges;
+  LaggingCellsType lagging;
   Strokes strokes;
   SlidingWayType sliding_way;
   ForceWatchType forces;

@@ -44,6 +44,9 @@ Status number_unknowns(Parts& parts, const typename Parts::Condensed& condensed,
     }
     if (jacks[k].seating < 0) refuse(c);
   }
+  for (int c = 0; !Parts::Cap::lags && c < linear.cables.size(); ++c)
+    for (const auto& cell : prior.cell[c])
+      if (cell.lag > 0) refuse(c);
   if (known) known = filter.end(linear, [&](const auto& add) { return parts.gauges.start(gauges, add); });
   parts.far_ends.start(linear, filter, jacks);
   return known;

@@ -44,7 +44,7 @@ class FarEnds {
     for (int c = 0; c < model.cables.size(); ++c)
       for (std::size_t end = 0; end < 2 && !model.cables[c].closed; ++end)
         if (model.cables[c].ends[end] == End::anchored && filter.prior().cell[c][end].sd > 0)
-          state_.watch[ends_.add(EndType::of(c, end))].start(filter.prior().cell[c][end].sd);
+          state_.watch[ends_.add(EndType::of(c, end))].start(filter.prior().cell[c][end].noise());
     can_gather_ = ends_.size() == 1 && jacks.size() == 1 && filter.belief().has_friction();
     state_.gathered = {};
     state_.learned = 0;

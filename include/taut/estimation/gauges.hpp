@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "taut/estimation/instruments.hpp"
+#include "taut/estimation/lagging_reading.hpp"
 #include "taut/estimation/noise_level.hpp"
 #include "taut/numerics/fixed_list.hpp"
 #include "taut/numerics/larger.hpp"
@@ -42,7 +43,7 @@ struct StrokeGauge : LoadCell<Scalar> {
 /// if the best estimate of the jacks' loads is elsewhere, by `part` of the largest, than at the last one that
 /// did. Not if the model has been driven on: that follows the noise of a load cell, and those readings are a
 /// choice of rows that read high on the way up, and low on the way down.
-template <class Scalar, int Capacity>
+template <class Scalar, int Capacity, bool Lags = true>
 class Gauges {
  public:
   static constexpr Scalar part = Scalar(1) / 256;
@@ -61,6 +62,7 @@ class Gauges {
     Scalar largest = 0;  ///< sum of all loads so far [N]
     Scalar best = 0;     ///< that of the best estimates of the loads [N]
     FixedArray<One, Capacity> one;
+    FixedArray<LaggingReading<Scalar>, Lags ? Capacity : 0> lagging;
   };
 
   /// Takes the instruments over, and numbers their unknowns by add(standard deviation). Returns how many
@@ -76,6 +78,7 @@ class Gauges {
         ++missing;
         continue;
       }
+      if (!Lags && cell.lag > 0) ++missing;
       LoadCell<Scalar> constants = cell;
       constants.hysteresis_sd = 0;
       if (is_free(g)) constants.zero_sd = 0;
@@ -85,7 +88,7 @@ class Gauges {
       if (zero < 0) ++missing;
       unknowns_[g].zero = static_cast<std::int16_t>(zero);
     }
-    for (int g = 0; g < size(); ++g) state_.one[g].noise.start(cells_[g].sd);
+    for (int g = 0; g < size(); ++g) state_.one[g].noise.start(cells_[g].noise());
     return missing;
   }
   const State& save() const { return state_; }
@@ -111,6 +114,16 @@ class Gauges {
     state_.best = best;
     state_.largest = larger(state_.largest, load);
     for (int g = 0; g < size(); ++g) state_.one[g].since += dt;
+    for (int g = 0; Lags && g < size(); ++g) state_.lagging[g].wait(dt);
+  }
+  /// A reading becomes what stood in front of the filter of its instrument, if that has one. False if it
+  /// comes too soon after the one before to count.
+  bool undo_lag(Gauge gauge, Scalar& reading) {
+    if constexpr (Lags) {
+      const Scalar lag = cells_[gauge.number].lag;
+      if (lag > 0) return state_.lagging[gauge.number].undo(lag, reading);
+    }
+    return true;
   }
   /// What was read from a mark may be read from another one from now on.
   void forget_marks() {

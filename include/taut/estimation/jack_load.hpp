@@ -143,16 +143,16 @@ struct JackLoad {
     pulls = erred_up = rises = true;
     at_turn = seating = at_rest = -1;
     rested_at = -1;
-    filter.start(cell.sd);
-    noise.start(cell.sd);
+    filter.start(cell.noise());
+    noise.start(cell.noise());
   }
   /// The load has come down to what this first reading says [N].
   void come_down(Scalar reading, const LoadCell<Scalar>& cell) {
-    filter.start_at(cell.sd, reading, cell.sd, false);
+    filter.start_at(cell.noise(), reading, cell.noise(), false);
     guard.start(reading);
     at = {};
     at.load = at.come = at.confirmed = turned = reading / cell.down;
-    at.sd = at.come_sd = cell.sd / cell.down;
+    at.sd = at.come_sd = cell.noise() / cell.down;
     pulls = erred_up = rises = false;
     farthest = at.load;
     farthest_sd = at.sd;

@@ -55,6 +55,7 @@ struct Capacity {
   static constexpr bool smooth = true;     ///< joints without friction
   static constexpr bool strokes = true;    ///< strokes of jacks that teach an Estimator
   static constexpr bool seating = true;    ///< wedges that are drawn in by an unknown length, to an Estimator
+  static constexpr bool lags = true;       ///< instruments behind a filter, to an Estimator
   using Watch = Unwatched;  ///< another type with a static took(Route) is called at every event
   /// An object of another type is in every Estimator: begin(FrictionFilter) is called where it begins, and
   /// learned(Alarm of what was read, number of readings, FrictionFilter) after every update.

@@ -181,7 +181,7 @@ class SceneCheck {
          {cable.wobble, cable.mu_sd, cable.scatter, cable.seating, cable.seating_sd, cable.temperature_sd})
       code = first_failure(code, not_negative(x));
     for (const LoadCell<Real>& cell : cable.cell) {
-      for (const Real x : {cell.sd, cell.gain_sd, cell.zero_sd, cell.hysteresis_sd})
+      for (const Real x : {cell.sd, cell.gain_sd, cell.zero_sd, cell.hysteresis_sd, cell.lag})
         code = first_failure(code, not_negative(x));
       code = first_failure(code, first_failure(positive(cell.up), positive(cell.down)));
     }
