@@ -123,6 +123,11 @@ class Jacked {
     readings.ends[0][0].force = far;
     REQUIRE(estimator_.advance(readings).status.ok());
   }
+  /// Goes on from what was saved, as after a power failure.
+  void reload() {
+    const auto saved = std::make_unique<Estimator::State>(estimator_.save());
+    REQUIRE(estimator_.restore(model_, prior_, *saved).ok());
+  }
   /// A row of two jacks.
   void row_of_both(double start, double end, bool locked) {
     taut::Readings<double, PlaneCapacity> readings;

@@ -25,7 +25,9 @@ struct Case {
   InstrumentRules instruments;
   bool with_far = true, without_far = true;  ///< far-end cell
   bool logs_dead = false, logs_sun = false, logs_stroke = false;
-  bool silent = false;  ///< the scene has no sensors
+  bool gauges_segments = false;  ///< one a cable, at neither end
+  bool gauges_struts = false;    ///< both at one joint of each cable (trusses)
+  bool silent = false;           ///< the scene has no sensors
 };
 
 inline void make_typical_mix(Case& mix) {
@@ -149,6 +151,7 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.jacking.every_row = true;
   }
   add("pump-ripple").jacking.ripple = 0.005;
+  add("filtered-cells").instruments.filtered = true;
   {
     Case& c = add("elongation-loop");
     c.jacking.loop = c.logs_stroke = true;
@@ -161,6 +164,25 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.ground.E_sd = 0.03;
     c.with_far = false;
   }
+  const auto add_segment_gauge = [&](const char* name) -> Case& {
+    Case& c = add(name);
+    c.gauges_segments = true;
+    c.instruments.gauge_gain_sd = 0.01;
+    c.instruments.gauge_zero_sd = 0.005;
+    return c;
+  };
+  add_segment_gauge("segment-gauge");
+  add_segment_gauge("segment-gauge-stages").jacking.stages = true;
+  const auto add_strut_gauges = [&](const char* name, Demand demand) -> Case& {
+    Case& c = add(name, demand);
+    c.gauges_struts = c.ground.truss_only = true;
+    c.instruments.gauge_gain_sd = 0.02;
+    c.instruments.gauge_zero_sd = 0.01;
+    return c;
+  };
+  add_strut_gauges("strut-gauges", Demand::accuracy);
+  add_strut_gauges("gauge-freezes", Demand::alarm).instruments.gauges_freeze = true;
+  add_strut_gauges("gauge-creeps", Demand::alarm).instruments.gauge_creep = 0.1;
   {
     Case& c = add("year");
     c.jacking.year_rows = year_rows;

@@ -73,6 +73,10 @@ class Demands {
       between("jackings found odd", part(tally.odd, tally), 80, 100);
     if (name == "off-by-gain-2" && way == "plain")
       between("jackings found odd", part(tally.odd, tally), 50, 100);
+    if (name == "gauge-freezes" && way == "declared") {
+      between("coverage", tally.all.coverage(), 90, 100);
+      between("jackings found odd", part(tally.odd, tally), 90, 100);
+    }
     if (name == "frozen-cell") {
       between("jackings found odd", part(tally.odd, tally), 90, 100);
       // Once it is known to be dead it makes no force uncertain.

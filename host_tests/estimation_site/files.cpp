@@ -95,6 +95,7 @@ std::string cell_text(const std::string& column, double full, const Readings& re
     text += ", \"gain_sd\": " + number(is_jack ? rules.jack_gain_sd : rules.far_gain_sd) +
             ", \"zero_sd\": " + number(rules.zero_sd * full);
     if (rules.step > 0) text += ", \"resolution\": " + number(readings.step);
+    if (rules.filtered) text += ", \"lag\": " + number(readings.lag);
     if (is_jack && tried.jacking.ram > 0)
       text += ", \"hysteresis\": { \"part\": " + number(tried.jacking.ram) +
               ", \"sd\": " + number(tried.jacking.ram_sd) + ", \"calibrated\": \"mean\" }";
@@ -115,6 +116,13 @@ std::string sensors_text(const Jacked& jacked, const Case& tried, bool far, bool
     for (const std::string& jack : {start, end})
       if (declared && tried.logs_stroke && (jack == end || cable.two_jacks))
         cells.push_back("\"" + jack + ".stroke\": { \"sd\": 0.001, \"zero\": \"free\" }");
+  }
+  for (const GaugeReadings& gauge : jacked.gauges) {
+    std::string text = "\"" + gauge.column + "\": { \"sd\": " + number(gauge.sd);
+    if (declared)
+      text += ", \"gain_sd\": " + number(tried.instruments.gauge_gain_sd) +
+              ", \"zero_sd\": " + number(gauge.zero_sd);
+    cells.push_back(text + " }");
   }
   return joined(cells, [](const std::string& cell) { return cell; });
 }
@@ -161,6 +169,7 @@ std::string log_text(const Jacked& jacked, const Case& tried, bool far) {
       text += "," + cable_name(c) + ".end.stroke";
       if (cables[c].two_jacks) text += "," + cable_name(c) + ".start.stroke";
     }
+  for (const GaugeReadings& gauge : jacked.gauges) text += ',' + gauge.column;
   text += '\n';
   for (std::size_t i = 0; i < jacked.rows.size(); ++i) {
     const Deed& deed = jacked.rows[i];
@@ -180,6 +189,7 @@ std::string log_text(const Jacked& jacked, const Case& tried, bool far) {
         text += ',' + (locked[1] ? "" : rounded(stroke[1][i], 4));
         if (cables[c].two_jacks) text += ',' + (locked[0] ? "" : rounded(stroke[0][i], 4));
       }
+    for (const GaugeReadings& gauge : jacked.gauges) text += ',' + rounded(gauge.force[i], 1);
     text += '\n';
   }
   return text;

@@ -15,6 +15,15 @@ struct Readings {
   std::array<std::vector<double>, 2> stroke;  ///< of the jack at the start, if there is one, and at the end
   double sd = 0;                              ///< of the noise, as stated [N]
   double step = 0;                            ///< of the display [N]
+  double lag = 0;                             ///< of the cells' filter, as stated [s]
+};
+
+/// A gauge on a segment or a strut.
+struct GaugeReadings {
+  std::string column;         ///< of the log, and what the scene calls it
+  std::vector<double> force;  ///< [N], row by row
+  double sd = 0;              ///< of the noise, as stated [N]
+  double zero_sd = 0;         ///< [N]
 };
 
 /// A site that is jacked, and what was read.
@@ -23,6 +32,7 @@ struct Jacked {
   Reality reality;
   std::vector<Deed> rows;
   std::vector<Readings> readings;  ///< by cable
+  std::vector<GaugeReadings> gauges;
 };
 
 /// What a cable is called.

@@ -17,29 +17,47 @@ struct InstrumentRules {
   double noise = 1;                          ///< times what is stated
   double least_sd = 0.001, most_sd = 0.005;  ///< what is stated, part
   double memory = 0;                         ///< of the noise [s]
-  double step = 0;                           ///< of the display, part
-  bool loose_plug = false;                   ///< the jack's, for 5 to 15 rows
-  bool in_turn = false;                      ///< each row has the reading of one end only
-  bool far_freezes = false;                  ///< the far cell keeps its value from the first ramp on
+  bool filtered = false;     ///< both cells by the same low-pass filter, with a tenth of its lag unknown
+  double step = 0;           ///< of the display, part
+  bool loose_plug = false;   ///< the jack's, for 5 to 15 rows
+  bool in_turn = false;      ///< each row has the reading of one end only
+  bool far_freezes = false;  ///< the far cell keeps its value from the first ramp on
+  double gauge_gain_sd = 0, gauge_zero_sd = 0;  ///< of gauges on segments and struts: relative, part
+  bool gauges_freeze = false;  ///< those of the first joint or segment keep a value of the first ramp
+  double gauge_creep = 0;      ///< by so much the zero of the first has gone off at the end, up or down, part
+};
+
+/// A low-pass filter of first order; noise in front of it is smoothed, too, and scatters as is stated behind.
+struct Filter {
+  double lag = 0;  ///< [s]; 0: none
+  bool is_behind_noise = false;
 };
 
 /// A load cell or gauge, read row by row.
 class Cell {
  public:
-  Cell(double gain, double zero, double sd, double memory, double step)
-      : gain_(gain), zero_(zero), sd_(sd), memory_(memory), step_(step) {}
+  Cell(double gain, double zero, double sd, double memory, double step, const Filter& filter = {})
+      : gain_(gain), zero_(zero), sd_(sd), memory_(memory), step_(step), filter_(filter) {}
 
   double read(support::Random& random, double force, double time) {
-    const double kept = memory_ > 0 ? std::exp(-(time - time_) / memory_) : 0;
+    const double kept = fading(memory_, time), late = fading(filter_.lag, time);
     noise_ = kept * noise_ + std::sqrt(1 - kept * kept) * sd_ * support::gaussian(random);
+    const double before = filter_.is_behind_noise ? std::sqrt((1 + late) / (1 - late)) * noise_ : 0;
+    shown_ = late * shown_ + (1 - late) * (force + before);
     time_ = time;
-    const double reading = (1 + gain_) * force + zero_ + noise_;
+    const double reading = (1 + gain_) * shown_ + zero_ + (filter_.is_behind_noise ? 0 : noise_);
     return step_ > 0 ? step_ * std::round(reading / step_) : reading;
   }
 
  private:
+  /// What is left since the last reading of what fades so fast.
+  double fading(double constant, double time) const {
+    return constant > 0 ? std::exp(-(time - time_) / constant) : 0;
+  }
+
   double gain_, zero_, sd_, memory_, step_;
-  double noise_ = 0, time_ = -1e9;
+  Filter filter_;
+  double noise_ = 0, shown_ = 0, time_ = -1e9;
 };
 
 /// Puts a wrong value in 5 to 15 rows somewhere between the first tenth and the last.

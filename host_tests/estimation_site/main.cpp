@@ -48,10 +48,15 @@ Readings read_cable(Random& random, const InstrumentRules& rules, const Jacked& 
   readings.sd = full * log_between(random, rules.least_sd, rules.most_sd);
   readings.step = rules.step * full;
   const double noise = rules.noise * readings.sd;
+  Filter filter;
+  if (rules.filtered) {
+    readings.lag = log_between(random, 0.2, 3);
+    filter = {readings.lag * std::fmax(0.5, 1 + 0.1 * gaussian(random)), random.coin()};
+  }
   const auto cell = [&](double gain_sd) {
     const double drawn = gaussian(random), gain = gain_sd * (rules.sized ? std::copysign(1.0, drawn) : drawn),
                  zero = rules.zero_sd * full * gaussian(random);
-    return Cell(gain, zero, noise, rules.memory, readings.step);
+    return Cell(gain, zero, noise, rules.memory, readings.step, filter);
   };
   Cell at_jack = cell(rules.jack_gain_sd),
        at_start = cell(cable.two_jacks ? rules.jack_gain_sd : rules.far_gain_sd);
@@ -79,10 +84,66 @@ Readings read_cable(Random& random, const InstrumentRules& rules, const Jacked& 
   return readings;
 }
 
-/// What the cells show of a jacking.
-void read_instruments(Random& random, const InstrumentRules& rules, Jacked& jacked) {
+/// Adds a gauge whose true force is force_in(row), `full` when the jacks pull with their full force.
+template <class ForceIn>
+void read_gauge(Random& random, const InstrumentRules& rules, const std::string& column, double full,
+                const ForceIn& force_in, Jacked& jacked) {
+  GaugeReadings gauge;
+  gauge.column = column;
+  gauge.sd = full * log_between(random, rules.least_sd, rules.most_sd);
+  gauge.zero_sd = full * rules.gauge_zero_sd;
+  const double gain = rules.gauge_gain_sd * gaussian(random), zero = gauge.zero_sd * gaussian(random);
+  Cell cell(gain, zero, rules.noise * gauge.sd, rules.memory, 0);
+  const double creep = jacked.gauges.empty() ? full * rules.gauge_creep * (random.coin() ? 1 : -1) : 0;
+  std::size_t last_of_ramp = 0;
+  for (std::size_t i = 0; i < jacked.rows.size(); ++i) {
+    const Deed& deed = jacked.rows[i];
+    gauge.force.push_back(cell.read(random, force_in(deed), deed.time) +
+                          creep * double(i) / double(jacked.rows.size()));
+    if (deed.pulls[0].phase == Phase::ramp) last_of_ramp = i;
+  }
+  if (rules.gauges_freeze && jacked.gauges.empty())
+    freeze(gauge.force, static_cast<int>(double(last_of_ramp) * random.between(0.3, 0.8)));
+  jacked.gauges.push_back(gauge);
+}
+
+/// One gauge a cable, between two of its joints.
+void read_segments(Random& random, const InstrumentRules& rules, Jacked& jacked) {
+  for (std::size_t c = 0; c < jacked.ground.cables.size(); ++c) {
+    const Cable& cable = jacked.ground.cables[c];
+    const int i = 1 + random.below(cable.segments() - 2);
+    read_gauge(
+        random, rules, cable_name(c) + ".T" + std::to_string(i + 1), cable.full,
+        [&](const Deed& deed) { return deed.tension[static_cast<std::size_t>(cable.first_segment + i)]; },
+        jacked);
+  }
+}
+
+/// Gauges on the two struts of one joint of each cable.
+void read_struts(Random& random, const InstrumentRules& rules, Jacked& jacked) {
+  for (std::size_t c = 0; c < jacked.ground.cables.size(); ++c) {
+    const Cable& cable = jacked.ground.cables[c];
+    const int j = random.below(cable.joints());
+    const auto struts = jacked.ground.struts_at(cable, j);
+    const auto full = jacked.ground.strut_forces(cable, j, cable.full, cable.full);
+    const auto before = static_cast<std::size_t>(cable.first_segment + j);
+    for (std::size_t k = 0; k < 2; ++k)
+      read_gauge(
+          random, rules, "strut" + std::to_string(struts[k] + 1), std::fabs(full[k]),
+          [&](const Deed& deed) {
+            return jacked.ground.strut_forces(cable, j, deed.tension[before], deed.tension[before + 1])[k];
+          },
+          jacked);
+  }
+}
+
+/// What the instruments show of a jacking.
+void read_instruments(Random& random, const Case& tried, Jacked& jacked) {
+  const InstrumentRules& rules = tried.instruments;
   for (std::size_t c = 0; c < jacked.ground.cables.size(); ++c)
     jacked.readings.push_back(read_cable(random, rules, jacked, c));
+  if (tried.gauges_segments) read_segments(random, rules, jacked);
+  if (tried.gauges_struts) read_struts(random, rules, jacked);
 }
 
 /// A jacking before anything is read, and the random numbers that instruments draw from.
@@ -123,7 +184,7 @@ class Jackings {
     if (found == kept_.end())
       found = kept_.emplace(i, random_jacking(options_, tried, i, without_truth_)).first;
     Unread unread = found->second;
-    read_instruments(unread.random, tried.instruments, unread.jacked);
+    read_instruments(unread.random, tried, unread.jacked);
     return std::move(unread.jacked);
   }
   long without_truth() const { return without_truth_; }

@@ -50,6 +50,32 @@ struct Ground {
   double strut_E = 2.1e11;
   double dead = 0;  ///< on every loaded node at factor 1 [N]
 
+  /// The two struts that hold joint j (from 0) of a cable below a truss.
+  std::array<int, 2> struts_at(const Cable& cable, int j) const {
+    std::array<int, 2> found{};
+    std::size_t count = 0;
+    for (std::size_t b = 0; b < struts.size() && count < 2; ++b)
+      if (struts[b].to == cable.path[static_cast<std::size_t>(j) + 1]) found[count++] = static_cast<int>(b);
+    return found;
+  }
+  /// Their forces, tension positive, by statics from the tensions before and behind the joint.
+  std::array<double, 2> strut_forces(const Cable& cable, int j, double before, double behind) const {
+    const auto i = static_cast<std::size_t>(j);
+    const auto& joint = at(cable, i + 1);
+    const auto toward = [&](const std::array<double, 2>& node) {
+      const double x = node[0] - joint[0], y = node[1] - joint[1], length = std::hypot(x, y);
+      return std::array<double, 2>{x / length, y / length};
+    };
+    const auto back = toward(at(cable, i)), on = toward(at(cable, i + 2));
+    const auto bars = struts_at(cable, j);
+    const auto foot = [&](std::size_t k) {
+      return toward(nodes[static_cast<std::size_t>(struts[static_cast<std::size_t>(bars[k])].from)]);
+    };
+    const auto first = foot(0), second = foot(1);
+    const double x = -(before * back[0] + behind * on[0]), y = -(before * back[1] + behind * on[1]),
+                 det = first[0] * second[1] - second[0] * first[1];
+    return {(x * second[1] - second[0] * y) / det, (first[0] * y - x * first[1]) / det};
+  }
   double length(const Cable& cable) const {
     double sum = 0;
     for (std::size_t i = 0; i + 1 < cable.path.size(); ++i) {
