@@ -129,7 +129,9 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   Scalar most_force(int k) const { return model().most_force[jacks.end(k).cable()]; }
   const LoadCell<Scalar>& cell(int k) const { return jacks.in(filter.prior().cell, k); }
   /// Whether it strains its cable by AlarmLimits::initial_strain. It carries at most a tenth of E A.
-  bool is_bedded(int k) const { return jacks[k].at.load >= 10 * limits.initial_strain * most_force(k); }
+  bool is_bedded(int k) const {
+    return jacks[k].at.load >= limits.initial_strain * Scalar(1 / breaking_strain) * most_force(k);
+  }
 
   /// Whether there are any beside the jacks' own.
   bool has_instruments() const { return far_ends.ends().size() > 0 || gauges.size() > 0; }

@@ -34,6 +34,9 @@ class ActiveSet {
   using Tensions = Along<Real>;
   using Values = By<Real>;
   using ActiveConstraints = FixedList<ActiveConstraint, capacity>;
+  /// Pivots, relative to their row and column: below, no digit is left; and the next one would be better
+  /// first, a guess is worth no less.
+  static constexpr Real singular = Real(1e-12), small = Real(1e-4);
 
   /// Begins with an empty set, and looks the model through once. The model must outlive it.
   void begin(const CondensedType& model) {
@@ -169,9 +172,8 @@ class ActiveSet {
   Real stiffest() const { return stiffest_; }
 
  private:
-  /// Pivots, relative to their row and column: no digit is left; the next one would be better first; enough
-  /// are left in a float.
-  static constexpr Real singular = Real(1e-12), small = Real(1e-4), sound = Real(1e-3);
+  /// A pivot that leaves enough digits in a float.
+  static constexpr Real sound = Real(1e-3);
 
   static constexpr bool may_be_either = Cap::saddles && !has_rigid_saddles<Cap>;
   static constexpr bool has_chains = has_rigid_saddles<Cap> || may_be_either;

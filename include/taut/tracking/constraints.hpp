@@ -15,6 +15,7 @@ class Constraints {
   using Cap = typename Cables::Cap;
   using Laws = typename Cables::Laws;
   using Map = typename Cables::Map;
+  using Set = typename Map::Set;
   using State = typename Cables::State;
   using Tensions = typename Cables::Tensions;
   using Inputs = typename Cables::Inputs;
@@ -40,7 +41,7 @@ class Constraints {
   int joint_without_pivot() const { return joint_without_pivot_; }
   /// Puts the active variables at work only if every pivot keeps digits: a guess is not worth less.
   bool set_up_soundly() {
-    cables_.is_set_up = add_all(Real(0), sound_pivot);
+    cables_.is_set_up = add_all(Real(0), Set::small);
     return cables_.is_set_up;
   }
   /// Only what follows whatever happens, to decide all else from nothing. False if its laws contradict.
@@ -88,11 +89,8 @@ class Constraints {
  private:
   /// Of a segment's own stiffness, in decisions from zero tension.
   static constexpr Real held_at_zero = Real(1e-8);
-  /// Pivots of the slips at work, of the largest entry in row and column: none is left; so many digits are
-  /// kept.
-  static constexpr Real least_pivot = Real(1e-12), sound_pivot = Real(1e-4);
 
-  bool add_all(Real held, Real least = least_pivot) {
+  bool add_all(Real held, Real least = Set::singular) {
     map_.clear();
     map_.set().hold(held);
     return add_equalities() && add_slides(least);

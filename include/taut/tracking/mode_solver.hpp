@@ -136,9 +136,6 @@ class ModeSolver {
   static constexpr std::int16_t inactive = -1;
   /// Pivots of the set, relative to its entries: below, the slip waits until another makes room for it.
   static constexpr Real least_pivot = Real(1e-10);
-  /// A guess is worth no less.
-  static constexpr Real sound_pivot = Real(1e-4);
-
   /// Of the covering variable along the path: less is rounding.
   static constexpr Real least_slope = Real(1e-13);
   /// The response to the covering variable is carried on while its rounding has grown no more than that:
@@ -245,7 +242,7 @@ class ModeSolver {
       place_.fill(inactive);
       name_all();
       for (int p = 0; p < pairs_.size(); ++p)
-        if (turns[p]) static_cast<void>(enter(p, sound_pivot));
+        if (turns[p]) static_cast<void>(enter(p, Set::small));
     }
     any = false;
     for (int p = 0; p < pairs_.size(); ++p) {
@@ -544,7 +541,7 @@ class ModeSolver {
     }
     direction.is_of_cover = true;
   }
-  bool enter(int p, Real least = Real(1e-12)) {
+  bool enter(int p, Real least = Set::singular) {
     if (!set_->append(*laws_, active_of(p), least)) return false;
     place_[p] = 0;
     return true;

@@ -163,7 +163,7 @@ class TrackedForces {
   /// cable stretches that, too.
   Real unstrained(int c, int segment) const {
     if constexpr (Model::has_level) {
-      const Real EA = 10 * static_cast<Real>(cables_.model->most_force[c]);
+      const Real EA = static_cast<Real>(cables_.model->most_force[c]) * Real(1 / breaking_strain);
       return EA / (EA + static_cast<Real>(tension(segment)));
     }
     return 1;
