@@ -46,25 +46,61 @@ double undone(taut::LaggingReading<double>& reading, double lag, double shown, d
 
 }  // namespace
 
-TEST_CASE("on a straight line the force is found from the second reading on, at any pace") {
+TEST_CASE(
+    "in a ramp the force is that of an eighth of a lag before, or of at most a lag where rows are slow") {
   for (const double lag : {0.1, 1.0, 7.0})
-    for (const double pace : {0.25, 0.6, 1.0, 1.7, 2.0}) {
+    for (const double pace : {0.25, 0.6, 1.0, 2.0, 5.0}) {
       CAPTURE(lag);
       CAPTURE(pace);
       const double dt = pace * lag;
       Filter filter(lag, 50);
       taut::LaggingReading<double> reading;
       CHECK(undone(reading, lag, filter.go_on(50, dt), dt) == doctest::Approx(50));
-      for (int i = 1; i <= 20; ++i) {
-        const double force = 50 + 100 * i, found = undone(reading, lag, filter.go_on(force, dt), dt);
-        if (i > 1) CHECK(found == doctest::Approx(force).epsilon(1e-6));
-        // What is read is late by as much as the force goes in a lag.
-        if (i == 20) CHECK(filter.go_on(force, 1e-9) < force - 0.9 * 100 * std::min(1.0, 1 / pace));
+      // The mean age of what the filter has weighed: of weights that fade, by the trapezoidal rule.
+      double age = 0, sum = 0;
+      for (int i = 0; i <= 4000; ++i) {
+        const double t = dt * i / 4000, weight = (i % 4000 == 0 ? 0.5 : 1) * std::exp(-t / lag);
+        age += weight * t;
+        sum += weight;
       }
+      age /= sum;
+      CHECK(age < (pace == 0.25 ? 0.125 : 1.0) * lag);
+      double shown = 50;
+      for (int i = 1; i <= 20; ++i) {
+        shown = filter.go_on(50 + 100 * i, dt);
+        CHECK(undone(reading, lag, shown, dt) == doctest::Approx(50 + 100 * (i - age / dt)).epsilon(1e-5));
+      }
+      // What is read is late by a lag.
+      CHECK(shown == doctest::Approx(50 + 100 * (20 - 1 / pace)).epsilon(0.02));
     }
 }
 
-TEST_CASE("a force that rests is found with the first reading after it has come to rest") {
+TEST_CASE("a force is never found beyond where it was since the reading before, whatever way it went") {
+  support::Random random(20261129);
+  for (int i = 0; i < 300; ++i) {
+    const double lag = std::pow(10, random.between(-1, 1)), dt = lag * std::pow(10, random.between(-0.6, 1)),
+                 start = random.between(0, 100);
+    Filter filter(lag, start);
+    taut::LaggingReading<double> reading;
+    undone(reading, lag, filter.go_on(start, dt), dt);
+    double force = start;
+    for (int row = 0; row < 20; ++row) {
+      double least = force, most = force, shown = 0;
+      const int parts = 1 + random.below(4);
+      for (int part = 0; part < parts; ++part) {
+        if (random.coin()) force = random.between(0, 100);
+        least = std::min(least, force);
+        most = std::max(most, force);
+        shown = filter.go_on(force, dt / parts);
+      }
+      const double found = undone(reading, lag, shown, dt);
+      CHECK(found >= least - 1e-3);
+      CHECK(found <= most + 1e-3);
+    }
+  }
+}
+
+TEST_CASE("a force that rests is found with the first reading whose stride it has rested in") {
   constexpr double lag = 1;
   for (const double dt : {0.25, 1.0, 3.0, 20.0}) {
     CAPTURE(dt);
@@ -72,9 +108,6 @@ TEST_CASE("a force that rests is found with the first reading after it has come 
     taut::LaggingReading<double> reading;
     undone(reading, lag, filter.go_on(0, dt), dt);
     for (int i = 1; i <= 5; ++i) undone(reading, lag, filter.go_on(10 * i, dt), dt);
-    // A reading away from the corner; the way there is gone on for a row by at most a quarter of a stride.
-    const double first = undone(reading, lag, filter.go_on(50, dt), dt);
-    CHECK(std::fabs(first - 50) <= 2.5 + 1e-6);
     for (int i = 0; i < 5; ++i)
       CHECK(undone(reading, lag, filter.go_on(50, dt), dt) == doctest::Approx(50).epsilon(1e-6));
   }
@@ -158,7 +191,7 @@ Filtered jack_behind_filter(double lag, bool reloads = false) {
   said.jack_sd = said.far_sd = 2e-3 * full;
   said.lag = lag;
   Filtered found;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     support::Random random(seed);
     const auto jacked = std::make_unique<Jacked>(0, said);
     Chain chain(mu * std::max(0.1, 1 + likely / mu * support::gaussian(random)));
@@ -180,11 +213,11 @@ Filtered jack_behind_filter(double lag, bool reloads = false) {
           found.square += std::pow(((*jacked)[s].force - chain[s]) / full, 2);
       }
     };
-    go(full, 150, found.pulled);
+    go(full, 400, found.pulled);
     go(0.8 * full, 40, found.let_out);
     go(0.8 * full, 60, found.rests);
   }
-  MESSAGE("seeds 1 to 100, lag ", lag, " s: ", 100 * found.pulled.share(), " % are held on the way up, ",
+  MESSAGE("seeds 1 to 40, lag ", lag, " s: ", 100 * found.pulled.share(), " % are held on the way up, ",
           100 * found.let_out.share(), " % on the way down, ", 100 * found.rests.share(),
           " % at rest; errors ", 100 * found.error(), " % of the load");
   return found;
@@ -197,10 +230,10 @@ TEST_CASE("forces are right behind filters, in ramps and after turns, if their l
   CHECK(said.pulled.share() > 0.9);
   CHECK(said.let_out.share() > 0.9);
   CHECK(said.rests.share() > 0.93);
-  CHECK(said.error() < 0.02);
+  CHECK(said.error() < 0.01);
   // Or else it is the lie of an instrument.
   CHECK(unsaid.pulled.share() < 0.5);
-  CHECK(unsaid.error() > 0.03);
+  CHECK(unsaid.error() > 2 * said.error());
 }
 
 TEST_CASE("what is known of a filter is saved with all else: the same forces after a power failure") {

@@ -514,6 +514,16 @@ std::string names(const SceneDescription& scene) {
          "\n}  // namespace names\n";
 }
 
+bool has_lags(const SceneDescription& scene) {
+  bool any = false;
+  for (const CableDescription& cable : scene.cables) {
+    for (const InstrumentDescription& cell : cable.cell) any |= cell.lag > 0;
+    for (const InstrumentDescription& force : cable.force) any |= force.lag > 0;
+  }
+  for (const StrutDescription& strut : scene.struts) any |= strut.gauge.lag > 0;
+  return any;
+}
+
 // What all scenes of a header have in common.
 struct Shared {
   explicit Shared(const std::vector<ExportedScene>& scenes)
@@ -531,8 +541,7 @@ struct Shared {
       }
       has.strokes |= !scene.in_double.prior.stroke.empty();
       for (const double sd : scene.in_double.prior.seating_sd) has.seating |= sd > 0;
-      for (const auto& ends : scene.in_double.prior.cell)
-        for (const LoadCell<double>& cell : ends) has.lags |= cell.lag > 0;
+      has.lags |= has_lags(scene.description);
     }
     capacity = most.value_or(CondensedCounts{});
   }

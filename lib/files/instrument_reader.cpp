@@ -78,13 +78,16 @@ void read_force_cell(const Field& item, bool may_be_exact, InstrumentDescription
   }
   if (const auto lag = item.find("lag")) {
     instrument.lag = lag->amount("the time constant of a filter [s] as a number");
-    if (!(instrument.lag >= 0 && instrument.lag <= 60))
-      lag->refuse("a time constant of " + plain(instrument.lag) + " s", "write one from 0 to 60: it is in seconds");
+    if (!(instrument.lag >= 0 && instrument.lag <= 10))
+      lag->refuse("a time constant of " + plain(instrument.lag) + " s",
+                  "write one from 0 to 10: it is in seconds");
   }
   if (const auto hysteresis = item.find("hysteresis")) read_hysteresis(*hysteresis, instrument);
   if (const auto calibration = item.find("calibration")) read_calibration(*calibration, instrument);
   if (const auto exact = item.find("exact")) {
     instrument.exact = exact->boolean("true or false");
+    if (instrument.exact && instrument.lag > 0)
+      exact->refuse("a load cell that lags is not exact", "remove \"lag\", or this and write its \"sd\"");
     if (instrument.exact && !may_be_exact)
       exact->refuse("only the load cell of a jack can be exact", "remove it, and write its \"sd\"");
   }

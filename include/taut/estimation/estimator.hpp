@@ -312,7 +312,7 @@ auto Estimator<CondensedType, Parameters, Further>::advance(const ReadingsType& 
       return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
   if constexpr (Cap::lags) {
     ReadingsType undone = readings;
-    parts_.lagging.undo(parts_.filter.prior().cell, undone);
+    parts_.lagging.undo(parts_.filter.prior().cell, parts_.model().most_force, undone);
     return follow_row(undone, event_budget);
   } else {
     return follow_row(readings, event_budget);

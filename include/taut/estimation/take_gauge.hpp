@@ -192,7 +192,7 @@ Update take_gauges(Parts& parts, const Predict& predict,
 template <template <class> class Rule, class Parts, class Predict>
 void take_gauge(Parts& parts, const Predict& predict, typename Parts::Scalar reading, Gauge gauge,
                 const Alarm& contradiction) {
-  if (parts.gauges.has(gauge) && !parts.gauges.undo_lag(gauge, reading)) return;
+  if (parts.gauges.has(gauge) && std::isfinite(reading) && !parts.gauges.undo_lag(gauge, reading)) return;
   FixedList<GaugeReading<typename Parts::Scalar>, 1> readings;
   readings.add({gauge, reading});
   static_cast<void>(take_gauges<Rule>(parts, predict, readings, contradiction));

@@ -17,7 +17,7 @@ struct LoadCell {
   Scalar zero_sd = 0;        ///< of the zero [N]
   Scalar hysteresis_sd = 0;  ///< of half the width between the branches [-]
   Scalar up = 1, down = 1;   ///< reading by force on both branches [-]
-  Scalar lag = 0;            ///< time constant of a filter [s]; 0: none
+  Scalar lag = 0;            ///< time constant of a filter [s]; 0: none, as of a jack's with sd 0
 
   template <class Other>
   static constexpr LoadCell of(const LoadCell<Other>& other) {
@@ -26,8 +26,8 @@ struct LoadCell {
             static_cast<Scalar>(other.up),      static_cast<Scalar>(other.down),
             static_cast<Scalar>(other.lag)};
   }
-  /// Standard deviation of the noise of what LaggingReading makes of readings, at least: had that in front of
-  /// the filter been no more, readings would scatter by less than `sd`.
+  /// Standard deviation of the noise of what LaggingReading makes of readings, at least: so much of it stands
+  /// in front of the filter where readings scatter by `sd`.
   constexpr Scalar noise() const { return lag > 0 ? Scalar(2.83) * sd : sd; }
   constexpr bool has_branches() const { return up != 1 || down != 1 || hysteresis_sd > 0; }
   /// Unknown constants of it: gain, zero, hysteresis.
