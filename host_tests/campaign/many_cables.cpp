@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -197,7 +198,9 @@ class Trial {
   void judge(const Run<double>& run, const taut::Status& status, int row, const Begun& begun) {
     const std::string reason = std::string(row < 0 ? "start: " : "") + taut::describe(status.code);
     const auto say = [&](bool failed, const std::string& verdict) {
-      (failed ? tally_.failures : tally_.confirmed)[reason + ": " + verdict].push_back(seed_);
+      const std::string far =
+          failed && slides_beyond_itself(run) ? ", a cable having slid by more than it is long" : "";
+      (failed ? tally_.failures : tally_.confirmed)[reason + ": " + verdict + far].push_back(seed_);
       if (talkative) std::printf("  judged: %s%s\n", failed ? "FAILED, " : "", verdict.c_str());
     };
     if (status.code == taut::Code::pulled_through && row >= 0)
@@ -220,6 +223,24 @@ class Trial {
       return say(false, solved ? "load steps jump there" : "all other answers are far away");
     if (from_there.pivot() < Exact(1e-12L)) return say(false, "a mechanism by its rank");
     say(false, from_there.exhausted() ? "no combination of states is an answer" : "no other answer found");
+  }
+  /// Whether a cable has slid over a joint by more than its length: where nodes are held so softly the theory
+  /// of small displacements is at its end, and totals have lost their digits.
+  bool slides_beyond_itself(const Run<double>& run) const {
+    const auto moves = run.tracker().slip_state();
+    for (const auto& cable : world_.scene.cables) {
+      double length = 0;
+      for (int i = cable.first_path; i + 1 < cable.first_path + cable.nodes; ++i) {
+        const auto &a = world_.scene.nodes[world_.scene.path[i]].at,
+                   &b = world_.scene.nodes[world_.scene.path[i + 1]].at;
+        double square = 0;
+        for (std::size_t k = 0; k < a.size(); ++k) square += (b[k] - a[k]) * (b[k] - a[k]);
+        length += std::sqrt(square);
+      }
+      for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
+        if (std::fabs(moves.slip[j]) > length) return true;
+    }
+    return false;
   }
   bool is_pulled_through(const Run<double>& run, int c) const {
     const support::Anatomy<SceneType> anatomy(world_.scene);
