@@ -73,6 +73,10 @@ template <class Parts>
     if (jacks[k].take(locked, given, readings.dt, parts.cell(k), parts.most_force(k), held, corners,
                       [&] { return sees_rise(parts, k, given.force, beside); }))
       parts.alarms.add(Parts::alarm_at(Alarm::Kind::outlier, jacks.end(k)));
+    if constexpr (Parts::Cap::lags) {
+      const Scalar late = parts.lagging.late(jacks.end(k).cable(), jacks.end(k).end);
+      if (jacks[k].is_new && late > 0) jacks[k].come_late(late);
+    }
     if (jacks[k].standing.is_frozen()) parts.alarms.add(Parts::alarm_at(Alarm::Kind::frozen, jacks.end(k)));
     if (jacks[k].is_new) jacks[k].beside = beside.force;
     has_more |= given.has_stroke | (jacks[k].locked & given.has_force);

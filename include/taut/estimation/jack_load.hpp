@@ -146,6 +146,11 @@ struct JackLoad {
     filter.start(cell.noise());
     noise.start(cell.noise());
   }
+  /// After take(): the new reading is that of a time ago [s], and the load may have gone on as it did before.
+  void come_late(Scalar late) {
+    const Scalar gone = step_by / stride * late;
+    at.sd = std::sqrt(at.sd * at.sd + gone * gone);
+  }
   /// The load has come down to what this first reading says [N].
   void come_down(Scalar reading, const LoadCell<Scalar>& cell) {
     filter.start_at(cell.noise(), reading, cell.noise(), false);

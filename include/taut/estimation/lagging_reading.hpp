@@ -39,6 +39,8 @@ class LaggingReading {
     reading = force_;
     return counts_;
   }
+  /// How long ago the force in a ramp was what was made of the last reading that counted [s].
+  Scalar late() const { return late_; }
 
  private:
   /// Of a stride: where rows are one apart, times that do not add up to it must not make it two.
@@ -50,13 +52,14 @@ class LaggingReading {
     if (!counts_) return;
     const Scalar a = has_last_ ? decay(since_ / lag) : Scalar(0);
     force_ = reading + a / (1 - a) * (reading - last_);
+    late_ = has_last_ ? lag - since_ * a / (1 - a) : Scalar(0);
     last_ = reading;
     since_ = 0;
     has_last_ = true;
   }
 
   Scalar since_ = 0;  // the last reading that counted [s]
-  Scalar last_ = 0, force_ = 0;
+  Scalar last_ = 0, force_ = 0, late_ = 0;
   bool has_last_ = false, is_taken_ = false, counts_ = false;
 };
 
@@ -77,6 +80,9 @@ class LaggingCells {
           given.has_force = cells_[c][end].undo(cells[c][end].lag, given.force);
       }
   }
+
+  /// LaggingReading::late() of the load cell at an end; zero where it has no lag.
+  Scalar late(int cable, std::size_t end) const { return cells_[cable][end].late(); }
 
  private:
   FixedArray<std::array<LaggingReading<Scalar>, 2>, Cap::lags ? Cap::cables : 0> cells_;
