@@ -228,15 +228,12 @@ class Trial {
   /// of small displacements is at its end, and totals have lost their digits.
   bool slides_beyond_itself(const Run<double>& run) const {
     const auto moves = run.tracker().slip_state();
-    for (const auto& cable : world_.scene.cables) {
+    const auto& scene = world_.scene;
+    for (int c = 0; c < scene.cables.size(); ++c) {
+      const auto& cable = scene.cables[c];
       double length = 0;
-      for (int i = cable.first_path; i + 1 < cable.first_path + cable.nodes; ++i) {
-        const auto &a = world_.scene.nodes[world_.scene.path[i]].at,
-                   &b = world_.scene.nodes[world_.scene.path[i + 1]].at;
-        double square = 0;
-        for (std::size_t k = 0; k < a.size(); ++k) square += (b[k] - a[k]) * (b[k] - a[k]);
-        length += std::sqrt(square);
-      }
+      for (int k = 0; k < cable.segments(); ++k)
+        length += taut::CableElement<double, SceneType::dimension>::of(scene, c, k).line.length;
       for (int j = cable.first_joint; j < cable.first_joint + cable.joints(); ++j)
         if (std::fabs(moves.slip[j]) > length) return true;
     }

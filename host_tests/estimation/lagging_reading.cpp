@@ -114,7 +114,7 @@ TEST_CASE("a force that rests is found with the first reading whose stride it ha
   }
 }
 
-TEST_CASE("load stages are left as they are read: a load that rests is not gone on") {
+TEST_CASE("load stages are left as they are read") {
   constexpr double lag = 1;
   taut::LaggingReading<double> reading;
   for (int stage = 1; stage <= 5; ++stage)

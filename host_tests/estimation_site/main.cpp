@@ -125,13 +125,14 @@ void read_struts(Random& random, const InstrumentRules& rules, Jacked& jacked) {
     const Cable& cable = jacked.ground.cables[c];
     const int j = random.below(cable.joints());
     const auto struts = jacked.ground.struts_at(cable, j);
-    const auto full = jacked.ground.strut_forces(cable, j, cable.full, cable.full);
+    const auto full = jacked.ground.strut_forces(struts, cable, j, cable.full, cable.full);
     const auto before = static_cast<std::size_t>(cable.first_segment + j);
     for (std::size_t k = 0; k < 2; ++k)
       read_gauge(
           random, rules, "strut" + std::to_string(struts[k] + 1), std::fabs(full[k]),
           [&](const Deed& deed) {
-            return jacked.ground.strut_forces(cable, j, deed.tension[before], deed.tension[before + 1])[k];
+            return jacked.ground.strut_forces(struts, cable, j, deed.tension[before],
+                                              deed.tension[before + 1])[k];
           },
           jacked);
   }

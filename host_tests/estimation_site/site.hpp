@@ -58,8 +58,9 @@ struct Ground {
       if (struts[b].to == cable.path[static_cast<std::size_t>(j) + 1]) found[count++] = static_cast<int>(b);
     return found;
   }
-  /// Their forces, tension positive, by statics from the tensions before and behind the joint.
-  std::array<double, 2> strut_forces(const Cable& cable, int j, double before, double behind) const {
+  /// The forces of these two, tension positive, by statics from the tensions before and behind the joint.
+  std::array<double, 2> strut_forces(const std::array<int, 2>& bars, const Cable& cable, int j, double before,
+                                     double behind) const {
     const auto i = static_cast<std::size_t>(j);
     const auto& joint = at(cable, i + 1);
     const auto toward = [&](const std::array<double, 2>& node) {
@@ -67,7 +68,6 @@ struct Ground {
       return std::array<double, 2>{x / length, y / length};
     };
     const auto back = toward(at(cable, i)), on = toward(at(cable, i + 2));
-    const auto bars = struts_at(cable, j);
     const auto foot = [&](std::size_t k) {
       return toward(nodes[static_cast<std::size_t>(struts[static_cast<std::size_t>(bars[k])].from)]);
     };
