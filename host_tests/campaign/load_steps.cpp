@@ -231,11 +231,12 @@ class LoadSteps::Stepper {
     Exact last = 1;
     bool found = false;
     exhausted_ = true;
-    sound_ = Exact(1e-12L);
     coarsest_ = Exact(1e-15L);
     // Behind joints with a small rho forces change by 1 / rho times as much as in front of them.
     for (const Exact size : {1e-6L, 1e-8L, 1e-10L, 1e-12L}) {
       const Exact part = std::min(Exact(1), size * peak_ / push);
+      // What may be off by as much as the step is no answer to it.
+      sound_ = std::min(Exact(1e-12L), size / 100);
       const Exact reach = std::max(100 * size, Exact(1e-11L));
       if (!nearest(between(now, goal, part), kept, before, reach * peak_, 10 * size * peak_)) continue;
       const Exact change = (tension_ - before).cwiseAbs().maxCoeff() / peak_;
@@ -249,6 +250,7 @@ class LoadSteps::Stepper {
     pivot_ = smallest_pivot();
     if (found) return Way::goes_on;
     const Exact part = std::min(Exact(1), Exact(1e-5L) * peak_ / push);
+    sound_ = Exact(1e-12L);
     found = nearest(between(now, goal, part), kept, before, 2 * peak_, 2 * peak_);
     // From nothing at all an answer to any part of the way is one to every part.
     const bool nothing = before.cwiseAbs().maxCoeff() <= Exact(1e-12L) * peak_ &&

@@ -217,10 +217,11 @@ class Trial {
     if (way == LoadSteps::Way::goes_on) return say(true, "it goes on from the state reached");
     const bool slow = slow_judgements-- > 0;
     if (slow && solved_by_reference()) return say(true, "solved by the reference");
-    const bool solved = solved_in_load_steps() || (slow && solved_by_stepwise());
-    if (solved && way == LoadSteps::Way::none) return say(true, "solved in load steps");
-    if (way == LoadSteps::Way::jumps)
-      return say(false, solved ? "load steps jump there" : "all other answers are far away");
+    const InLoadSteps few = in_load_steps(few_steps, row);
+    const bool solved = few.solved || (slow && solved_by_stepwise());
+    const bool jumps = way == LoadSteps::Way::jumps || (few.solved && jumps_however_small(few, row));
+    if (solved && !jumps) return say(true, "solved in load steps");
+    if (jumps) return say(false, solved ? "load steps jump there" : "all other answers are far away");
     if (from_there.pivot() < Exact(1e-12L)) return say(false, "a mechanism by its rank");
     say(false, from_there.exhausted() ? "no combination of states is an answer" : "no other answer found");
   }
@@ -284,15 +285,33 @@ class Trial {
     return judge.probe(now, goal, moves, Exact(run.peak()));
   }
 
-  bool solved_in_load_steps() const {
+  /// The whole log in load steps, and the largest change of a force in one of those of a row (-1: of the
+  /// prestrain), as a part of the largest force.
+  struct InLoadSteps {
+    bool solved = false;
+    double change = 0;
+  };
+  InLoadSteps in_load_steps(int count, int row_of_interest) const {
+    InLoadSteps found;
     LoadSteps steps(world_.scene);
-    bool good = steps.start(few_steps);
-    for (std::size_t row = 0; good && row < world_.samples.size(); ++row)
-      good = steps.advance(reference::write_out(world_.samples[row]), few_steps);
+    bool good = steps.start(count);
+    for (int row = -1; good; ++row) {
+      if (row == row_of_interest) found.change = double(steps.largest_change());
+      if (row + 1 == int(world_.samples.size())) break;
+      good = steps.advance(reference::write_out(world_.samples[std::size_t(row + 1)]), count);
+    }
     if (talkative)
-      std::printf("  load steps: %s, violation %.1e\n", good ? "solved" : "not solved",
-                  double(steps.violation()));
-    return good && steps.violation() <= Exact(accepted_double);
+      std::printf("  %d load steps a row: %s, violation %.1e, forces change by %.1e at once\n", count,
+                  good ? "solved" : "not solved", double(steps.violation()), found.change);
+    found.solved = good && steps.violation() <= Exact(accepted_double);
+    return found;
+  }
+  /// Whether forces change as much in one of four times as many load steps: then load steps have an answer
+  /// because they may jump to it.
+  bool jumps_however_small(const InLoadSteps& few, int row) const {
+    if (!(few.change > accepted_deviation)) return false;
+    const InLoadSteps many = in_load_steps(many_steps, row);
+    return many.solved && many.change > few.change / 2;
   }
   bool solved_by_reference() const {
     if (world_.scene.mu.size() > most_joints_of_reference) return false;
