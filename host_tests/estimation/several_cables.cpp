@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
+#include <new>
 #include <vector>
 
 #include "estimation/saddle_rows.hpp"
@@ -195,4 +197,24 @@ TEST_CASE_TEMPLATE(
     }
   CAPTURE(worst);
   CHECK(worst < 0.15 * noise);
+}
+
+TEST_CASE_TEMPLATE("what was in the memory of an estimator before does not matter", Scalar, double, float) {
+  std::vector<Scalar> found[2];
+  for (const int before : {0x00, 0xFF}) {
+    const std::unique_ptr<void, void (*)(void*)> memory(::operator new(sizeof(Pair<Scalar>)),
+                                                        [](void* at) { ::operator delete(at); });
+    std::memset(memory.get(), before, sizeof(Pair<Scalar>));
+    auto* const pair = new (memory.get()) Pair<Scalar>(true, 0.05, 0.05, 1);
+    pair->scatters = false;
+    for (int row = 1; row <= 60; ++row) pair->advance({2e5 * row / 60, 0});
+    for (int row = 1; row <= 6; ++row) pair->advance({2e5 * (1 - 0.02 * row / 6), 0});
+    for (int row = 1; row <= 60; ++row) pair->advance({2e5 * 0.98, 2e5 * row / 60});
+    for (int i = 0; i < pair->model().segments; ++i) {
+      found[before != 0].push_back(pair->estimator().force(i));
+      found[before != 0].push_back(pair->estimator().deviation(i));
+    }
+    pair->~Pair<Scalar>();
+  }
+  CHECK(found[0] == found[1]);
 }

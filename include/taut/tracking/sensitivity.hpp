@@ -154,8 +154,7 @@ class Sensitivity {
   void forget(int p) {
     use(p);
     frozen_.derivative[p] = {};
-    piece_[p].base.clear();
-    for (Column& column : piece_[p].column) column.clear();
+    piece_[p].clear();
   }
   /// From here on parameter `p` is also by how much further input `k` went before it turned, or before its
   /// jack was locked.
@@ -224,6 +223,10 @@ class Sensitivity {
   struct Piece {
     Column base;
     Plain<Column, Map::max_inputs> column;
+    void clear() {
+      base.clear();
+      for (Column& each : column) each.clear();
+    }
   };
 
   /// At inputs `x`, with the tensions there.
@@ -252,8 +255,9 @@ class Sensitivity {
       }
   }
 
+  /// In the map that was made nothing depends on those that are new.
   void use(int parameter) {
-    if (parameter >= frozen_.used) frozen_.used = parameter + 1;
+    for (; frozen_.used <= parameter; ++frozen_.used) piece_[frozen_.used].clear();
   }
   Scalar& of_variable(const SlipVariable& variable, int p) { return frozen_.derivative[p].of(variable); }
 
