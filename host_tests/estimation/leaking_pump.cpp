@@ -86,3 +86,32 @@ TEST_CASE("holds tell little of friction, ramps as much as before") {
   CHECK(known_after(400, 0) < 0.6 * known_after(100, 0));
   CHECK(known_after(100, 1000) > 0.5 * known_after(100, 0));
 }
+
+TEST_CASE("a pump that is worked again for a row, and leaks on, has turned twice") {
+  // At commit 6b34cad the jack was taken to go the other way from then on, and bars at the end were up to a
+  // hundred times as wide.
+  for (const int strokes : {1, 2, 5}) {
+    Score held;
+    double widest = 0;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+      const auto pumped = std::make_unique<ReadSite>(SaddleSite(), seed);
+      const double top = 0.8 * full, lost = 4 * pumped->site.noise;
+      const auto row = [&](double load) {
+        pumped->row(load);
+        pumped->site.add_to(held, pumped->estimator());
+      };
+      for (int i = 1; i <= 30; ++i) row(top * i / 30);
+      for (int i = 0; i < 8 * strokes; ++i) row(top - lost * (i % 8 + 1));
+      for (int i = 0; i <= 4; ++i) row(top - lost * i);
+      const double from = top - 4 * lost;
+      for (int i = 1; i <= 30; ++i) row(from + (full - from) * i / 30);
+      for (int i = 0; i < 12; ++i) row(full);
+      widest = std::fmax(widest, pumped->estimator().deviation(0) / pumped->site.noise);
+    }
+    MESSAGE("", strokes, " strokes, seeds 1 to 40: ", 100 * held.share(), " % held, rms ", held.rms(),
+            "; at the end bars are up to ", widest, " of the noise");
+    CHECK(widest < 6);
+    CHECK(held.share() > 0.93);
+    CHECK(held.rms() < 1.1);
+  }
+}

@@ -94,6 +94,12 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.jacking.least_leak = 0.0005;
     c.jacking.most_leak = 0.02;
   }
+  {
+    Case& c = add("pumped-again", Demand::model);
+    c.jacking.least_leak = 0.005;
+    c.jacking.most_leak = 0.02;
+    c.jacking.pumped_again = true;
+  }
   add("cells-in-turn", Demand::model).instruments.in_turn = true;
   add("any-pace", Demand::model).jacking.any_pace = true;
   {

@@ -36,11 +36,12 @@ struct JackingRules {
   double ram = 0, ram_sd = 0;            ///< friction of the rams, part of the force, and how much it differs
   double ripple = 0;                     ///< of the pump, part of the force
   double least_leak = 0, most_leak = 0;  ///< of the force that the pump loses in a hold, part
+  bool pumped_again = false;             ///< a few times in a hold, within a row
 
   auto all() const {
     return std::tie(stages, least_rate, every_row, lock, visit, swings, loop, in_turns, together,
                     jacks_in_turn, any_pace, dead_load, warming, warming_locked, sized, year_rows, year_sd,
-                    relaxation, ram, ram_sd, ripple, least_leak, most_leak);
+                    relaxation, ram, ram_sd, ripple, least_leak, most_leak, pumped_again);
   }
 };
 
@@ -277,12 +278,14 @@ class Jacking {
     const double change = loads ? random_.between(-0.2, 0.3) : 0;
     const Way dead_way = some_window(from.factor[dead], from.factor[dead] + change);
     const double leak = rules_.most_leak > 0 ? log_between(random_, rules_.least_leak, rules_.most_leak) : 0;
+    const int between = rules_.pumped_again ? std::max(4, pace.rows / (2 + random_.below(5))) : pace.rows;
     for (int i = 1; i <= pace.rows; ++i) {
       Deed deed = next(phase, i, pace);
-      const double part = double(i) / pace.rows;
+      const double part = double(i) / pace.rows,
+                   lost = rules_.pumped_again ? double(i % between) / between : part;
       deed.factor[sun] = from.factor[sun] + warming * part;
       deed.factor[dead] = dead_way.at(part);
-      for (const std::size_t c : active_) deed.pulls[c].level = from.pulls[c].level * (1 - leak * part);
+      for (const std::size_t c : active_) deed.pulls[c].level = from.pulls[c].level * (1 - leak * lost);
       add(deed, true);
     }
   }

@@ -99,10 +99,10 @@ Progress<typename TrackerType::Scalar> pull_more(TrackerType& tracker, const Jac
 }
 
 /// Drives the tracker to where jacks were a row ago, before the other loads began to change, then to where
-/// loads have reversed, then to the loads that ends had when they were locked. leave(to) is called before
-/// each path; remember(k, sd, turns) where jack `k` reversed or was locked at a load of that standard
-/// deviation [N], and whether it turned there; remember_load(k) where it was a row ago, or once it has
-/// reversed since. Fails as Tracker::advance() does. Cost: that of drive_straight() four times.
+/// loads have reversed, some of them twice, then to the loads that ends had when they were locked. leave(to)
+/// is called before each path; remember(k, sd, turns) where jack `k` reversed or was locked at a load of that
+/// standard deviation [N], and whether it turned there; remember_load(k) where it was a row ago, or once it
+/// has reversed since. Fails as Tracker::advance() does. Cost: that of drive_straight() five times.
 template <class TrackerType, class Jacks, class Leave, class Remember, class RememberLoad, class Hold>
 Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks& jacks,
                                                      const Corners<typename TrackerType::Scalar>& corners,
@@ -135,10 +135,14 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
   const auto a_row_ago = [&](int k) { return jacks[k].corner(); };
   const auto has_reversed = [&](int k) { return jacks[k].has_reversed(); };
   if (corners.loads) go([&](int k) { return !has_reversed(k); }, a_row_ago, remember_load);
-  if (corners.reverses)
+  if (corners.reverses) {
+    go([&](int k) { return jacks[k].turned_before; },
+       [&](int k) { return come_no_farther(k, jacks[k].had_risen_before(), jacks[k].first_turn); },
+       [&](int k) { remember(k, jacks[k].first_turn_sd, true); });
     go(
         has_reversed, [&](int k) { return come_no_farther(k, jacks[k].had_risen(), jacks[k].at.reversal); },
         [&](int k) { remember(k, jacks[k].turn_sd, true); });
+  }
   if (corners.loads)
     go([&](int k) { return has_reversed(k) && jacks[k].changes_rest(); }, a_row_ago, remember_load);
   if (corners.locks)
@@ -149,7 +153,7 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
 }
 
 /// Drives the tracker through the corners to `target`, where more happens than that a load changes. Fails as
-/// Tracker::advance() does; the jacks are then where the path ended. Cost: that of drive_straight() five
+/// Tracker::advance() does; the jacks are then where the path ended. Cost: that of drive_straight() six
 /// times, and of pull_more().
 template <class TrackerType, class Jacks, class SampleType, class Leave, class Remember, class RememberLoad,
           class Hold>

@@ -86,7 +86,9 @@ struct JackLoad {
   bool teaches = false;       ///< those of this row were counted
   std::uint8_t refusals = 0;  ///< in a row
   bool locks_now = false, locked = false;
-  ElongationCheck<Scalar> elongation;  ///< of the leg that it is on
+  bool turned_before = false;  ///< in this row, too, before it reversed: at `first_turn` [N], see below
+  Scalar first_turn = 0, first_turn_sd = 0;  ///< known to a standard deviation [N]
+  ElongationCheck<Scalar> elongation;        ///< of the leg that it is on
   std::uint8_t below = 0;  ///< locked: readings in a row that were confirmed to be below what the wedge holds
   /// Unknown errors of its load where it reversed, was locked or rested, or -1. The next one joins
   /// what matters least.
@@ -256,9 +258,24 @@ struct JackLoad {
       at.confirmed = up * taken;
   }
 
-  /// That reading is believed after all; no force is below zero.
-  void come_to_refused() {
-    filter.start_at(filter.sd(), larger(refused, Scalar(0)), filter.sd(), refused > believed);
+  /// That reading is believed after all; no force is below zero. If the load had gone the other way until
+  /// then, it has turned before, where it was farthest.
+  void come_to_refused(const LoadCell<Scalar>& cell) {
+    const bool goes_up = refused > believed;
+    if (goes_up != rises) {
+      turned_before = true;
+      first_turn = farthest;
+      first_turn_sd = farthest_sd;
+      rises = goes_up;
+      if (cell.has_branches()) {
+        turned = farthest;
+        turned_sd = farthest_sd;
+        pulls = goes_up;
+      }
+      turning.clear();
+      turning.add(believed, 0, filter.sd());
+    }
+    filter.start_at(filter.sd(), larger(refused, Scalar(0)), filter.sd(), goes_up);
     turning.add(refused, 0, filter.sd());
     believed = refused;
     refusals = 0;
@@ -366,7 +383,7 @@ struct JackLoad {
   [[nodiscard]] bool take(bool locks, const EndReading<Scalar>& given, Scalar dt,
                           const LoadCell<Scalar>& cell, Scalar most, const HeldByWedge<Scalar>& held,
                           Corners<Scalar>& corners, const Seen& is_seen = Seen()) {
-    is_new = locks_now = goes_on = teaches = false;
+    is_new = locks_now = goes_on = teaches = turned_before = false;
     load_before = at.load;
     at.reversed = false;
     since += dt;
@@ -405,7 +422,7 @@ struct JackLoad {
     }
     if (is_held) reading = std::numeric_limits<Scalar>::quiet_NaN();
     if (guard.has_moved()) filter.lose();
-    if (was_peak(reading)) come_to_refused();
+    if (was_peak(reading)) come_to_refused(cell);
     const int run_length = filter.run_length();
     const bool was_alone = at.alone && refusals == 1;
     new (&at) ConditionedLoad<Scalar>(filter.take(reading, since));
@@ -462,8 +479,8 @@ struct JackLoad {
     since = 0;
     is_new = at.is_sure();
     if (taught > filter.run_length()) taught = filter.run_length();
-    corners.reverses |= at.reversed;
-    if (at.reversed) elongation.begin_leg();
+    corners.reverses |= at.reversed || turned_before;
+    if (at.reversed || turned_before) elongation.begin_leg();
     return finds_outlier(given.force, std::isfinite(possible(given.force, most)), was_alone);
   }
   /// Unknowns were learned with so many of its readings, the one of this row among them.
@@ -520,6 +537,8 @@ struct JackLoad {
   /// Whether it went up where it is locked in this row.
   bool locks_rising() const { return rises != at.reversed; }
   bool has_reversed() const { return (!locked || locks_now) && at.reversed; }
+  /// The same until it turned before that.
+  bool had_risen_before() const { return at.reversed ? rises : !rises; }
   /// Whether all sticks that its wedge let slide back, at whatever load it may have taken over.
   bool stays_taken() const { return taken > 0 && !(at.load > taken); }
   /// Whether its cable is where the best estimate of its load is: the load is read, has not perhaps turned,
