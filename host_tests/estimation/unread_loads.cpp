@@ -157,3 +157,77 @@ TEST_CASE("of two jacks one that is not read is held by friction within what the
     }
   }
 }
+
+TEST_CASE(
+    "where a load turns while nobody reads it, bars have how far it may have gone, and the far end tells") {
+  // At commit 6b34cad forces that friction held were up to 42 deviations off.
+  for (const bool has_far : {false, true})
+    for (const bool are_rows : {true, false})
+      for (const int rows : {4, 8, 16}) {
+        CAPTURE(has_far);
+        CAPTURE(are_rows);
+        CAPTURE(rows);
+        Score after, held;
+        int alarms = 0;
+        for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+          SaddleSite site;
+          site.has_far = has_far;
+          site.noise = 0.001 * full;
+          const auto jacking = std::make_unique<ReadSite>(site, seed);
+          support::Random random(seed);
+          const double step = 0.01 * full, rest = random.between(0, rows);
+          double load = 0;
+          for (int i = 0; i < 60; ++i) jacking->row(load += step);
+          // Up, a rest, and down: as many rows as are not read.
+          const double up = random.between(0, rows - rest);
+          for (int i = 1; i <= rows; ++i) {
+            const double gone = std::fmin(i, up) - std::fmax(0, i - up - rest);
+            jacking->site.pull(load + std::fmin(up, std::fmax(i - 1.0, gone)) * step);
+            if (are_rows) jacking->row(load + gone * step, false);
+          }
+          load += (up - (rows - up - rest)) * step;
+          for (int i = 0; i < 20; ++i) {
+            jacking->row(load, true, true, are_rows || i > 0 ? 1 : rows + 1);
+            jacking->site.add_to(held, jacking->estimator());
+          }
+          for (int i = 0; i < 30; ++i) {
+            jacking->row(load -= step / 2);
+            jacking->site.add_to(after, jacking->estimator());
+          }
+          alarms += jacking->alarms;
+        }
+        MESSAGE("rows ", rows, ", as empty fields ", are_rows, ", far end ", has_far, ": ",
+                100 * held.share(), " % held, rms ", held.rms(), "; after that ", 100 * after.share(),
+                " %, rms ", after.rms(), "; alarms ", alarms);
+        CHECK(held.share() > 0.9);
+        CHECK(held.rms() < 1.3);
+        CHECK(after.share() > 0.9);
+        CHECK(after.rms() < 1.3);
+        CHECK(alarms <= 3);
+      }
+}
+
+TEST_CASE(
+    "a load cell of a jack that is not read for long raises an alarm, and one that is read in turn does "
+    "not") {
+  const auto unread = [](const ReadSite& jacking) {
+    return raised(jacking.estimator().alarms(), taut::Alarm::Kind::unread);
+  };
+  ReadSite jacking({}, 1);
+  for (int i = 1; i <= 50; ++i) jacking.row(0.02 * full * std::fmin(i, 30));
+  for (int i = 1; i <= 10; ++i) {
+    jacking.row(0.6 * full, false);
+    CHECK_FALSE(unread(jacking));
+  }
+  for (int i = 1; i <= 100; ++i) {
+    jacking.row(0.6 * full, false);
+    CHECK(unread(jacking));
+  }
+  jacking.row(0.6 * full);
+  CHECK_FALSE(unread(jacking));
+  // Once in eight rows, as far apart as those before.
+  for (int i = 1; i <= 80; ++i) {
+    jacking.row(0.6 * full, i % 8 == 0);
+    CHECK_FALSE(unread(jacking));
+  }
+}

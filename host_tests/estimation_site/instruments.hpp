@@ -21,6 +21,7 @@ struct InstrumentRules {
   double step = 0;           ///< of the display, part
   bool loose_plug = false;   ///< the jack's, for 5 to 15 rows
   bool in_turn = false;      ///< each row has the reading of one end only
+  bool drops_out = false;    ///< the jack's is not read for 3 to 20 rows, now and then
   bool far_freezes = false;  ///< the far cell keeps its value from the first ramp on
   double gauge_gain_sd = 0, gauge_zero_sd = 0;  ///< of gauges on segments and struts: relative, part
   bool gauges_freeze = false;  ///< those of the first joint or segment keep a value of the first ramp
@@ -71,6 +72,15 @@ inline void loosen_plug(support::Random& random, double full, std::vector<double
 /// One logger asks one cell after the other: that at the end in even rows, that at the start in odd ones.
 inline void read_in_turn(std::vector<double>& end, std::vector<double>& start) {
   for (std::size_t i = 0; i < end.size(); ++i) (i % 2 == 0 ? start : end)[i] = std::nan("");
+}
+
+/// Now and then, once in 60 rows, nothing is read for 3 to 20 rows.
+inline void drop_out(support::Random& random, std::vector<double>& readings) {
+  for (std::size_t i = 10 + std::size_t(random.below(100)); i < readings.size();) {
+    const std::size_t end = std::min(readings.size(), i + 3 + std::size_t(random.below(18)));
+    for (; i < end; ++i) readings[i] = std::nan("");
+    i += 20 + std::size_t(random.below(80));
+  }
 }
 
 /// From a row on the value of that row is shown.

@@ -79,6 +79,7 @@ Readings read_cable(Random& random, const InstrumentRules& rules, const Jacked& 
     for (const Deed& deed : jacked.rows)
       readings.stroke[0].push_back(deed.pulls[c].extension[0] + 0.001 * gaussian(random));
   if (rules.in_turn) read_in_turn(readings.end, readings.start);
+  if (rules.drops_out) drop_out(random, readings.end);
   if (rules.loose_plug) loosen_plug(random, full, readings.end, last_free);
   if (rules.far_freezes) freeze(readings.start, static_cast<int>(last_of_ramp * random.between(0.3, 0.8)));
   return readings;

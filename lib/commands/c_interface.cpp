@@ -314,9 +314,10 @@ int @name@_alarms(void) { return is_started ? estimator.alarms().size() : 0; }
 const char* @name@_alarm_name(int kind) {
   static constexpr const char* names[] = {"outlier",    "sensor",    "mu",             "stuck",   "elongation",
                                           "force-high", "force-low", "no-information", "gauge",   "lift-off",
-                                          "gauge",      "unknown-past", "model-misfit", "frozen", "gain"};
+                                          "gauge",      "unknown-past", "model-misfit", "frozen", "gain",
+                                          "unread"};
   constexpr int count = static_cast<int>(sizeof names / sizeof names[0]);
-  static_assert(count == static_cast<int>(taut::Alarm::Kind::gain) + 1, "every kind has a name");
+  static_assert(count == static_cast<int>(taut::Alarm::Kind::unread) + 1, "every kind has a name");
   return kind >= 0 && kind < count ? names[kind] : "?";
 }
 

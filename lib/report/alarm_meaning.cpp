@@ -6,7 +6,7 @@
 namespace taut::host {
 namespace {
 
-constexpr std::array<std::pair<const char*, AlarmMeaning>, 16> meanings = {{
+constexpr std::array<std::pair<const char*, AlarmMeaning>, 17> meanings = {{
     {"outlier",
      {"A reading of the load cell at this jack does not belong to the others. It was left out.",
       "Nothing, if it is rare. If it comes again and again, check the cell, its cable and its sd in the "
@@ -50,6 +50,10 @@ constexpr std::array<std::pair<const char*, AlarmMeaning>, 16> meanings = {{
     {"frozen",
      {"The load cell keeps one value although the load moves. What it shows since then is no measurement.",
       "Check the cell, its cable and the logger. Leave its fields in the log empty until it reads again."}},
+    {"unread",
+     {"The load cell of this jack has not been read for long, while rows went on. Its load is taken to be "
+      "where it was.",
+      "Check the cell, its plug and the logger. If the pump was worked meanwhile, forces are others."}},
     {"gain",
      {"The load cell at this anchored end and that of the jack surely differ by more than 1 % of the force. "
       "The intervals hold for it; the forces would be known better if they did not.",

@@ -180,6 +180,7 @@ constexpr Translation translations[] = {
     {"nobody knows how {1} came under load (pull on or use --state)",
      "{1} 如何受力不得而知（继续张拉或使用 --state）",
      "niemand weiß, wie {1} unter Last kam (weiter ziehen oder --state)"},
+    {"the load cell at {1} is not read", "{1} 的测力计没有读数", "die Messdose an {1} wird nicht gelesen"},
     {"the load cell at {1} keeps one value although the load moves", "{1} 的测力计读数不变而荷载在变",
      "die Messdose bei {1} zeigt einen festen Wert, obwohl die Last sich ändert"},
     {"{1} does not fit the model", "{1} 与模型不符", "{1} passt nicht zum Modell"},
@@ -362,6 +363,14 @@ constexpr Translation translations[] = {
     {"Check the cell, its cable and the logger. Leave its fields in the log empty until it reads again.",
      "检查测力计、导线和采集仪。恢复之前记录中该列留空。",
      "Messdose, Kabel und Messgerät prüfen. Ihre Felder im Protokoll leer lassen, bis sie wieder misst."},
+    {"The load cell of this jack has not been read for long, while rows went on. Its load is taken to be "
+     "where it was.",
+     "该千斤顶的测力计已久无读数，而记录仍在继续。其荷载按原值计。",
+     "Die Messdose dieser Presse wurde lange nicht gelesen, während Zeilen kamen. Ihre Last gilt als die von "
+     "zuletzt."},
+    {"Check the cell, its plug and the logger. If the pump was worked meanwhile, forces are others.",
+     "检查测力计、插头和采集仪。若其间油泵曾工作，则力已不同。",
+     "Messdose, Stecker und Messgerät prüfen. Wurde inzwischen gepumpt, sind die Kräfte andere."},
     {"The load cell at this anchored end and that of the jack surely differ by more than 1 % of the force. "
      "The intervals hold for it; the forces would be known better if they did not.",
      "该锚固端测力计与千斤顶测力计之差确已超过力的 1 %。区间已计入；若无此差，力会更准。",

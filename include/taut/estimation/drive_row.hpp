@@ -77,7 +77,10 @@ template <class Parts>
       const Scalar late = parts.lagging.late(jacks.end(k).cable(), jacks.end(k).end);
       if (jacks[k].is_new && late > 0) jacks[k].come_late(late);
     }
-    if (jacks[k].standing.is_frozen()) parts.alarms.add(Parts::alarm_at(Alarm::Kind::frozen, jacks.end(k)));
+    if (jacks[k].standing.is_frozen())
+      parts.alarms.add(Parts::alarm_at(Alarm::Kind::frozen, jacks.end(k)));
+    else if (jacks[k].is_silent())
+      parts.alarms.add(Parts::alarm_at(Alarm::Kind::unread, jacks.end(k)));
     if (jacks[k].is_new) jacks[k].beside = beside.force;
     has_more |= given.has_stroke | (jacks[k].locked & given.has_force);
   }

@@ -152,7 +152,11 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   }
   /// Whether it surely slides throughout, with friction as well as it is known. Cost: a pass over its joints.
   bool surely_slides(int c) const {
-    return sliding_way.surely_slides(c, filter.relative_deviation(tracker, c));
+    // Where nobody saw a load turn, joints begin to slide as much sooner or later.
+    Scalar unseen = 0;
+    for (int k = 0; k < jacks.size(); ++k)
+      if (jacks[k].turned_unseen && jacks.end(k).cable() == c) unseen += jacks[k].turn_sd;
+    return sliding_way.surely_slides(c, filter.relative_deviation(tracker, c), unseen);
   }
   /// Whether forces teach its friction: it surely slides throughout, on the present piece.
   bool teaches(int c) const { return !is_beyond[c] && surely_slides(c); }

@@ -31,10 +31,10 @@ typename TrackerType::Scalar carried_over(const TrackerType& tracker, const EndT
 /// the loads and of friction: T + dT/dF (F - driven) + dT/dmu (mu - mu_0), not below zero. The standard
 /// deviation has that of the loads, of friction and its scatter, and of what friction remembers, Eq. (20);
 /// zero if not `HasDeviation`. A load that may be elsewhere may have let joints slide that stick here; of one
-/// that may have turned friction may hold more than it is confirmed to have done; a joint that slides since a
-/// turn may stick, as `turned` has it. What a load is off by for readings that taught friction as well counts
-/// once, Eq. (66). Cost: one product a jack and unknown in use, and with a deviation half
-/// the square of the unknowns.
+/// that may have turned friction may hold more than it is confirmed to have done, and of one that was not
+/// read for a while more than it was seen to do; a joint that slides since a turn may stick, as `turned` has
+/// it. What a load is off by for readings that taught friction as well counts once, Eq. (66). Cost: one
+/// product a jack and unknown in use, and with a deviation half the square of the unknowns.
 template <bool HasDeviation, class TrackerType, class Jacks, class FilterType, class Turned>
 ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tracker, const Jacks& jacks,
                                                            const FilterType& filter, const Turned& turned,
@@ -58,12 +58,15 @@ ForceEstimate<typename TrackerType::Scalar> estimate_force(const TrackerType& tr
                  further = slope * (is_held ? load.come_beyond() : load.beyond());
     T += further;
     if (!HasDeviation || load.locked) continue;
-    const bool may_be_back = load.may_be_back() && is_behind_joints;
-    const Scalar most = is_elsewhere || may_be_back ? carried_over(tracker, at, segment) : Scalar(0);
+    const bool may_be_back = load.may_be_back() && is_behind_joints,
+               went_unread = load.missed > 0 && is_behind_joints;
+    const Scalar most =
+        is_elsewhere || may_be_back || went_unread ? carried_over(tracker, at, segment) : Scalar(0);
     // Where the load may be elsewhere, joints that stick may slide.
     const Scalar part =
         larger(std::fabs(slope), is_elsewhere ? most : Scalar(0)) * (is_held ? load.at.come_sd : load.at.sd);
     variance += part * part;
+    if (went_unread) variance += most * load.missed * most * load.missed / 4;
     if (!is_elsewhere && !may_be_back) by_shared[k] = slope * load.taught_part();
     if (!may_be_back) continue;
     // If it has reversed, the force did not follow from where it was farthest.

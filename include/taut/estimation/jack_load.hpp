@@ -78,9 +78,12 @@ struct JackLoad {
   bool goes_on = false;                  ///< surely, in this row
   bool is_new = false;                   ///< `raw` is of this row, and was believed
   bool is_unread = false;                ///< its cell was not read in this row
-  Scalar read_sd = 0;                    ///< then the standard deviation of the load where it was last [N]
-  Scalar step_by = 0, stride = 0;        ///< how far it had come since the reading before [N], in that time
-  Scalar believed = 0, refused = 0;      ///< the last reading that was believed, and that was not [N]
+  bool went_on = false;                  ///< surely, as it was read last
+  bool turned_unseen = false;            ///< once it has turned while it was not read
+  Scalar missed = 0;   ///< by how much it may have gone farther while it was not read, and come back [N]
+  Scalar read_sd = 0;  ///< then the standard deviation of the load where it was last [N]
+  Scalar step_by = 0, stride = 0;    ///< how far it had come since the reading before [N], in that time
+  Scalar believed = 0, refused = 0;  ///< the last reading that was believed, and that was not [N]
   Scalar beside = 0;  ///< what the cell at the other end of the cable read with the one that was believed [N]
   std::int32_t taught = 0;    ///< readings of the line that it is on with which unknowns were learned
   bool teaches = false;       ///< those of this row were counted
@@ -220,19 +223,37 @@ struct JackLoad {
     constexpr Scalar surely = 6;
     Scalar come = at.load;
     if (at.alone) return;
+    const Scalar hidden = gone_missed();
     goes_on = at.reversed || (filter.goes_on() && short_of_farthest(at.load) == 0);
     if (at.reversed) {
+      missed = larger(missed, hidden);
+      if (missed > 0) {
+        at.reversal += rises ? missed / 2 : -missed / 2;
+        at.reversal_sd = half_missed_beside(larger(at.reversal_sd, sd_before));
+        missed = 0;
+        turned_unseen = true;
+      }
       turn_sd = at.reversal_sd > 0 ? at.reversal_sd : larger(sd_before, back(at.reversal));
       rises = !rises;
     } else {
       come = rises ? -larger(-at.load, -raw - beyond) : larger(at.load, raw - beyond);
       const Scalar further = rises ? come - farthest : farthest - come;
+      missed = larger(hidden, missed - larger(further, Scalar(0)));
       if (at.refused || !(further > 0)) return;
       goes_on |= further > surely * beyond;
     }
     farthest = come;
     farthest_sd = larger(at.sd, beyond);
   }
+  /// By how much the load may have gone farther since it was read last, and have come back, at the pace that
+  /// it had [N]: where it was on its way, and rows were missed in between. Half of that is the most likely.
+  Scalar gone_missed() const {
+    constexpr Scalar gap = 3;
+    if (!went_on || !(stride > 0 && stride <= JumpGuard<Scalar>::far_apart && since > gap * stride)) return 0;
+    return larger(step_by / stride * since - std::fabs(at.load - load_before), Scalar(0)) / 2;
+  }
+  /// The standard deviation of a turn that is known to `sd` but for that [N].
+  Scalar half_missed_beside(Scalar sd) const { return std::sqrt(sd * sd + missed * missed / 4); }
   /// Whether the one reading that was refused before this one was a peak of the load: the load has come at
   /// least half-way there.
   bool was_peak(Scalar reading) const {
@@ -317,6 +338,11 @@ struct JackLoad {
     at.come_sd = at.sd = std::sqrt(read_sd * read_sd + gone * gone);
     at.refused |= gone > filter.sd() / branch(cell) || !filter.knows_pace();
   }
+  /// Whether it rested when it was read last, and has not been read for so long that the pump may well have
+  /// been worked meanwhile: of a load that was on its way bars have that.
+  bool is_silent() const {
+    return is_unread && !locked && !went_on && since > 2 * JumpGuard<Scalar>::far_apart && since > 8 * stride;
+  }
   /// Another cell shows that it has gone on, by at least so much [N].
   void leave_unread(Scalar by) {
     at.sd = larger(at.sd, by);
@@ -338,8 +364,14 @@ struct JackLoad {
   void lock(const LoadCell<Scalar>& cell, Corners<Scalar>& corners) {
     const Scalar come_back = back(at.load), fallen = rises ? at.come - at.load : at.load - at.come;
     const bool has_turned = come_back > (since > JumpGuard<Scalar>::far_apart ? Scalar(0) : 5 * filter.sd());
-    at.reversed = has_turned || fallen > 3 * at.come_sd;
-    if (at.reversed) {
+    at.reversed = has_turned || missed > 0 || fallen > 3 * at.come_sd;
+    if (at.reversed && missed > 0) {
+      at.reversal = farthest + (rises ? missed : -missed) / 2;
+      turn_sd = half_missed_beside(farthest_sd);
+      missed = 0;
+      turned_unseen = true;
+      corners.reverses = true;
+    } else if (at.reversed) {
       at.reversal = has_turned ? farthest : at.come;
       turn_sd = has_turned ? farthest_sd : at.come_sd;
       const auto turn = has_turned ? turn_beside(farthest * branch(cell), rises) : TurnedLoad<Scalar>();
@@ -364,6 +396,7 @@ struct JackLoad {
     farthest_sd = held.deviation;
     rises = true;
     at = {};
+    missed = 0;
     turned = 0;
     pulls = true;
     locked = false;
@@ -478,6 +511,7 @@ struct JackLoad {
       fastest_seen = step_by / stride;
     since = 0;
     is_new = at.is_sure();
+    went_on = goes_on && filter.sd() > 0 && filter.knows_pace();
     if (taught > filter.run_length()) taught = filter.run_length();
     corners.reverses |= at.reversed || turned_before;
     if (at.reversed || turned_before) elongation.begin_leg();
@@ -563,8 +597,8 @@ struct JackLoad {
   /// too little to be seen: joints stick then that are taken to slide, Eq. (64).
   Scalar doubt() const {
     if (is_in_doubt()) return larger(at.sd, back(at.load));
-    if (locked || goes_on) return 0;
-    return larger(rises ? farthest - at.load : at.load - farthest, Scalar(0)) + farthest_sd;
+    if (locked || (goes_on && missed == 0)) return 0;
+    return larger(rises ? farthest - at.load : at.load - farthest, Scalar(0)) + farthest_sd + missed;
   }
   /// Where the tracker is driven to for a row [N].
   Scalar target() const { return larger(at.confirmed, first); }

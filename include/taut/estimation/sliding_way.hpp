@@ -32,9 +32,11 @@ class SlidingWay {
     if (began_[c] == 0) ceased_[c] = here;
     (slides ? began_ : ceased_)[c] = here;
   }
-  /// Whether it surely does, with friction that is known to the part `mu_sd`, Eq. (35).
-  bool surely_slides(int c, Scalar mu_sd) const {
-    return slides_[c] && way_ - ceased_[c] >= (1 + deviations * mu_sd) * (began_[c] - ceased_[c]);
+  /// Whether it surely does, with friction that is known to the part `mu_sd`, Eq. (35), and the load where it
+  /// turned to `turn_sd` [N].
+  bool surely_slides(int c, Scalar mu_sd, Scalar turn_sd = 0) const {
+    return slides_[c] &&
+           way_ - ceased_[c] >= (1 + deviations * mu_sd) * (began_[c] - ceased_[c]) + deviations * turn_sd;
   }
 
  private:
