@@ -37,6 +37,8 @@ class ActiveSet {
   /// Pivots, relative to their row and column: below, no digit is left; and the next one would be better
   /// first, a guess is worth no less.
   static constexpr Real singular = Real(1e-12), small = Real(1e-4);
+  static constexpr bool may_be_either = Cap::saddles && !has_rigid_saddles<Cap>;
+  static constexpr bool has_chains = has_rigid_saddles<Cap> || may_be_either;
 
   /// Begins with an empty set, and looks the model through once. The model must outlive it.
   void begin(const CondensedType& model) {
@@ -57,6 +59,13 @@ class ActiveSet {
   }
   int size() const { return active_.size(); }
   bool is_full() const { return size() >= model_->segments; }
+  /// Whether the segments know nothing of one another.
+  bool is_chains() const {
+    if constexpr (may_be_either)
+      return is_diagonal_;
+    else
+      return has_chains;
+  }
   const ActiveConstraint& operator[](int i) const { return active_[i]; }
   const ActiveConstraints& actives() const { return active_; }
 
@@ -175,15 +184,7 @@ class ActiveSet {
   /// A pivot that leaves enough digits in a float.
   static constexpr Real sound = Real(1e-3);
 
-  static constexpr bool may_be_either = Cap::saddles && !has_rigid_saddles<Cap>;
-  static constexpr bool has_chains = has_rigid_saddles<Cap> || may_be_either;
   static constexpr bool has_rows = !has_rigid_saddles<Cap>;
-  bool is_chains() const {
-    if constexpr (may_be_either)
-      return is_diagonal_;
-    else
-      return has_chains;
-  }
   bool has_diagonal_coupling() const {
     for (int i = 0; i < model_->segments; ++i)
       for (int k = 0; k < i; ++k)

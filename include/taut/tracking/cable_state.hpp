@@ -15,10 +15,12 @@ struct CableModes {
   FixedArray<JointState, Cap::joints> slides;  ///< stick, or the way: its friction is at this limit
   FixedList<std::int16_t, Cap::joints> order;  ///< joints that slide, as they began
   FixedArray<bool, max_spans<Cap>> slack;      ///< of spans: without tension, with length to spare
+  FixedArray<bool, max_spans<Cap>> rests;      ///< of spans: without tension, whatever their length
   SlipState<Real, Cap> moved;  ///< slips, extensions and slack lengths where the piece was begun
 
   friend bool operator==(const CableModes& a, const CableModes& b) {
-    return a.slides == b.slides && a.order == b.order && a.slack == b.slack && a.moved == b.moved;
+    return a.slides == b.slides && a.order == b.order && a.slack == b.slack && a.rests == b.rests &&
+           a.moved == b.moved;
   }
 };
 
@@ -36,7 +38,6 @@ struct CableState : CableModes<typename CondensedType::Real, typename CondensedT
   Loads now;   ///< load factors, jack forces and locked extensions reached
   Loads goal;  ///< the end of the path that was asked for
 
-  FixedArray<bool, max_spans<Cap>> rests;  ///< of spans: without tension since its jacks are at zero
   /// Of spans: the segment with the largest tension.
   FixedArray<std::int16_t, max_spans<Cap>> representative;
 
@@ -58,10 +59,10 @@ struct CableState : CableModes<typename CondensedType::Real, typename CondensedT
   /// Compares the whole.
   friend bool operator==(const CableState& a, const CableState& b) {
     return static_cast<const Modes&>(a) == static_cast<const Modes&>(b) && a.now == b.now &&
-           a.goal == b.goal && a.rests == b.rests && a.representative == b.representative &&
-           a.built == b.built && a.has_load == b.has_load && a.has_map == b.has_map &&
-           a.arrived == b.arrived && a.last == b.last && a.tension == b.tension && a.live == b.live &&
-           a.reach == b.reach && a.has_range == b.has_range && a.peak == b.peak;
+           a.goal == b.goal && a.representative == b.representative && a.built == b.built &&
+           a.has_load == b.has_load && a.has_map == b.has_map && a.arrived == b.arrived && a.last == b.last &&
+           a.tension == b.tension && a.live == b.live && a.reach == b.reach && a.has_range == b.has_range &&
+           a.peak == b.peak;
   }
 };
 

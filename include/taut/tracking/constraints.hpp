@@ -51,6 +51,46 @@ class Constraints {
     cables_.is_set_up = false;
     return add_equalities();
   }
+  /// Only jacks, and spans that rest: what others then have no choice in. False if its laws contradict.
+  bool set_up_rest() {
+    map_.clear();
+    map_.set().hold(Real(0));
+    cables_.is_set_up = false;
+    return add_jacks_and_rest();
+  }
+  /// Whether the tension of a segment depends on its length while all at work follows.
+  bool depends(int segment) {
+    // Where statics give its force, no length does.
+    if (!(model_.coupling(segment, segment) > 0)) return false;
+    const int size = map_.active();
+    const auto on = static_cast<std::int16_t>(segment);
+    const bool has_pivot =
+        map_.set().append(laws_, {SlipVariable::of(SlipVariable::Kind::slack_length, 0, segment), on, 0, -1});
+    map_.set().truncate(size);
+    return has_pivot;
+  }
+  /// Of a slack span, whose tensions are zero, the slips follow and its slack length: add_slack_length(). A
+  /// ring keeps the slip of one joint: it may turn freely. False if other laws say some of that already.
+  bool add_slack_slips(int r) {
+    const typename Cables::Span& span = spans_[r];
+    bool all = true;
+    for (int i = 0; i + 1 < span.count; ++i)
+      all = map_.set().append(
+                laws_, {laws_.slip(span.joint(i)), static_cast<std::int16_t>(span.segment(i)), 0, -1}) &&
+            all;
+    return all;
+  }
+  bool add_slack_length(int r) {
+    const typename Cables::Span& span = spans_[r];
+    return map_.set().append(laws_, {SlipVariable::of(SlipVariable::Kind::slack_length, r, span.segment(0)),
+                                     static_cast<std::int16_t>(span.segment(span.count - 1)), 0, -1});
+  }
+  /// Where another law says the same already, there is nothing to add.
+  void add_gliding() {
+    for (int j = 0; j < cables_.joints(); ++j)
+      if (cables_.glides(j) && cables_.can_slide(j))
+        static_cast<void>(map_.set().append(laws_, laws_.gliding(j)));
+  }
   /// Whether the laws that imply one another agree; if not, a node is free.
   bool is_held(bool totally) const {
     if (!map_.is_held()) return true;
@@ -97,14 +137,17 @@ class Constraints {
   }
   /// What follows whatever happens: jacks, spans without tension, joints without friction.
   bool add_equalities() {
+    if (!add_jacks_and_rest()) return false;
+    for (int r = 0; r < spans_.size(); ++r)
+      if (state_.slack[r] && !(add_slack_slips(r) && add_slack_length(r))) return false;
+    add_gliding();
+    return true;
+  }
+  bool add_jacks_and_rest() {
     for (const JackedEnd& jack : cables_.jacks)
       if (!add_jack(jack.cable, jack.end)) return false;
     for (int r = 0; r < spans_.size(); ++r)
-      if (state_.slack[r] ? !add_slack_span(r) : state_.rests[r] && !add_resting_span(r)) return false;
-    // Where another law says the same already, there is nothing to add.
-    for (int j = 0; j < cables_.joints(); ++j)
-      if (cables_.glides(j) && cables_.can_slide(j))
-        static_cast<void>(map_.set().append(laws_, laws_.gliding(j)));
+      if (state_.rests[r] && !add_resting_span(r)) return false;
     return true;
   }
   bool add_slides(Real least) {
@@ -128,22 +171,8 @@ class Constraints {
     if (!goal.locked && !cables_.is_redundant(c, end)) map_.add_input(Input::Kind::jack_force, index);
     if (goal.locked && start.extension != goal.extension) map_.add_input(Input::Kind::extension, index);
   }
-  /// Its tensions are zero; its slips and its slack length follow. A ring keeps the slip of one joint: it
-  /// may turn freely.
-  bool add_slack_span(int r) {
-    const typename Cables::Span& span = spans_[r];
-    for (int i = 0; i < span.count; ++i) {
-      const bool last = i == span.count - 1;
-      const SlipVariable variable =
-          last ? SlipVariable::of(SlipVariable::Kind::slack_length, r, span.segment(0))
-               : laws_.slip(span.joint(i));
-      if (!map_.set().append(laws_, {variable, static_cast<std::int16_t>(span.segment(i)), 0, -1}))
-        return false;
-    }
-    return true;
-  }
   /// Its jacks keep the end segments at zero, its slips all others. Between two jacks the cable may move as a
-  /// whole; one joint keeps its place.
+  /// whole; one joint keeps its place. Without a jack other laws say some of that already, or all.
   bool add_resting_span(int r) {
     const typename Cables::Span& span = spans_[r];
     bool at_start = false, at_end = false;
@@ -151,10 +180,11 @@ class Constraints {
       at_start = at_start || (cables_.pulls(jack, span) && jack.end == 0);
       at_end = at_end || (cables_.pulls(jack, span) && jack.end == 1);
     }
-    const bool at_both = max_jacks<Cap> >= 2 && at_start && at_end;
+    const bool at_both = max_jacks<Cap> >= 2 && at_start && at_end, at_none = !at_start && !at_end;
     for (int i = at_both ? 1 : 0; i < span.joints(); ++i)
       if (!map_.set().append(laws_, {laws_.slip(span.joint(i)),
-                                     static_cast<std::int16_t>(span.segment(at_end ? i : i + 1)), 0, -1}))
+                                     static_cast<std::int16_t>(span.segment(at_end ? i : i + 1)), 0, -1}) &&
+          !at_none)
         return false;
     return true;
   }

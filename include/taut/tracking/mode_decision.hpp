@@ -4,6 +4,7 @@
 #include "taut/tracking/constraints.hpp"
 #include "taut/tracking/event.hpp"
 #include "taut/tracking/mode_solver.hpp"
+#include "taut/tracking/resting_spans.hpp"
 #include "taut/tracking/route.hpp"
 
 namespace taut {
@@ -40,6 +41,7 @@ class ModeDecision {
         state_(cables.state),
         map_(cables.map),
         constraints_(cables),
+        resting_(cables, constraints_),
         events_(cables) {}
 
   /// Decides what sticks, slides and is slack from here on, and makes the map for it. `ending` is what ended
@@ -108,6 +110,7 @@ class ModeDecision {
   }
 
   using Solver = ModeSolver<typename Cables::Model, Laws>;
+  using Lengths = typename RestingSpans<Cables>::Lengths;
   using SlipModes = FixedList<SlipMode, 2 * Cap::joints>;
   using Spans = FixedArray<bool, max_spans<Cap>>;
   /// Of the largest force: how much further on an answer is looked for, and how near it must be.
@@ -133,33 +136,23 @@ class ModeDecision {
       state_.representative[r] = static_cast<std::int16_t>(most);
     }
   }
-  /// A jack at zero that stays there leaves its span slack: no segment has tension, the cable moves over
-  /// every joint as the structure does, and what is too long is the jack's.
+  /// Spans that have no tension whatever their length: nothing is decided there.
   void find_resting() {
-    for (int r = 0; r < spans_.size(); ++r) {
-      bool rests = cables_.is_jacked(spans_[r]) &&
-                   cables_.force[state_.representative[r]] <= cables_.force_tolerance();
-      for (const JackedEnd& jack : cables_.jacks)
-        if (cables_.pulls(jack, spans_[r]))
-          rests = rests && state_.now.jack[jack.cable][jack.end].force <= cables_.force_tolerance() &&
-                  state_.goal.jack[jack.cable][jack.end].force <= cables_.force_tolerance();
-      if (rests == state_.rests[r]) continue;
-      cables_.freeze();
-      state_.rests[r] = rests;
-      cables_.drop_set();
-      for (int i = 0; rests && i < spans_[r].joints(); ++i) cables_.stop(spans_[r].joint(i));
-      if (!rests) forget_rest(spans_[r]);
-    }
+    resting_.find_jacked();
+    if (!resting_.is_open()) return;
+    cables_.freeze();
+    Lengths none;
+    none.fill(Real(0));
+    find_idle(none, false);
   }
-  /// While a span rests its joints follow a jack's error as they need not when it pulls; a strut that only
-  /// its cable holds goes far then.
-  void forget_rest(const Span& span) {
-    if constexpr (Cables::is_adjustable && Cables::Model::has_level)
-      cables_.derivatives.for_each([&](auto& moved, int) {
-        for (int i = 0; i < span.joints(); ++i) moved.slip[span.joint(i)] = 0;
-      });
-    else
-      static_cast<void>(span);
+  [[gnu::noinline]] void find_idle(const Lengths& growth, bool totally) {
+    if constexpr (RestingSpans<Cables>::may_depend) {
+      if (!resting_.may_any_depend()) return;
+      Tensions stuck;
+      find_stuck(totally, stuck);
+      resting_.find_idle(
+          stuck, [&](typename Map::Values& due) { dues(totally, due); }, growth, totally);
+    }
   }
   /// Spans that are wholly at zero, where what follows is decided from nothing.
   bool find_zero(const Ending& ending, Spans& zero) const {
@@ -380,6 +373,7 @@ class ModeDecision {
   /// From rates, or from all forces where there are none.
   bool solve_anew(const Spans& zero, const SlipModes& modes, bool totally, int covering = 0) {
     const auto was_slack = state_.slack;
+    const auto rested = state_.rests;
     for (int r = 0; r < spans_.size(); ++r)
       if (zero[r]) state_.slack[r] = false;
     if (constraints_.set_up_equalities() && find_modes(zero, modes, totally, covering) &&
@@ -388,6 +382,7 @@ class ModeDecision {
       if (constraints_.is_held(totally)) return true;
     }
     state_.slack = was_slack;
+    state_.rests = rested;
     cables_.drop_set();
     return false;
   }
@@ -445,6 +440,9 @@ class ModeDecision {
     read_slides();
     FixedArray<Real, Cap::joints> flow;
     flow.fill(Real(0));
+    Lengths growth;
+    growth.fill(Real(0));
+    bool any_slack = false;
     for (int p = 0; p < solver.pairs().size(); ++p) {
       const auto& pair = solver.pairs()[p];
       if (!solver.is_active(p)) continue;
@@ -457,7 +455,8 @@ class ModeDecision {
       while (spans_[r].segment(i) != pair.index) ++i;
       const Pull pull = pull_on(spans_[r], i, totally);
       if (pull.jack == nullptr) {
-        state_.slack[r] = true;
+        state_.slack[r] = any_slack = true;
+        growth[r] += solver.value(p) / model_.coupling(pair.index, pair.index);
         continue;
       }
       for_each_joint_toward(*pull.jack, spans_[r], i, [&](int joint, JointState way) {
@@ -469,10 +468,12 @@ class ModeDecision {
                                                  : way;
       });
     }
+    if (any_slack) find_idle(growth, totally);
     const auto slid = state_.order;
     state_.order.clear();
     for (const std::int16_t j : slid) {
-      if (state_.slack[spans_.of(laws_.sides(j)[0])])
+      const int span = spans_.of(laws_.sides(j)[0]);
+      if (state_.slack[span] || state_.rests[span])
         state_.slides[j] = JointState::stick;
       else
         state_.order.add(j);
@@ -520,11 +521,15 @@ class ModeDecision {
   }
   /// All forces at the present loads, by Lemke's path from nothing.
   bool find_from_nothing() {
-    Spans all;
     for (int r = 0; r < spans_.size(); ++r) {
-      all[r] = !state_.rests[r];
-      if (all[r]) state_.moved.slack_length[r] = 0;
+      state_.slack[r] = false;
+      state_.moved.slack_length[r] = 0;
     }
+    Lengths none;
+    none.fill(Real(0));
+    find_idle(none, true);
+    Spans all;
+    for (int r = 0; r < spans_.size(); ++r) all[r] = !state_.rests[r];
     if (!solve_anew(all, all_limits(all), true)) return false;
     cables_.find_forces();
     return true;
@@ -577,6 +582,7 @@ class ModeDecision {
   State& state_;
   Map& map_;
   Constraints<Cables> constraints_;
+  RestingSpans<Cables> resting_;
   EventSearch<Cables> events_;
   Real stride_ = 1;  // of small steps that follow each other
   Real further_ = 0;
