@@ -275,6 +275,15 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     for (int k = 0; k < this->segments; ++k) sum += e[k] * mean_bend_.elongation[k];
     return sum;
   }
+  /// The largest part of a segment's own stiffness that geometry gives or takes at the lowest level. Costs
+  /// segments.
+  Real geometric_part() const {
+    Real most = 0;
+    for (int i = 0; i < this->segments; ++i)
+      if (source_->low.coupling(i, i) > 0)
+        most = larger(most, std::fabs(source_->rise.rows.elongation[i][i]) / source_->low.coupling(i, i));
+    return most * Curve::low / (Curve::high - Curve::low);
+  }
   const CondensedLean<Scalar, Cap>& lean() const { return source_->lean; }
   /// rho of a joint that holds rho in the scene's geometry.
   static Real scaled(Real flat, Real by) {

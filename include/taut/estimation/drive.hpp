@@ -82,7 +82,9 @@ Progress<typename TrackerType::Scalar> pull_more(TrackerType& tracker, const Jac
                                                  Progress<typename TrackerType::Scalar> progress) {
   using Scalar = typename TrackerType::Scalar;
   constexpr int most = 3;
-  const auto lacks_pull = [](Code code) { return code == Code::mechanism || code == Code::gives_way; };
+  const auto lacks_pull = [](Code code) {
+    return code == Code::mechanism || code == Code::gives_way || code == Code::state_iterations;
+  };
   for (int deviations = 1; deviations <= most && lacks_pull(progress.status.code); ++deviations) {
     bool pulls = false;
     for (int k = 0; k < jacks.size(); ++k) {
