@@ -99,6 +99,22 @@ TEST_CASE("a node that two cables alone hold is named where they are slack, thou
                 refused.err);
 }
 
+TEST_CASE("a node with a strut that one cable pulls aside is named, though the cable has no joint") {
+  const Scratch scratch;
+  std::ofstream(scratch.path / "scene.json") << R"({ "taut": 1, "name": "aside", "dimension": 2,
+    "nodes": { "n": [5, -1], "c": [10, -1], "d": [5, 4] },
+    "supports": { "c": "xy", "d": "xy" },
+    "struts": [ { "nodes": ["n", "d"], "E": 2e11, "A": 1e-3 } ],
+    "cables": [
+      { "name": "B", "path": ["n", "c"], "E": 2e11, "A": 1e-4, "start": "anchored", "end": "jacked" } ] })";
+  std::ofstream(scratch.path / "log.csv") << "time,B.end\n1,1000\n";
+  const Outcome refused =
+      run_taut(scratch, "simulate " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv"));
+  CHECK(refused.status == 1);
+  CHECK_MESSAGE(refused.err.find("node \"n\": mechanism: nothing holds this node; ") != std::string::npos,
+                refused.err);
+}
+
 TEST_CASE("a joint hangs on its cable in every direction that no member resists") {
   CHECK(directions("") == 2);
   CHECK(directions(R"("struts": [ { "nodes": ["p", "t"], "E": 2e11, "A": 4e-3 } ],)") == 1);

@@ -441,26 +441,29 @@ Sentence run_away_text(const Status& status, const SceneDescription& scene) {
   return {};
 }
 
-// Nothing but cables holds it: no support, and no strut, beam or substructure ends there.
-bool hangs_on_cables_alone(const SceneDescription& scene, int node) {
-  const auto is_at = [node](int other) { return other == node; };
-  const auto touches = [&](const auto& members) {
-    return std::any_of(members.begin(), members.end(), [&](const auto& member) {
-      return std::any_of(member.nodes.begin(), member.nodes.end(), is_at);
-    });
-  };
-  return scene.nodes[static_cast<std::size_t>(node)].held == held_none && !touches(scene.struts) &&
-         !touches(scene.beams) && !touches(scene.substructures);
+template <class Members>
+bool touches(const Members& members, int node) {
+  return std::any_of(members.begin(), members.end(), [node](const auto& member) {
+    return std::any_of(member.nodes.begin(), member.nodes.end(), [node](int other) { return other == node; });
+  });
+}
+// Nothing but cables and struts holds it: no support, and no beam or substructure ends there.
+bool hangs_on_bars(const SceneDescription& scene, int node) {
+  return scene.nodes[static_cast<std::size_t>(node)].held == held_none && !touches(scene.beams, node) &&
+         !touches(scene.substructures, node);
 }
 
-// A mechanism that the core places at a cable without joints is a node at an end of it.
+// A mechanism that the core places at a cable without joints is a node at an end of it: one that hangs on
+// cables alone, or else one with struts.
 Status at_its_node(const Status& status, const SceneDescription& scene) {
   if (status.code != Code::mechanism || status.place != Place::cable || status.index < 0 ||
       status.index >= static_cast<int>(scene.cables.size()))
     return status;
   const auto& path = scene.cables[static_cast<std::size_t>(status.index)].path;
-  for (const int node : {path.front(), path.back()})
-    if (hangs_on_cables_alone(scene, node)) return Status::at(Code::mechanism, Place::node, node);
+  for (const bool has_struts : {false, true})
+    for (const int node : {path.front(), path.back()})
+      if (hangs_on_bars(scene, node) && touches(scene.struts, node) == has_struts)
+        return Status::at(Code::mechanism, Place::node, node);
   return status;
 }
 
