@@ -359,3 +359,103 @@ TEST_CASE("two jacks at work over a strut that only its cable holds are refused,
   REQUIRE(tracker->advance(target).status.ok());
   CHECK(verify(*tracker).worst() < 1e-10);
 }
+
+namespace {
+
+struct TrussCap : taut::Capacity {
+  static constexpr int nodes = 6, struts = 1, cables = 4, segments = 4, joints = 2, loads = 1, forces = 1;
+  static constexpr int normals = 1;
+};
+using TrussModel = taut::SecondOrder<double, TrussCap>;
+
+constexpr double half_span = 20, rise = 1.4, truss_EA = 1.6e8;
+
+// A post between two cables that bulge away from each other, both with prestrain, and a load that lifts it.
+// In one piece the cables have a joint on the post.
+TrussModel cable_truss(double prestrain, bool in_one_piece) {
+  taut::Scene<double, 2, TrussCap> scene;
+  const int u = scene.add_node({0, 2 + rise}), d = scene.add_node({0, -2 - rise});
+  scene.add_strut(u, d, 2.1e13, 1);
+  taut::Cable<double> cable;
+  cable.E = truss_EA;
+  cable.A = 1;
+  cable.mu = 0.1;
+  for (const double way : {1.0, -1.0}) {
+    const int post = way > 0 ? u : d;
+    const int l = scene.add_node({-half_span, 2 * way}, taut::held_xy);
+    const int r = scene.add_node({half_span, 2 * way}, taut::held_xy);
+    if (in_one_piece) {
+      scene.add_cable(cable, {l, post, r});
+    } else {
+      scene.add_cable(cable, {l, post});
+      scene.add_cable(cable, {post, r});
+    }
+  }
+  for (int i = 0; i < scene.prestrain.size(); ++i) scene.prestrain[i] = prestrain;
+  scene.add_force(scene.add_load(), u, {0, 1});
+  TrussModel model;
+  TrussModel::Struts struts;
+  const auto condensation =
+      std::make_unique<taut::SecondOrderCondensation<double, taut::Scene<double, 2, TrussCap>>>();
+  REQUIRE(condensation->run(scene, {}, model, struts).ok());
+  return model;
+}
+
+// Of a segment over so much of height.
+double tension_over(double height, double prestrain) {
+  const double L = std::hypot(half_span, rise);
+  return truss_EA / L * (std::hypot(half_span, height) - L * (1 - prestrain));
+}
+
+// Where the post is under a load.
+double lift_of(double load, double prestrain) {
+  const auto held = [&](double height) {
+    return 2 * tension_over(height, prestrain) * height / std::hypot(half_span, height);
+  };
+  double least = 0, most = rise;
+  for (int i = 0; i < 100; ++i) {
+    const double lift = (least + most) / 2;
+    (held(rise + lift) - held(rise - lift) < load ? least : most) = lift;
+  }
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("of two cables that change alike in opposite ways second-order theory has the forces of both") {
+  // The sum of all tensions, and that of all bends, hardly change.
+  for (const double prestrain : {3e-4, 1e-3})
+    for (const bool in_one_piece : {true, false}) {
+      const auto model = std::make_unique<TrussModel>(cable_truss(prestrain, in_one_piece));
+      const auto tracker = std::make_unique<taut::Tracker<TrussModel>>();
+      REQUIRE(tracker->start(*model).status.ok());
+      for (const double part : {0.25, 0.5, 0.75, 1.0}) {
+        taut::Sample<double, TrussCap> sample;
+        sample.factor[0] = part * 4e7 * prestrain;
+        REQUIRE(tracker->advance(sample).status.ok());
+        const double lift = lift_of(sample.factor[0], prestrain);
+        const double upper = tension_over(rise + lift, prestrain);
+        INFO("prestrain ", prestrain, ", in one piece ", in_one_piece, ", load ", sample.factor[0], ", lift ",
+             lift);
+        CHECK(near(tracker->tension(0), upper, 1e-3));
+        CHECK(std::fabs(tracker->tension(2) - tension_over(rise - lift, prestrain)) <= 1e-3 * upper);
+        CHECK(verify(*tracker).worst() < 1e-10);
+      }
+    }
+}
+
+TEST_CASE("steps of geometry end at the same place in samples that no event meets and on one path") {
+  const auto model = std::make_unique<TrussModel>(cable_truss(1e-3, true));
+  const auto whole = std::make_unique<taut::Tracker<TrussModel>>();
+  const auto cut = std::make_unique<taut::Tracker<TrussModel>>();
+  REQUIRE(whole->start(*model).status.ok());
+  REQUIRE(cut->start(*model).status.ok());
+  taut::Sample<double, TrussCap> sample;
+  constexpr int pieces = 1000;
+  for (int i = 1; i <= pieces; ++i) {
+    sample.factor[0] = 4e4 * i / pieces;
+    REQUIRE(cut->advance(sample).status.ok());
+  }
+  REQUIRE(whole->advance(sample).status.ok());
+  for (int i = 0; i < model->low.segments; ++i) CHECK(near(cut->tension(i), whole->tension(i), 1e-9));
+}

@@ -251,6 +251,9 @@ using CondensedBeams = CondensedRows<Wide<Scalar>, Cap::beams, Cap>;
 /// Segments, struts and beams, in this order.
 template <class Cap>
 constexpr int max_bars = Cap::segments + Cap::struts + Cap::beams;
+/// What says how far geometry has changed: LevelModel::shifts().
+template <class Cap>
+constexpr int max_shifts = Cap::joints + Cap::segments* Cap::normals;
 
 /// What `Count` numbers of the state change by with a unit elongation of every strut and, after
 /// Capacity::struts, of every beam.

@@ -1,6 +1,7 @@
 // The condensed scene in second-order theory: linear at three levels, and what lies between them.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "taut/condensation/condensed.hpp"
@@ -158,12 +159,16 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   using Stretches = FixedArray<Real, max_bars<Cap>>;
   using Thrusts = FixedArray<Real, Cap::struts>;
   using Pushes = FixedArray<Real, Cap::struts * Cap::normals>;
+  using Shifts = FixedArray<Real, max_shifts<Cap>>;
   using Curve = LevelCurve<Real>;
   static constexpr bool has_level = true;
   /// A step of the level, at most. It is half of a level that is small.
   static constexpr Real step = Real(1) / 32;
-  /// By what part of itself the bend of the cable may change in a step, in the mean of all joints.
-  static constexpr Real bend_step = Real(1) / 512;
+  /// By how much kappa may change with the bend of the cable in a step, at any joint, as a part of the
+  /// largest one.
+  static constexpr Real friction_step = Real(1) / 512;
+  /// And by what angle [rad] any segment may turn.
+  static constexpr Real turn_step = Real(1) / 2048;
 
   /// Where a step began: all that the model is made from.
   struct Anchor {
@@ -185,7 +190,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   Anchor anchor;
   Real target_force = 0;             ///< T* of all segments together [N]
   Real least_sum = 0, most_sum = 0;  ///< of all tensions, while this step holds [N]
-  Real most_bending = 0;             ///< of bending(), up or down, while this step holds
+  Real most_shift = 0;               ///< of each of shifts(), up or down, while this step holds
   Kappas bend;                       ///< by what part of itself cot(alpha) has changed: Eq. (44)
   Kappas kappa_ratio;                ///< kappa of the displaced geometry, as a part of that of the scene
 
@@ -196,7 +201,7 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     target_force = source.target_force;
     anchor = {};
     anchor.level = Curve::low;
-    find_mean_bend();
+    find_shift_units();
     make();
   }
   /// Begins the next step at these loads and elongations [m], of which all tensions together are `sum` [N].
@@ -258,23 +263,38 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     take_friction(leant);
     const Real by = anchor.level < 2 * step ? anchor.level / 2 : step;
     most_sum = target_force * (anchor.level + by);
-    most_bending = is_tangent() ? bend_step : (std::numeric_limits<Real>::max)();
+    most_shift = is_tangent() ? Real(1) : (std::numeric_limits<Real>::max)();
     least_sum = is_lowest() ? std::numeric_limits<Real>::lowest() : target_force * (anchor.level - by);
   }
-  /// By what part of itself the bend of the cable has changed since the step began, in the mean of all
-  /// joints: beta of Eq. (44) without the length by which bars lean. Costs segments.
+  /// How far geometry has changed since the step began, of what a step allows: kappa at every joint by its
+  /// bend, beta of Eq. (44) without the length by which bars lean, and the direction of every segment along
+  /// its normals. Changes that go opposite ways do not hide each other. Costs segments x (joints + segments).
   template <class Loads, class Elongations>
-  Real bending(const Loads& drive, const Elongations& e) const {
-    return bending_by(drive.factor, e) - bending_by(anchor.factor, anchor.e);
+  Shifts shifts(const Loads& drive, const Elongations& e) const {
+    Shifts shifted = shifts_by(drive.factor, e);
+    const Shifts before = shifts_by(anchor.factor, anchor.e);
+    for (int n = 0; n < shift_count(); ++n) shifted[n] -= before[n];
+    return shifted;
   }
   /// What these load factors and elongations [m] do to it.
   template <class Factors, class Elongations>
-  Real bending_by(const Factors& factor, const Elongations& e) const {
-    Real sum = 0;
-    for (int k = 0; k < this->loads; ++k) sum += factor[k] * mean_bend_.load[k];
-    for (int k = 0; k < this->segments; ++k) sum += e[k] * mean_bend_.elongation[k];
-    return sum;
+  Shifts shifts_by(const Factors& factor, const Elongations& e) const {
+    Shifts by;
+    by.fill(Real(0));
+    const auto add = [&](Real amount, const Kappas& bends, const Asides& asides) {
+      if (bits_of(amount) == 0) return;
+      for (int j = 0; j < this->joints; ++j)
+        by[j] += amount * static_cast<Real>(shift_by_bend_[j]) * bends[j];
+      for (int m = 0; m < this->segments * Cap::normals; ++m)
+        by[this->joints + m] += amount * static_cast<Real>(shift_by_aside_[m / Cap::normals]) * asides[m];
+    };
+    const auto& bends = lean().bends.rows;
+    const auto& asides = lean().aside;
+    for (int k = 0; k < this->loads; ++k) add(factor[k], bends.load[k], asides.load[k]);
+    for (int k = 0; k < this->segments; ++k) add(e[k], bends.elongation[k], asides.elongation[k]);
+    return by;
   }
+  int shift_count() const { return this->joints + this->segments * Cap::normals; }
   /// The largest part of a segment's own stiffness that geometry gives or takes at the lowest level. Costs
   /// segments.
   Real geometric_part() const {
@@ -484,23 +504,25 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     }
   }
 
-  void find_mean_bend() {
-    const auto mean = [this](const Kappas& bends) {
-      Real sum = 0;
-      for (int j = 0; j < this->joints; ++j) sum += bends[j];
-      return this->joints > 0 ? sum / static_cast<Real>(this->joints) : Real(0);
-    };
-    const auto& rows = lean().bends.rows;
-    for (int k = 0; k < this->loads; ++k) mean_bend_.load[k] = mean(rows.load[k]);
-    for (int k = 0; k < this->segments; ++k) mean_bend_.elongation[k] = mean(rows.elongation[k]);
+  /// A joint that locks itself stays so; what turns is w / L = a sqrt(2 / L).
+  void find_shift_units() {
+    const auto kappa = [this](int j) { return this->is_self_locking(j) ? Real(0) : kappa_of(this->rho[j]); };
+    Real most = 0;
+    for (int j = 0; j < this->joints; ++j) most = larger(most, kappa(j));
+    for (int j = 0; j < this->joints; ++j)
+      shift_by_bend_[j] =
+          most > 0 ? static_cast<Scalar>(kappa(j) * lean().kappa_by_bend[j] / (most * friction_step))
+                   : Scalar(0);
+    for (int i = 0; i < this->segments; ++i)
+      shift_by_aside_[i] =
+          std::sqrt(static_cast<Scalar>(2 * lean().by_own_lean[i])) / static_cast<Scalar>(turn_step);
   }
 
   const Source* source_ = nullptr;
   LevelWeights<Real> weights_;  // at the anchor
-  struct {
-    FixedArray<Real, Cap::loads> load;
-    Tensions elongation;
-  } mean_bend_;  // of a unit of each
+  // shifts() by a unit of bends, and of how a segment leans.
+  FixedArray<Scalar, Cap::joints> shift_by_bend_;
+  FixedArray<Scalar, Cap::segments> shift_by_aside_;
 };
 
 }  // namespace taut

@@ -45,7 +45,7 @@ class JackPlanner {
   using Goal = JackGoal<Scalar, Cap>;
   using Moves = NextMoves<Scalar, Cap>;
   /// Turning points that a search looks at.
-  static constexpr int most_turns = 32;
+  static constexpr int most_turns = TrackerType::Model::has_level ? 64 : 32;
   /// Events of a leg, after which it is given up.
   static constexpr int most_leg = 4 * Cap::segments + (TrackerType::Model::has_level ? 128 : 32);
   /// Events in all after which the search ends with what it has.

@@ -54,17 +54,17 @@ struct CableSystem {
   Map map;
   Derivatives derivatives;
   struct Nothing {};
-  struct Bending {
-    Real base = 0;  ///< where the map was made
-    Inputs by;      ///< of a unit of every input
+  struct Shifts {
+    FixedArray<Scalar, max_shifts<Cap>> base;                             ///< where the map was made
+    FixedArray<FixedArray<Scalar, max_shifts<Cap>>, Map::max_inputs> by;  ///< of a unit of every input
   };
   Tensions total;          ///< tensions from all slips, made by the last test of forces [N]
   Tensions force;          ///< where the last event, or the last call with events, ended [N]
   Real push = 0;           ///< largest change of force that the path would make with every joint stuck [N]
   bool is_set_up = false;  ///< the slips of the map are those of the present modes
   bool has_redundant_jack = false;  ///< a cable of one segment has two jacks at work
-  /// Second-order theory: LevelModel::bending() along the map.
-  std::conditional_t<Model::has_level, Bending, Nothing> bending;
+  /// Second-order theory: LevelModel::shifts() along the map.
+  std::conditional_t<Model::has_level, Shifts, Nothing> shifts;
 
   /// Begins without loads; the goal is the prestrain.
   void begin(const CondensedType& condensed) {
@@ -241,12 +241,15 @@ struct CableSystem {
     map.tensions(x, force);
   }
 
-  // Bend, Eq. (44).
+  // How far geometry has changed in the present step of second-order theory.
 
   /// After the map was made.
-  void find_bending() {
+  void find_shifts() {
     if constexpr (Model::has_level) {
-      bending.base = model->bending(state.now, elongations_by(slip_state()));
+      const auto keep = [this](const auto& found, FixedArray<Scalar, max_shifts<Cap>>& kept) {
+        for (int n = 0; n < model->shift_count(); ++n) kept[n] = static_cast<Scalar>(found[n]);
+      };
+      keep(model->shifts(state.now, elongations_by(slip_state())), shifts.base);
       for (int k = 0; k < map.inputs(); ++k) {
         const Input& input = map.input(k);
         FixedArray<Real, Cap::loads> factor;
@@ -256,14 +259,14 @@ struct CableSystem {
         for (int i = 0; i < map.active(); ++i) moving.of(map.variable(i)) = map.column_value(k, i);
         if (input.kind == Input::Kind::extension)
           moving.extension[input.index / 2][static_cast<std::size_t>(input.index % 2)] = 1;
-        bending.by[k] = model->bending_by(factor, elongations_by(moving));
+        keep(model->shifts_by(factor, elongations_by(moving)), shifts.by[k]);
       }
     }
   }
   template <class Number, class Values, class Anchor>
-  Number bending_at(const Values& x, const Anchor& anchor) const {
-    auto sum = static_cast<Number>(bending.base);
-    for (int k = 0; k < map.inputs(); ++k) sum += (x[k] - anchor[k]) * static_cast<Number>(bending.by[k]);
+  Number shift_at(int n, const Values& x, const Anchor& anchor) const {
+    auto sum = static_cast<Number>(shifts.base[n]);
+    for (int k = 0; k < map.inputs(); ++k) sum += (x[k] - anchor[k]) * static_cast<Number>(shifts.by[k][n]);
     return sum;
   }
 

@@ -122,7 +122,7 @@ class Constraints {
     map_.make(laws_, cables_.total, values, x);
     if constexpr (Cables::is_adjustable) cables_.derivatives.drop();
     state_.has_map = true;
-    cables_.find_bending();
+    cables_.find_shifts();
     state_.built = state_.now;
   }
 

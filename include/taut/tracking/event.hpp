@@ -13,7 +13,7 @@ struct Ending {
   Real falling = 0;                    ///< rate of what reached zero
   Real step = 1;                       ///< where, as a part of what was left of the path
   bool has_total = false;              ///< the forces there were tested: their totals are known
-  bool ends_level = false;             ///< second-order theory: level or bend have changed by a step
+  bool ends_level = false;             ///< second-order theory: level or geometry have changed by a step
 };
 
 /// Looks along the present piece, Eq. (15); changes nothing but derivatives.
@@ -164,7 +164,7 @@ class EventSearch {
   }
 
  private:
-  /// A level holds while the sum of all tensions, and the bend of the cable, are between its limits.
+  /// A level holds while the sum of all tensions, and each of the shifts of geometry, are between its limits.
   void shorten_to_level(const Inputs& x, const Inputs& dx, const Tensions& rate, Real& step,
                         Ending& ending) const {
     Real sum = 0, growth = 0;
@@ -181,11 +181,13 @@ class EventSearch {
     };
     until(model_.most_sum - sum, growth);
     until(sum - model_.least_sum, -growth);
-    const Real bent = cables_.template bending_at<Real>(x, map_.anchor());
-    Real bending = 0;
-    for (int k = 0; k < map_.inputs(); ++k) bending += dx[k] * cables_.bending.by[k];
-    until(model_.most_bending - bent, bending);
-    until(model_.most_bending + bent, -bending);
+    for (int n = 0; n < model_.shift_count(); ++n) {
+      const Real shift = cables_.template shift_at<Real>(n, x, map_.anchor());
+      Real shifting = 0;
+      for (int k = 0; k < map_.inputs(); ++k) shifting += dx[k] * static_cast<Real>(cables_.shifts.by[k][n]);
+      until(model_.most_shift - shift, shifting);
+      until(model_.most_shift + shift, -shifting);
+    }
   }
 
   /// Of the largest force: what may be lost where a cable moves much further than it stretches.

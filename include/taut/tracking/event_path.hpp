@@ -38,6 +38,7 @@ class EventPath {
     Real rest = 1;  // of the path
     Ending ending;
     int stalled = 0;
+    const bool prestrains = cables_.state.now.prestrain != cables_.state.goal.prestrain;
     ModeDecision<Cables> modes(cables_);
     for (;;) {
       cables_.measure_path();
@@ -49,7 +50,7 @@ class EventPath {
         cables_.find_forces();
         const Status broken = follow_piece(ending, rest, done);
         if constexpr (Cables::Model::has_level)
-          if (broken.ok() && ending.ends_level) {
+          if (broken.ok() && (ending.ends_level || (done && prestrains))) {
             progress.status = come_to_level(modes);
             if (!progress.status) break;
             ending = {};

@@ -54,7 +54,7 @@ class SamplePath {
     }
     Rounded T = constant_;
     add_inputs(cables, true, x, T);
-    if (!is_within_limits(cables, T) || !is_within_bend(cables, x)) return false;
+    if (!is_within_limits(cables, T) || !is_within_shifts(cables, x)) return false;
     cables.state.tension = T;
     for (int k = 0; k < cables.map.inputs(); ++k) {
       cables.state.last[k] = static_cast<Real>(x[k] - at_[k]);
@@ -276,10 +276,12 @@ class SamplePath {
       narrow(most_sum(cables) - sum_of(cables, constant_), -sum_of(cables, column));
       Given x = at_;
       x[only] = anchor_[only];
-      const Scalar bent = cables.template bending_at<Scalar>(x, anchor_);
-      const auto bending = static_cast<Scalar>(cables.bending.by[only]);
-      narrow(most_bending(cables) - bent, -bending);
-      narrow(most_bending(cables) + bent, bending);
+      for (int n = 0; n < cables.model->shift_count(); ++n) {
+        const Scalar shift = cables.template shift_at<Scalar>(n, x, anchor_);
+        const auto shifting = static_cast<Scalar>(cables.shifts.by[only][n]);
+        narrow(most_shift(cables) - shift, -shifting);
+        narrow(most_shift(cables) + shift, shifting);
+      }
     }
   }
   /// To where room + dx slope >= 0.
@@ -314,13 +316,14 @@ class SamplePath {
     }
     return true;
   }
-  /// And whether the cable's bend is.
-  bool is_within_bend(const Cables& cables, const Given& x) const {
+  /// And whether its geometry is.
+  bool is_within_shifts(const Cables& cables, const Given& x) const {
     if constexpr (Cables::Model::has_level)
-      return std::fabs(cables.template bending_at<Scalar>(x, anchor_)) <= most_bending(cables);
+      for (int n = 0; n < cables.model->shift_count(); ++n)
+        if (!(std::fabs(cables.template shift_at<Scalar>(n, x, anchor_)) <= most_shift(cables))) return false;
     return true;
   }
-  static Scalar most_bending(const Cables& cables) { return static_cast<Scalar>(cables.model->most_bending); }
+  static Scalar most_shift(const Cables& cables) { return static_cast<Scalar>(cables.model->most_shift); }
   static Scalar sum_of(const Cables& cables, const Rounded& T) {
     Scalar sum = 0;
     for (int i = 0; i < cables.model->segments; ++i) sum += T[i];
