@@ -93,11 +93,12 @@ class ModeDecision {
   /// After the model has changed under the same loads, with all slips frozen: finds all forces anew, near
   /// those of before.
   Status find_again() {
-    free_joint_ = doubtful_joint_ = -1;
+    free_joint_ = doubtful_joint_ = far_joint_ = -1;
     cables_.drop_map();
     // Just before there was an answer: no node is free.
     const Status status = find_near(cables_.at_joint(Code::gives_way, -1), near_level);
-    return status ? status : cables_.at_joint(Code::gives_way, doubtful_joint_);
+    return status ? status
+                  : cables_.at_joint(Code::gives_way, doubtful_joint_ >= 0 ? doubtful_joint_ : far_joint_);
   }
   /// After decide() or find_further_on(): how far all forces were found anew, as a part of what was left of
   /// the path; 0 if the modes were decided where the piece before ended.
@@ -510,6 +511,8 @@ class ModeDecision {
       if (found) {
         const bool is_near = change_from(forces) <= nearby_part * state_.peak;
         if (is_near && is_sound()) return Status::success();
+        if constexpr (Cables::Model::has_level)
+          if (!is_near) far_joint_ = joint_that_changes_most(forces);
         if (from_nothing && !is_near && free_joint_ < 0)
           why = cables_.at_joint(Code::gives_way, doubtful_joint_);
       }
@@ -564,6 +567,20 @@ class ModeDecision {
     for (int i = 0; i < model_.segments; ++i) most = larger(most, std::fabs(cables_.force[i] - forces[i]));
     return most;
   }
+  /// The joint with friction at which what friction carries differs most from what it did, or -1.
+  int joint_that_changes_most(const Tensions& forces) const {
+    int joint = -1;
+    Real most = 0;
+    for (int j = 0; j < cables_.joints(); ++j) {
+      const auto& sides = laws_.sides(j);
+      const Real now = cables_.force[sides[1]] - cables_.force[sides[0]],
+                 before = forces[sides[1]] - forces[sides[0]];
+      if (model_.is_self_locking(j) || cables_.glides(j) || !(std::fabs(now - before) > most)) continue;
+      most = std::fabs(now - before);
+      joint = j;
+    }
+    return joint;
+  }
   /// Whether the forces may be shown, and slack spans have length to spare.
   bool is_sound() const {
     Inputs x;
@@ -587,6 +604,7 @@ class ModeDecision {
   Real stride_ = 1;  // of small steps that follow each other
   Real further_ = 0;
   int free_joint_ = -1, doubtful_joint_ = -1;
+  int far_joint_ = -1;  // where the answer that was found last was no near one
 };
 
 }  // namespace taut
