@@ -280,3 +280,36 @@ TEST_CASE("a full disk is an error") {
   const std::string arguments = simulation(scratch, even);
   CHECK(run_taut(scratch, arguments + " -o /dev/full").status == 2);
 }
+
+namespace {
+
+// A beam of 20 m on two supports, and a cable that is straight between them; `load` pushes the middle down by
+// one metre. It buckles under a thrust of 49348 N.
+std::string simple_beam(const Scratch& scratch, const std::string& further) {
+  const double EI = 2e11 * 1e-5, metre = 48 * EI / (20.0 * 20 * 20);
+  std::ofstream(scratch.path / "beam.json")
+      << R"({"taut": 1, "name": "simple beam", "dimension": 2, "nodes": {"l": [0, 0], "m": [10, 0], "r": [20, 0]},
+             "supports": {"l": "xy", "r": "y"},
+             "beams": [{"nodes": ["l", "m", "r"], "E": 2e11, "A": 0.01, "I": 1e-5}],
+             "cables": [{"name": "C", "path": ["l", "r"], "E": 2e11, "A": 1e-3, "start": "anchored", "end": "jacked"}],
+             "loads": {"load": {"forces": {"m": [0, )"
+      << -metre << "]}}}" << further << "}";
+  return (scratch.path / "beam.json").string();
+}
+
+}  // namespace
+
+TEST_CASE("a target at which a beam buckles is refused with that reason, and one below it is not") {
+  const Scratch scratch;
+  for (const auto& [force, buckles] : {std::pair{"40000", false}, std::pair{"60000", true}}) {
+    CAPTURE(force);
+    const std::string target =
+        std::string(R"(, "second_order": {"target": {"forces": {"C.end": )") + force + "}}}";
+    const Outcome outcome =
+        run_taut(scratch, simulation(scratch, "time,C.end,load\n1,1000,0\n", simple_beam(scratch, target)));
+    CHECK(outcome.status == (buckles ? 1 : 0));
+    CHECK((outcome.err.find("members buckle") != std::string::npos) == buckles);
+    CHECK((outcome.err.find("name a smaller target") != std::string::npos) == buckles);
+    CHECK(outcome.err.find("--scalar double") == std::string::npos);
+  }
+}

@@ -350,6 +350,11 @@ Sentence failure_problem(const Status& status, const SceneDescription& scene) {
           "away",
           {struts});
   }
+  if (status.code == Code::gives_way && status.place == Place::node)
+    return Sentence(
+        "under the forces at the target of second-order theory members buckle, and this node moves or turns "
+        "most: "
+        "the target is not reached");
   if (status.code == Code::mechanism && status.place == Place::joint)
     return Sentence("mechanism: when the cable slides over this joint, nothing holds its node");
   if (status.code == Code::not_finite)
@@ -388,6 +393,11 @@ Sentence failure_remedy_alone(const Status& status, const SceneDescription& scen
     case Code::pulled_through:
       return Sentence("bring the jack forces closer together, or anchor one end");
     case Code::gives_way:
+      if (status.place == Place::node)
+        return Sentence(
+            "name a smaller target, make stiffer what is under thrust there (larger I, fewer hinges), or "
+            "hold it "
+            "sideways");
       return Sentence(
           "hold the node of this joint sideways (a second strut, a substructure), or stay below this load");
     case Code::state_iterations:
@@ -396,6 +406,10 @@ Sentence failure_remedy_alone(const Status& status, const SceneDescription& scen
                           ? "hold the nodes of these joints sideways, or stay below this load"
                           : "try taut simulate --method stepwise --substeps 100, or stay below this load");
     case Code::ill_conditioned:
+      // With geometric stiffness a structure is condensed in double whatever the tracker computes in.
+      if (scene.second_order && status.place == Place::node)
+        return Sentence(
+            "look for what next to nothing holds, or for stiffnesses that differ by many powers of ten");
       return Sentence(
           "use --scalar double; in double, look for what nothing holds, or for stiffnesses that differ by "
           "many powers of ten");

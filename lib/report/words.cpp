@@ -469,6 +469,20 @@ constexpr Translation translations[] = {
     {"friction gives way: the structure would jump to a state far away",
      "摩擦不再能维持平衡：结构将突跳到相距很远的状态",
      "die Reibung gibt nach: das Tragwerk spränge in einen weit entfernten Zustand"},
+    {"under the forces at the target of second-order theory members buckle, and this node moves or turns "
+     "most: "
+     "the target is not reached",
+     "在二阶理论目标状态的力作用下构件失稳，该节点位移或转动最大：达不到目标状态",
+     "unter den Kräften am Ziel der Theorie zweiter Ordnung knicken Stäbe aus, und dieser Knoten bewegt oder "
+     "dreht sich am meisten: das Ziel wird nicht erreicht"},
+    {"name a smaller target, make stiffer what is under thrust there (larger I, fewer hinges), or hold it "
+     "sideways",
+     "请给出较小的目标状态，加大该处受压构件的刚度（增大 I、减少铰），或在侧向约束它",
+     "ein kleineres Ziel angeben, was dort gedrückt wird steifer machen (größeres I, weniger Gelenke) oder "
+     "seitlich halten"},
+    {"look for what next to nothing holds, or for stiffnesses that differ by many powers of ten",
+     "请检查几乎没有约束的部分，或相差许多数量级的刚度",
+     "nachsehen, was fast nichts hält, oder ob Steifigkeiten sich um viele Zehnerpotenzen unterscheiden"},
     {"the joint states do not settle", "节点状态无法确定", "die Zustände der Umlenkungen finden sich nicht"},
     {"equilibrium is not reached in this precision", "以此精度达不到平衡",
      "in dieser Genauigkeit wird kein Gleichgewicht erreicht"},

@@ -51,7 +51,10 @@ class Skyline {
         at(i, j) /= at(j, j);
         at(i, i) -= scaled * at(i, j);
       }
-      if (!(at(i, i) > lost_below * stiffness)) return i;
+      if (!(at(i, i) > lost_below * stiffness)) {
+        is_negative_ = at(i, i) < -lost_below * std::fabs(stiffness);
+        return i;
+      }
       ratio_ = std::fmax(ratio_, stiffness / at(i, i));
     }
     return -1;
@@ -74,6 +77,9 @@ class Skyline {
     x[unknown] = 1;
     transposed(x, unknown);
   }
+
+  /// Then: whether its pivot is no rounding but negative. That motion does not come back by itself.
+  bool is_negative() const { return is_negative_; }
 
   /// Largest loss of a diagonal to elimination: digits of the factorization that are spent, at least.
   Scalar condition() const { return ratio_; }
@@ -100,6 +106,7 @@ class Skyline {
   FixedArray<int, Max> diagonal_;
   int n_ = 0;
   Scalar ratio_ = 1;
+  bool is_negative_ = false;
 };
 
 }  // namespace taut

@@ -38,8 +38,9 @@ class Structure {
   /// Entries of the factor: what the capacity says, or enough for any structure.
   static constexpr int max_profile = Cap::profile > 0 ? Cap::profile : max_unknowns*(max_unknowns + 1) / 2;
 
-  /// Factors the stiffness of a valid scene. Fails with `mechanism` or `ill_conditioned` (names the node that
-  /// moves), or `capacity_exceeded` (Capacity::profile; the amount is what is missing).
+  /// Factors the stiffness of a valid scene. Fails with `mechanism`, `ill_conditioned` or, where members
+  /// buckle under the forces of the geometric stiffness, `gives_way` (names the node that moves), or
+  /// `capacity_exceeded` (Capacity::profile; the amount is what is missing).
   Status make(const SceneType& scene, const Geometry& geometry = {}) {
     scene_ = &scene;
     geometry_ = geometry;
@@ -317,8 +318,9 @@ class Structure {
     return Status::at(Code::ill_conditioned, Place::node, worst);
   }
 
-  /// Tells a node that nothing holds from one that this scalar type cannot resolve: a mechanism strains
-  /// nothing.
+  /// Tells a node that nothing holds from one that the forces of the geometric stiffness push away, and from
+  /// one that this scalar type cannot resolve: a mechanism strains nothing, and what is pushed away buckles
+  /// members.
   Status loose_at(int unknown) {
     stiffness_.null_vector(unknown, residual_);
     for (int i = 0; i < count_; ++i) u_[i] = Word{residual_[i], 0};
@@ -346,7 +348,11 @@ class Structure {
     const auto moved = [this](int node, int axis) { return displacement(node, axis).hi; };
     strained = std::fmax(strained, static_cast<Scalar>(largest_strain(*scene_, moved)));
     const bool free = strained <= std::sqrt(epsilon) * most;
-    return Status::at(free ? Code::mechanism : Code::ill_conditioned, Place::node, mover);
+    const bool buckles = has_geometry && stiffness_.is_negative();
+    return Status::at(free      ? Code::mechanism
+                      : buckles ? Code::gives_way
+                                : Code::ill_conditioned,
+                      Place::node, mover);
   }
 
   const SceneType* scene_ = nullptr;

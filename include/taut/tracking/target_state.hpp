@@ -23,7 +23,8 @@ class SecondOrderCondensation {
   using Geometry = GeometricStiffness<Real, Cap>;
 
   /// Condenses a scene. Fails as Condensation does, there also with `mechanism` where a node is held by
-  /// forces at the target that are too small or push it away; with `out_of_range` where no cable has tension
+  /// forces at the target that are too small or push it away; with `gives_way` at the node that moves or
+  /// turns most where members buckle under these forces; with `out_of_range` where no cable has tension
   /// at the target. Where a strut runs away before the target, the forces there are taken in proportion; the
   /// high level is then at twice of them, where that is less.
   ///
