@@ -299,6 +299,33 @@ std::string simple_beam(const Scratch& scratch, const std::string& further) {
 
 }  // namespace
 
+TEST_CASE("displacements that are no small ones are remarked on once, with what helps") {
+  // Half a length of the beam is 10 m.
+  const Scratch scratch;
+  const std::string log = "time,C.end,load\n1,1,0.45\n2,1,-0.51\n3,1,0.6\n";
+  const Outcome linear = run_taut(scratch, simulation(scratch, log, simple_beam(scratch, "")));
+  CHECK(linear.status == 0);
+  CHECK(
+      linear.err.find("line 3 (row 2, time 2 s): node \"m\" has moved by 0.51 m, and against node \"l\" by "
+                      "5.1 % of their distance; linear theory is made for displacements up to a twentieth") !=
+      std::string::npos);
+  CHECK(linear.err.find("give the scene \"second_order\"") != std::string::npos);
+  CHECK(lines(linear.err) == 1);
+  const Outcome small =
+      run_taut(scratch, simulation(scratch, "time,C.end,load\n1,1,0.49\n", simple_beam(scratch, "")));
+  CHECK(small.err.empty());
+  // A thrust of 1 N adds nothing to them; the half that goes down by 2.3 m comes in by 0.27 m.
+  const std::string second = R"(, "second_order": {"target": {"forces": {"C.end": 1}}})";
+  const Outcome leaning = run_taut(
+      scratch, simulation(scratch, "time,C.end,load\n1,1,1.9\n2,1,2.3\n", simple_beam(scratch, second)));
+  CHECK(leaning.status == 0);
+  CHECK(leaning.err.find(
+            "line 3 (row 2, time 2 s): node \"m\" has moved by 2.32 m, and against node \"l\" by "
+            "23.2 % of their distance; second-order theory is made for displacements up to a fifth") !=
+        std::string::npos);
+  CHECK(lines(leaning.err) == 1);
+}
+
 TEST_CASE("a target at which a beam buckles is refused with that reason, and one below it is not") {
   const Scratch scratch;
   for (const auto& [force, buckles] : {std::pair{"40000", false}, std::pair{"60000", true}}) {

@@ -28,6 +28,8 @@ namespace {
 
 constexpr const char* standard_input = "standard input";
 constexpr double most_bend_change = 0.1;
+// Beyond them direction cosines are off by a thousandth, and by a fiftieth.
+constexpr double most_turn = 0.05, most_turn_of_second_order = 0.2;
 constexpr int most_tried = 1000000;  // load steps a row
 
 Sentence under_load() {
@@ -64,9 +66,16 @@ LogRules rules_for(const RunOptions& options, const SceneDescription& scene) {
   return rules;
 }
 
+// With the displacements that are looked at.
+SceneDescription watched_scene(const RunOptions& options) {
+  SceneDescription scene = read_scene_file(options.scene);
+  if (options.method != Method::stepwise) scene.watched = MemberTurns::watched(scene);
+  return scene;
+}
+
 // With what is asked for beyond the columns of every result.
 SceneDescription scene_for(const RunOptions& options) {
-  SceneDescription scene = read_scene_file(options.scene);
+  SceneDescription scene = watched_scene(options);
   const std::vector<std::string>& names = options.choice.columns;
   if (options.method == Method::stepwise)
     for (const std::string& further : further_columns(scene, ResultColumns::state))
@@ -112,7 +121,8 @@ LogFollower::LogFollower(const RunOptions& options)
     : options_(options),
       scene_(scene_for(options)),
       model_(make_model(scene_, options.method, options.numbers.scalar, options.limits)),
-      rules_(rules_for(options, scene_)) {
+      rules_(rules_for(options, scene_)),
+      turns_(scene_) {
   keep_inputs(options.output, {options.scene, options.log, options.state});
   keep_inputs(options.state, {options.scene, options.log});
   if (!options.state.empty() && options.state == options.output)
@@ -129,10 +139,11 @@ LogFollower::LogFollower(const RunOptions& options)
 
 LogFollower::LogFollower(const RunOptions& options, LogStream stream)
     : options_(options),
-      scene_(read_scene_file(options.scene)),
+      scene_(watched_scene(options)),
       model_(make_model(scene_, options.method, options.numbers.scalar, options.limits)),
       rules_(rules_for(options, scene_)),
-      source_(std::move(stream)) {
+      source_(std::move(stream)),
+      turns_(scene_) {
   if (!source_->state.empty()) take_state(options.state, source_->state);
   open_stream();
 }
@@ -316,6 +327,7 @@ Sentence LogFollower::follow_row(const LogRow& row, Answer& answer, const RowVis
   if (const std::string number = impossible_number(scene_, answer); !number.empty())
     return Sentence("{1}: {2}; {3}", {place(row), number, Sentence(remedy_of_impossible_numbers)});
   warn_of_bend(row, answer);
+  warn_of_turn(row);
   if (options_.method == Method::estimate) answer.verdict = verdict_.take(answer.alarms);
   ++followed_;
   last_ = row;
@@ -366,6 +378,30 @@ void LogFollower::warn_of_bend(const LogRow& row, const Answer& answer) {
                    "displacements",
                    {place(row), joint_text(scene_, static_cast<int>(c), static_cast<int>(j)), bend}));
     }
+}
+
+// Once, where displacements are no small ones.
+void LogFollower::warn_of_turn(const LogRow& row) {
+  if (turns_too_far_ || !turns_.are_wanted(row)) return;
+  const std::optional<MemberTurn> most = turns_.largest(model_->watched());
+  if (!most || !(most->turn > (scene_.second_order ? most_turn_of_second_order : most_turn))) return;
+  turns_too_far_ = true;
+  std::array<char, 24> metres{}, percent{};
+  std::snprintf(metres.data(), metres.size(), "%.3g", most->displacement);
+  std::snprintf(percent.data(), percent.size(), "%.3g %%", 100 * most->turn);
+  const Sentence moved(
+      "node {1} has moved by {2} m, and against node {3} by {4} of their distance",
+      {quote(scene_.nodes[static_cast<std::size_t>(most->node)].name), std::string(metres.data()),
+       quote(scene_.nodes[static_cast<std::size_t>(most->other)].name), std::string(percent.data())});
+  remark(
+      scene_.second_order
+          ? Sentence("{1}: {2}; second-order theory is made for displacements up to a fifth of it: beyond it "
+                     "do not trust its forces, compare with a program for large displacements",
+                     {place(row), moved})
+          : Sentence(
+                "{1}: {2}; linear theory is made for displacements up to a twentieth of it: beyond it do "
+                "not trust its forces, and give the scene \"second_order\"",
+                {place(row), moved}));
 }
 
 // Before the row is followed.

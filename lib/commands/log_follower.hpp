@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lib/commands/first_load.hpp"
+#include "lib/commands/member_turns.hpp"
 #include "lib/commands/result_writer.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/sentence.hpp"
@@ -100,6 +101,7 @@ class LogFollower {
   std::string loads_at_end(const Followed& path, const LogRow& row) const;
   void remark_on_unloaded(const FirstLoad& load);
   void warn_of_bend(const LogRow& row, const Answer& answer);
+  void warn_of_turn(const LogRow& row);
   void remark_on_left_out(const LogReader& log);
   void remark_on_columns(const LogReader& log);
   void remark_on_substeps();
@@ -122,7 +124,8 @@ class LogFollower {
   LogRow last_;
   std::optional<Moment> origin_;  // of its time
   std::vector<Sentence> remarks_;
-  bool bends_too_far_ = false;  // and that has been said
+  bool bends_too_far_ = false, turns_too_far_ = false;  // and that has been said
+  MemberTurns turns_;
 };
 
 /// Why a model came no further.

@@ -148,6 +148,7 @@ struct SceneDescription {
   std::vector<LoadDescription> loads;
   std::optional<TargetDescription> second_order;   ///< absent: linear theory
   std::vector<DisplacementDescription> displaced;  ///< not in the file: whose displacements are asked for
+  std::vector<DisplacementDescription> watched;    ///< nor this: those that are looked at, see MemberTurns
 
   /// Numbers of the first segment and joint of a cable, counted over all cables; of the cable after the last:
   /// how many there are.

@@ -10,14 +10,15 @@
 
 namespace taut::host {
 
-/// Displacements that can be asked for at once.
-constexpr int most_displacements = 48;
+/// Displacements that can be asked for at once, and how many are looked at beside them.
+constexpr int most_displacements = 48, most_watched_displacements = 336;
 
 struct Small : Capacity {
   static constexpr const char* name = "small";
   static constexpr int nodes = 24, struts = 64, beams = 32, cables = 4, segments = 16, joints = 12;
   static constexpr int substructures = 4, substructure_nodes = 8, substructure_entries = 576;
-  static constexpr int loads = 8, forces = 64, temperatures = 8, displacements = most_displacements;
+  static constexpr int loads = 8, forces = 64, temperatures = 8;
+  static constexpr int displacements = most_displacements + 3 * nodes;
   using Account = FrictionAccount;
 };
 
@@ -25,7 +26,8 @@ struct Large : Capacity {
   static constexpr const char* name = "large";
   static constexpr int nodes = 512, struts = 2048, beams = 1024, cables = 64, segments = 256, joints = 128;
   static constexpr int substructures = 128, substructure_nodes = 256, substructure_entries = 147456;
-  static constexpr int loads = 32, forces = 2048, temperatures = 512, displacements = most_displacements;
+  static constexpr int loads = 32, forces = 2048, temperatures = 512;
+  static constexpr int displacements = most_displacements + most_watched_displacements;
   using Account = FrictionAccount;
 };
 

@@ -15,9 +15,10 @@ struct Condensing {
   double condition = 1;  ///< see Structure::condition()
 };
 
-/// Condenses a scene, its strut forces and, if given, the displacements that it asks for; the factor of the
-/// structure is freed. Throws InputError if the scene cannot be used. `Cap` is a capacity of the program, or
-/// Rigid or Leaning of one. Compiled for each dimension and capacity in a unit of its own.
+/// Condenses a scene, its strut forces and, if given, the displacements that it asks for and those that are
+/// watched; the factor of the structure is freed. Throws InputError if the scene cannot be used. `Cap` is a
+/// capacity of the program, or Rigid or Leaning of one. Compiled for each dimension and capacity in a unit of
+/// its own.
 template <class Scalar, int Dimension, class Cap>
 Condensing condense_scene(const SceneDescription& scene, CondensedOf<Scalar, Cap>& condensed,
                           StrutsOf<Scalar, Cap>& struts,

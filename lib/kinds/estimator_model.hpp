@@ -27,6 +27,7 @@ class EstimatorModel : public Model {
         limits_(AlarmLimits<Scalar>::of(limits)),
         condensed_(make_zeroed<CondensedType>()),
         struts_(make_zeroed<StrutRows>()),
+        displacements_(asks_for_displacements(scene) ? make_zeroed<Displacements>() : nullptr),
         prior_(new PriorType),
         estimator_(new EstimatorType),
         readings_(new ReadingsType) {}
@@ -90,6 +91,12 @@ class EstimatorModel : public Model {
     }
     return all;
   }
+  std::vector<double> watched() const override {
+    std::vector<double> found;
+    read_displacements(displacements_.get(), estimator_->tracker(), scene_.displaced.size(),
+                       scene_.watched.size(), found);
+    return found;
+  }
   void read(Answer& answer) const override {
     Response<Scalar, Cap> response;
     estimator_->respond(response, struts_.get());
@@ -109,6 +116,7 @@ class EstimatorModel : public Model {
 
  private:
   using CondensedType = CondensedOf<Scalar, Cap>;
+  using Displacements = DisplacementsOf<Scalar, Cap>;
   using StrutRows = StrutsOf<Scalar, Cap>;
   using PriorType = FrictionPrior<Scalar, Cap>;
   static constexpr int cells = 2 * Cap::cables < most_unknown_cells ? 2 * Cap::cables : most_unknown_cells;
@@ -123,7 +131,7 @@ class EstimatorModel : public Model {
   template <int Dimension>
   Condensing condense() {
     know_scene<Scalar, Dimension, Cap>(scene_, *prior_);
-    return condense_scene<Scalar, Dimension, Cap>(scene_, *condensed_, *struts_);
+    return condense_scene<Scalar, Dimension, Cap>(scene_, *condensed_, *struts_, displacements_.get());
   }
 
   Status know() {
@@ -167,6 +175,7 @@ class EstimatorModel : public Model {
   AlarmLimits<Scalar> limits_;
   Zeroed<CondensedType> condensed_;
   Zeroed<StrutRows> struts_;
+  Zeroed<Displacements> displacements_;  // if the scene watches any
   std::unique_ptr<PriorType> prior_;
   std::unique_ptr<EstimatorType> estimator_;
   FrictionBefore before_;

@@ -44,6 +44,8 @@ class Model {
   virtual Followed restore(const std::string& bytes, double time);
   /// The present state.
   virtual void read(Answer& answer) const = 0;
+  /// The displacements of SceneDescription::watched [m]; empty for a method that knows none.
+  virtual std::vector<double> watched() const { return {}; }
   /// What has been learned since the start of every mu that was not known, and from what; of the method
   /// `estimate` alone.
   virtual std::vector<LearnedFriction> learned() const { return {}; }

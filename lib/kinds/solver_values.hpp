@@ -93,6 +93,23 @@ void read_lean(const TrackerType& tracker, const SceneDescription& scene, Answer
   }
 }
 
+inline bool asks_for_displacements(const SceneDescription& scene) {
+  return !scene.displaced.empty() || !scene.watched.empty();
+}
+
+/// Some of the displacements that the scene asks for and watches, from the rows for all of them; without rows
+/// there are none.
+template <class Rows, class TrackerType>
+void read_displacements(const Rows* rows, const TrackerType& tracker, std::size_t first, std::size_t count,
+                        std::vector<double>& found) {
+  found.clear();
+  if (rows == nullptr || count == 0) return;
+  FixedArray<typename TrackerType::Scalar, TrackerType::Cap::displacements> all;
+  rows->evaluate(tracker.model(), tracker.loads(), tracker.elongations(), all);
+  for (std::size_t i = first; i < first + count; ++i)
+    found.push_back(detail::answered(all[static_cast<int>(i)]));
+}
+
 /// Copies what an Estimator finds beyond its response.
 template <class EstimatorType>
 void read_certainty(const EstimatorType& estimator, const SceneDescription& scene, Answer& answer) {

@@ -20,7 +20,7 @@ class TrackerModel : public LegModel {
       : scene_(scene),
         condensed_(make_zeroed<CondensedType>()),
         struts_(make_zeroed<StrutRows>()),
-        displacements_(scene.displaced.empty() ? nullptr : make_zeroed<Displacements>()),
+        displacements_(asks_for_displacements(scene) ? make_zeroed<Displacements>() : nullptr),
         tracker_(new TrackerType) {}
 
   Followed start(int) override {
@@ -49,10 +49,13 @@ class TrackerModel : public LegModel {
   }
   void read(Answer& answer) const override {
     read(answer, struts_.get());
-    if (displacements_ == nullptr) return;
-    FixedArray<Scalar, Cap::displacements> found;
-    displacements_->evaluate(tracker_->model(), tracker_->loads(), tracker_->elongations(), found);
-    detail::copy_numbers(found, scene_.displaced.size(), answer.displacement);
+    read_displacements(displacements_.get(), *tracker_, 0, scene_.displaced.size(), answer.displacement);
+  }
+  std::vector<double> watched() const override {
+    std::vector<double> found;
+    read_displacements(displacements_.get(), *tracker_, scene_.displaced.size(), scene_.watched.size(),
+                       found);
+    return found;
   }
   void read_cables(Answer& answer) const override { read(answer, nullptr); }
 

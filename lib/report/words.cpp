@@ -574,6 +574,21 @@ constexpr Translation translations[] = {
      "{1}：{2}：{3}；二阶理论适用于十分之一以内：超出时请与大位移程序比较",
      "{1}: {2}: {3}; Theorie zweiter Ordnung ist für ein Zehntel gemacht: darüber mit einem Programm für "
      "große Verschiebungen vergleichen"},
+    {"{1}: {2}; second-order theory is made for displacements up to a fifth of it: beyond it do not trust "
+     "its "
+     "forces, compare with a program for large displacements",
+     "{1}：{2}；二阶理论适用于位移不超过该距离五分之一：超出时其力不可信，请与大位移程序比较",
+     "{1}: {2}; Theorie zweiter Ordnung ist für Verschiebungen bis zu einem Fünftel davon gemacht: darüber "
+     "gelten ihre Kräfte nicht, mit einem Programm für große Verschiebungen vergleichen"},
+    {"{1}: {2}; linear theory is made for displacements up to a twentieth of it: beyond it do not trust its "
+     "forces, and give the scene \"second_order\"",
+     "{1}：{2}；线性理论适用于位移不超过该距离二十分之一：超出时其力不可信，请在场景中写入 \"second_order\"",
+     "{1}: {2}; lineare Theorie ist für Verschiebungen bis zu einem Zwanzigstel davon gemacht: darüber "
+     "gelten "
+     "ihre Kräfte nicht, in die Szene gehört dann \"second_order\""},
+    {"node {1} has moved by {2} m, and against node {3} by {4} of their distance",
+     "节点 {1} 移动了 {2} m，相对节点 {3} 移动了两者距离的 {4}",
+     "Knoten {1} hat sich um {2} m verschoben, gegen Knoten {3} um {4} ihres Abstands"},
     {"the cable is bent by {1} less than in the scene", "索的转角比模型中小 {1}",
      "das Seil ist um {1} weniger umgelenkt als in der Szene"},
     {"the cable is bent by {1} more than in the scene", "索的转角比模型中大 {1}",
