@@ -231,3 +231,18 @@ TEST_CASE(
     CHECK_FALSE(unread(jacking));
   }
 }
+
+TEST_CASE(
+    "rows that merely come more slowly in a hold hide no turn: bars are wide in the first of them alone") {
+  SaddleSite site;
+  site.noise = 0.001 * full;
+  const auto slow = std::make_unique<ReadSite>(site, 1), even = std::make_unique<ReadSite>(site, 1);
+  for (int i = 1; i <= 60; ++i)
+    for (auto* const each : {slow.get(), even.get()}) each->row(0.01 * full * i);
+  for (int i = 1; i <= 20; ++i) {
+    slow->row(0.6 * full, true, true, 5);
+    even->row(0.6 * full);
+    if (i == 1) CHECK(slow->estimator().deviation(2) > 3 * even->estimator().deviation(2));
+    if (i > 1) CHECK(slow->estimator().deviation(2) < 2 * even->estimator().deviation(2));
+  }
+}

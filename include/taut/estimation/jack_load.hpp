@@ -78,8 +78,10 @@ struct JackLoad {
   bool goes_on = false;                  ///< surely, in this row
   bool is_new = false;                   ///< `raw` is of this row, and was believed
   bool is_unread = false;                ///< its cell was not read in this row
+  bool was_unread = false;               ///< until this row
   bool went_on = false;                  ///< surely, as it was read last
   bool turned_unseen = false;            ///< once it has turned while it was not read
+  Scalar missed_in = 0;                  ///< if its last reading came after a time without rows, that [s]
   Scalar missed = 0;   ///< by how much it may have gone farther while it was not read, and come back [N]
   Scalar read_sd = 0;  ///< then the standard deviation of the load where it was last [N]
   Scalar step_by = 0, stride = 0;    ///< how far it had come since the reading before [N], in that time
@@ -238,6 +240,9 @@ struct JackLoad {
     } else {
       come = rises ? -larger(-at.load, -raw - beyond) : larger(at.load, raw - beyond);
       const Scalar further = rises ? come - farthest : farthest - come;
+      // If rows go on coming as slowly, there was no gap: they do so in a hold.
+      if (missed_in > 0 && since > missed_in / 2) missed = 0;
+      missed_in = hidden > 0 && !was_unread ? since : Scalar(0);
       missed = larger(hidden, missed - larger(further, Scalar(0)));
       if (at.refused || !(further > 0)) return;
       goes_on |= further > surely * beyond;
@@ -433,6 +438,7 @@ struct JackLoad {
       if (is_frozen) leave_unread(-larger(-most, -fastest_seen * standing.stood()) / 2);
       return false;
     }
+    was_unread = is_unread;
     is_unread = false;
     // A released end keeps its wedge until a load is read.
     const bool is_released = locked;
