@@ -224,7 +224,8 @@ struct EstimatorParts : CondensedType::Capacity::Account {
     if (far_ends.ends().size() == 0 || turned.has_gone_on(segment, estimate.force))
       kept = turned.deviation_by_loads(segment, estimate.force);
     estimate.deviation = larger(estimate.deviation, larger(reached, kept));
-    estimate.deviation = larger(estimate.deviation, beyond_friction(*this, segment, estimate.force));
+    if (may_be_beyond_friction(*this))
+      estimate.deviation = larger(estimate.deviation, beyond_friction(*this, segment, estimate.force));
     estimate.deviation = larger(estimate.deviation, deviation_between_jacks(*this, segment, estimate.force));
     if (misfits) {
       const Scalar misfit = far_ends.misfit(model().cable_of(segment));
