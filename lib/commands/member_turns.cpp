@@ -35,6 +35,16 @@ std::vector<DisplacementDescription> MemberTurns::watched(const SceneDescription
 }
 
 MemberTurns::MemberTurns(const SceneDescription& scene) : scene_(scene) {
+  // A node is known if all of its directions are watched in which it moves.
+  std::vector<int> unknown(scene.nodes.size());
+  for (std::size_t node = 0; node < scene.nodes.size(); ++node)
+    for (int axis = 0; axis < scene.dimension; ++axis)
+      unknown[node] += moves(scene, static_cast<int>(node), axis) ? 1 : 0;
+  for (const DisplacementDescription& each : scene.watched) --unknown[static_cast<std::size_t>(each.node)];
+  const auto add = [&](int a, int b) {
+    if (unknown[static_cast<std::size_t>(a)] == 0 && unknown[static_cast<std::size_t>(b)] == 0)
+      add_member(a, b);
+  };
   for (const StrutDescription& strut : scene.struts) add(strut.nodes[0], strut.nodes[1]);
   for (const BeamDescription& beam : scene.beams)
     for (std::size_t i = 0; i < beam.members(); ++i) add(beam.nodes[i], beam.nodes[i + 1]);
@@ -43,18 +53,7 @@ MemberTurns::MemberTurns(const SceneDescription& scene) : scene_(scene) {
       add(cable.path[i], cable.path[(i + 1) % cable.path.size()]);
 }
 
-void MemberTurns::add(int a, int b) {
-  const auto is_known = [this](int node) {
-    for (int axis = 0; axis < scene_.dimension; ++axis) {
-      const auto is_it = [&](const DisplacementDescription& each) {
-        return each.node == node && each.axis == axis;
-      };
-      if (moves(scene_, node, axis) && std::none_of(scene_.watched.begin(), scene_.watched.end(), is_it))
-        return false;
-    }
-    return true;
-  };
-  if (!is_known(a) || !is_known(b)) return;
+void MemberTurns::add_member(int a, int b) {
   const auto &from = scene_.nodes[static_cast<std::size_t>(a)].at,
              &to = scene_.nodes[static_cast<std::size_t>(b)].at;
   double squared = 0;

@@ -39,7 +39,7 @@ class MemberTurns {
     std::array<int, 2> nodes;
     double length;
   };
-  void add(int a, int b);
+  void add_member(int a, int b);
 
   const SceneDescription& scene_;
   std::vector<Member> members_;               // both of whose ends are watched or held

@@ -14,24 +14,21 @@ namespace taut {
 template <class Parts>
 [[gnu::always_inline]] inline bool may_be_beyond_friction(const Parts& parts) {
   if constexpr (Parts::TrackerType::Model::has_level) return false;
-  bool may_be = Parts::has_several || Parts::Cap::loads > 0;
+  if (!parts.tracker.is_started()) return false;
+  bool may_be = (Parts::has_several && parts.model().cables.size() > 1) || parts.patterns() > 0;
   for (int k = 0; k < parts.jacks.size(); ++k) may_be |= parts.jacks[k].turned_unseen;
-  return may_be && parts.tracker.is_started();
+  return may_be;
 }
 
 /// By how much `force` of a segment [N] and that of a neighbour are farther apart than the joint between them
 /// holds, with friction two standard deviations higher than it is known, the larger of both, Eq. (67); not
-/// below zero. Zero of a cable that is alone, has no load patterns beside it and whose jacks were seen
-/// wherever they turned, whatever the capacity. Where may_be_beyond_friction(). Cost: that of
-/// EstimatorParts::force() twice, and a pass over the cables.
+/// below zero. To be asked where may_be_beyond_friction(). Cost: that of EstimatorParts::force() twice, and a
+/// pass over the cables.
 template <class Parts>
 typename Parts::Scalar beyond_friction(const Parts& parts, int segment, typename Parts::Scalar force) {
   using Scalar = typename Parts::Scalar;
   using Real = typename Parts::Condensed::Real;
   constexpr Scalar deviations = 2, rounding = Scalar(1e-5);
-  bool may_be = (Parts::has_several && parts.model().cables.size() > 1) || parts.patterns() > 0;
-  for (int k = 0; k < parts.jacks.size(); ++k) may_be |= parts.jacks[k].turned_unseen;
-  if (!may_be) return 0;
   const int c = parts.model().cable_of(segment);
   const auto& cable = parts.model().cables[c];
   const auto& prior = parts.filter.prior();

@@ -229,12 +229,7 @@ struct JackLoad {
     goes_on = at.reversed || (filter.goes_on() && short_of_farthest(at.load) == 0);
     if (at.reversed) {
       missed = larger(missed, hidden);
-      if (missed > 0) {
-        at.reversal += rises ? missed / 2 : -missed / 2;
-        at.reversal_sd = half_missed_beside(larger(at.reversal_sd, sd_before));
-        missed = 0;
-        turned_unseen = true;
-      }
+      if (missed > 0) at.reversal_sd = turn_beyond(at.reversal, larger(at.reversal_sd, sd_before));
       turn_sd = at.reversal_sd > 0 ? at.reversal_sd : larger(sd_before, back(at.reversal));
       rises = !rises;
     } else {
@@ -257,8 +252,15 @@ struct JackLoad {
     if (!went_on || !(stride > 0 && stride <= JumpGuard<Scalar>::far_apart && since > gap * stride)) return 0;
     return larger(step_by / stride * since - std::fabs(at.load - load_before), Scalar(0)) / 2;
   }
-  /// The standard deviation of a turn that is known to `sd` but for that [N].
-  Scalar half_missed_beside(Scalar sd) const { return std::sqrt(sd * sd + missed * missed / 4); }
+  /// It has turned half of that beyond `seen`, which is known to `sd`. Returns the standard deviation of the
+  /// turn [N].
+  Scalar turn_beyond(Scalar seen, Scalar sd) {
+    const Scalar half = missed / 2;
+    at.reversal = rises ? seen + half : seen - half;
+    missed = 0;
+    turned_unseen = true;
+    return std::sqrt(sd * sd + half * half);
+  }
   /// Whether the one reading that was refused before this one was a peak of the load: the load has come at
   /// least half-way there.
   bool was_peak(Scalar reading) const {
@@ -370,11 +372,8 @@ struct JackLoad {
     const Scalar come_back = back(at.load), fallen = rises ? at.come - at.load : at.load - at.come;
     const bool has_turned = come_back > (since > JumpGuard<Scalar>::far_apart ? Scalar(0) : 5 * filter.sd());
     at.reversed = has_turned || missed > 0 || fallen > 3 * at.come_sd;
-    if (at.reversed && missed > 0) {
-      at.reversal = farthest + (rises ? missed : -missed) / 2;
-      turn_sd = half_missed_beside(farthest_sd);
-      missed = 0;
-      turned_unseen = true;
+    if (missed > 0) {
+      turn_sd = turn_beyond(farthest, farthest_sd);
       corners.reverses = true;
     } else if (at.reversed) {
       at.reversal = has_turned ? farthest : at.come;
