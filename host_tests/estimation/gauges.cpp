@@ -51,6 +51,8 @@ Gauges started(const std::vector<Cell>& cells) {
 struct Prediction {
   double value = 0;
   std::array<double, 8> H{};
+  bool has_zero = false;
+  int zero = 0;
 };
 
 }  // namespace
@@ -117,6 +119,7 @@ TEST_CASE("the derivative of a reading by the gain is what is read, by the zero 
   // The first and the last unknown are those of one each.
   const Gauges gauges = started({zero, none, both});
   const std::array<std::array<double, 3>, 3> expected = {{{1, 9, 9}, {9, 9, 9}, {9, -40, 1}}};
+  const std::array<int, 3> zeros = {0, -1, 2};
   for (int g = 0; g < 3; ++g) {
     CAPTURE(g);
     Prediction prediction;
@@ -125,6 +128,8 @@ TEST_CASE("the derivative of a reading by the gain is what is read, by the zero 
     gauges.depend_on_gain({g}, prediction);
     gauges.depend_on_zero({g}, prediction);
     for (std::size_t p = 0; p < 3; ++p) CHECK(prediction.H[p] == expected[static_cast<std::size_t>(g)][p]);
+    CHECK(prediction.has_zero == (zeros[static_cast<std::size_t>(g)] >= 0));
+    if (prediction.has_zero) CHECK(prediction.zero == zeros[static_cast<std::size_t>(g)]);
   }
 }
 

@@ -94,7 +94,7 @@ void make_ground(Ground& ground, bool elastic, double mu, double jack_sd) {
 double off_driven(const Jacked& jacked, const Ground& ground, const std::vector<double>& way) {
   const auto saved = jacked.estimator().save();
   const auto scene = std::make_unique<Plane>(ground.known);
-  for (double& mu : scene->mu) mu += saved.friction.linearized_at[0];
+  for (double& mu : scene->mu) mu += saved.friction.belief.linearized_at[0];
   const auto model = std::make_unique<Model>();
   const auto tracker = std::make_unique<taut::Tracker<Model>>();
   REQUIRE(support::condense(*scene, *model).ok());
@@ -155,9 +155,9 @@ TEST_CASE("what strokes of a release have moved is where that friction would hav
       const auto jacked = std::make_unique<Jacked>(ground, part * 0.2, 7);
       // The mark is free, so a ramp of this stroke tells next to nothing of a friction that is a half off.
       jacked->go(0, 1, 3);
-      const double before = jacked->estimator().save().friction.linearized_at[0];
+      const double before = jacked->estimator().save().friction.belief.linearized_at[0];
       jacked->go(1, 0.5, 12);
-      CHECK(std::fabs(jacked->estimator().save().friction.linearized_at[0] - before) > 0.005);
+      CHECK(std::fabs(jacked->estimator().save().friction.belief.linearized_at[0] - before) > 0.005);
       CHECK(off_driven(*jacked, ground, {full, full * 0.5}) < 1e-12);
     }
 }

@@ -138,6 +138,15 @@ class Belief {
         for (int q = 0; q <= p; ++q) P[q][p] = P[p][q] = P[p][q] - column[p] * precision * column[q];
     }
   }
+  /// Unknown `p` becomes what it was and so much `by` unknown `q`. Cost: a few operations an unknown in use.
+  void shear(int p, int q, Scalar by) {
+    auto& P = state_.covariance;
+    state_.mean[p] += by * state_.mean[q];
+    for (int k = 0; k < Jacks; ++k) state_.with_load[k][p] += by * state_.with_load[k][q];
+    P[p][p] += by * (2 * P[p][q] + by * P[q][q]);
+    for (int r = 0; r < in_use_; ++r)
+      if (r != p) P[r][p] = P[p][r] = P[p][r] + by * P[q][r];
+  }
   /// Unknown `p` may have changed since the last row: its variance grows by so much.
   void diffuse(int p, Scalar variance) { state_.covariance[p][p] += variance; }
   /// The model is linearized at `values` from here on. Returns by how much each unknown in use moves.
@@ -168,6 +177,8 @@ class Belief {
   int in_use() const { return in_use_; }
   /// Those in use that forces depend on: the first ones.
   int carried() const { return in_use_ < carried_ ? in_use_ : carried_; }
+  /// The number of unknown `p` among those that readings alone depend on; below zero if forces do, too.
+  int further(int p) const { return p - carried_; }
   bool has_friction() const { return friction_ > 0; }
   /// Those of friction: the first ones.
   int friction() const { return friction_; }
@@ -220,7 +231,7 @@ class Belief {
 
   /// Begins a row: nothing of it has been measured yet.
   void begin_row() { has_errors_ = false; }
-  /// Compares a reading with its prediction, Eqs. (21), (22) and (24). Returns false if and only if the
+  /// Compares a reading with its prediction, Eqs. (21), (22), (24) and (75). Returns false if and only if the
   /// innovation is outside of the gate. Changes nothing that is known before update(). Cost: the square of
   /// the unknowns in use and jacks.
   [[nodiscard]] bool innovate(const PredictionType& prediction, const JackReadings& jacks,
@@ -246,17 +257,24 @@ class Belief {
       innovation.with_error[k] = sum;
       variance += by_error(k) * sum;
     }
-    Scalar of_friction = 0, through_friction = 0;
+    Scalar of_friction = 0, through_friction = 0, of_cells = 0, of_both = 0;
     for (int p = 0; p < in_use_; ++p) {
       Scalar sum = 0;
       for (int q = 0; q < friction_; ++q) sum += P[p][q] * H[q];
       if (p < friction_) of_friction += H[p] * sum;
+      if (p >= friction_ && p < loads_) {
+        of_both += H[p] * sum;
+        for (int q = friction_; q < loads_; ++q) of_cells += H[p] * P[p][q] * H[q];
+      }
       for (int q = friction_; q < in_use_; ++q) sum += P[p][q] * H[q];
       for (int k = 0; k < jacks.size() && has_errors_; ++k) sum += state_.with_load[k][p] * by_error(k);
       innovation.with_unknown[p] = sum;
       variance += H[p] * sum;
       if (p < friction_) through_friction += H[p] * sum;
     }
+    // A load that is off times what friction leaves of it.
+    const Scalar square = prediction.value * prediction.value;
+    if (square > 0) variance += (of_friction * of_cells + of_both * of_both) / square;
     const Scalar S = sd * sd + variance;
     innovation.variance = variance;
     innovation.value = measured.reading - expected;

@@ -291,7 +291,7 @@ class FarEnds {
     predict_tension(tracker, end.segment(tracker.model()), filter.belief(), jacks, prediction);
     const InstrumentUnknowns& own = filter.instruments().at(end.cable(), end.end);
     if (own.gain >= 0) prediction.H[own.gain] = prediction.value;
-    if (own.zero >= 0) prediction.H[own.zero] = 1;
+    depend_on_zero(own.zero, prediction);
   }
   Scalar sensitivity_slope(int p, const TrackerType& tracker) const {
     return tracker.sensitivity_slope(p, 0, ends_[0].segment(tracker.model()));

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "taut/estimation/belief.hpp"
+#include "taut/estimation/drawn_lines.hpp"
 #include "taut/estimation/friction_prior.hpp"
 #include "taut/estimation/friction_scatter.hpp"
 #include "taut/estimation/instruments.hpp"
@@ -45,7 +46,11 @@ class FrictionFilter {
   using Values = typename BeliefType::Values;
   using PredictionType = typename BeliefType::PredictionType;
   using JackReadings = typename BeliefType::JackReadings;
-  using State = typename BeliefType::State;
+  using LinesType = DrawnLines<Scalar, Further, max_jacks<Cap>>;
+  struct State {
+    typename BeliefType::State belief;
+    typename LinesType::State lines;
+  };
   /// Friction of a cable whose prior moves a measured number by less than this part of the standard deviation
   /// of its reading does not matter to the reading.
   static constexpr Scalar negligible = Scalar(0.2);
@@ -87,6 +92,8 @@ class FrictionFilter {
     }
     belief_.end_friction();
     instruments_.clear();
+    lines_.clear();
+    cell_zeros_.clear();
     missing += add_instruments(model, End::jacked, Parameters);
     belief_.end_loads();
     if (missing > 0) return Status::at(Code::capacity_exceeded, Place::none, Parameters, missing);
@@ -115,9 +122,12 @@ class FrictionFilter {
     return Status::success();
   }
 
-  const State& save() const { return belief_.save(); }
+  State save() const { return {belief_.save(), lines_.save()}; }
   /// Goes on where save() was called; after start().
-  void restore(const State& state) { belief_.restore(state); }
+  void restore(const State& state) {
+    belief_.restore(state.belief);
+    lines_.restore(state.lines);
+  }
   /// The friction at which the filter is linearized, for Tracker::start() and Tracker::restore(): a function
   /// of the joint.
   auto friction(const Linear& model) const {
@@ -190,7 +200,11 @@ class FrictionFilter {
   /// Unknown `p` is known to be this, independent of all others.
   void know(int p, Scalar mean, Scalar sd) { belief_.know(p, mean, sd); }
   /// What is known of unknown `p` gives way to what is new, with this standard deviation.
-  void renew(int p, Scalar sd) { belief_.renew(p, sd); }
+  void renew(int p, Scalar sd) {
+    belief_.renew(p, sd);
+    if constexpr (Further > 0)
+      if (belief_.further(p) >= 0) lines_.forget(belief_.further(p));
+  }
   /// Readings scatter more than they were taken to, see Belief::inflate().
   void inflate(Scalar times) { belief_.inflate(times); }
   /// Begins a row: its measurements share the errors of the jacks' readings.
@@ -239,15 +253,18 @@ class FrictionFilter {
   template <class Predict>
   [[nodiscard]] Update update(TrackerType& tracker, const Predict& predict, const JackReadings& jacks,
                               const Measured<Scalar>& measured) {
-    return update_by([&] { return belief_.is_nonlinear() && relinearize(tracker, belief_.updated_mean()); },
-                     predict, jacks, measured);
+    return update_by(
+        tracker, [&] { return belief_.is_nonlinear() && relinearize(tracker, belief_.updated_mean()); },
+        predict, jacks, measured);
   }
   /// The same with another rule: comes_closer(), after Belief::innovate(), returns whether it has brought the
   /// tracker to the mean that would follow.
   template <class ComesCloser, class Predict>
-  [[nodiscard]] Update update_by(const ComesCloser& comes_closer, const Predict& predict,
-                                 const JackReadings& jacks, const Measured<Scalar>& measured) {
+  [[nodiscard]] Update update_by(const TrackerType& tracker, const ComesCloser& comes_closer,
+                                 const Predict& predict, const JackReadings& jacks,
+                                 const Measured<Scalar>& measured) {
     for (int iteration = 1;; ++iteration) {
+      keep_line(tracker);
       if (!belief_.innovate(prediction_, jacks, measured)) return Update::contradiction;
       if (!comes_closer() || iteration == most_iterations) {
         belief_.update(jacks);
@@ -392,6 +409,20 @@ class FrictionFilter {
     return false;
   }
 
+  /// The line that readings of the instrument with prediction() have drawn stays where it is, DrawnLines.
+  void keep_line(const TrackerType& tracker) {
+    if constexpr (Further > 0) {
+      if (!prediction_.has_zero || cell_zeros_.empty()) return;
+      std::uint32_t slides = 0;
+      for (int j = 0; j < tracker.model().joints; ++j)
+        slides = slides * 16777619u + static_cast<std::uint32_t>(tracker.limit(j));
+      lines_.keep(
+          belief_.further(prediction_.zero), slides, cell_zeros_.size(),
+          [&](int k) { return prediction_.H[cell_zeros_[k]]; },
+          [&](int k, Scalar by) { belief_.shear(prediction_.zero, cell_zeros_[k], by); });
+    }
+  }
+
   void depend(int c, int j, int p, Scalar weight) {
     unknown_of_[j] = static_cast<std::int16_t>(p);
     weight_[j] = weight;
@@ -411,6 +442,8 @@ class FrictionFilter {
         if (model.cables[c].ends[end] != kind || (kind == End::anchored && !(cell.sd > 0))) continue;
         missing += instruments_.at(c, end).add(
             cell, [&](Scalar sd) { return belief_.size() < most ? belief_.add(sd) : -1; });
+        const int zero = instruments_.at(c, end).zero;
+        if (kind == End::jacked && zero >= 0) cell_zeros_.add(static_cast<std::int16_t>(zero));
       }
     return missing;
   }
@@ -452,6 +485,8 @@ class FrictionFilter {
   const PriorType* prior_ = nullptr;
   BeliefType belief_;
   Instruments<Scalar, Cap> instruments_;
+  FixedList<std::int16_t, max_jacks<Cap>> cell_zeros_;  // the unknowns of cells at jacks
+  LinesType lines_;
   FrictionScatter<Scalar, Cap> scatter_;
   PredictionType prediction_;
   SlidingCheck<Cap> sliding_;

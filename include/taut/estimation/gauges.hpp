@@ -8,6 +8,7 @@
 #include "taut/estimation/instruments.hpp"
 #include "taut/estimation/lagging_reading.hpp"
 #include "taut/estimation/noise_level.hpp"
+#include "taut/estimation/prediction.hpp"
 #include "taut/numerics/fixed_list.hpp"
 #include "taut/numerics/larger.hpp"
 #include "taut/scene/load_cell.hpp"
@@ -156,8 +157,7 @@ class Gauges {
   }
   template <class PredictionType>
   void depend_on_zero(Gauge gauge, PredictionType& prediction) const {
-    const int zero = unknowns(gauge).zero;
-    if (zero >= 0) prediction.H[zero] = 1;
+    taut::depend_on_zero(unknowns(gauge).zero, prediction);
   }
 
  private:

@@ -16,12 +16,24 @@ struct Prediction {
   FixedArray<Scalar, Jacks> by_jack;  ///< by the force of every unlocked jack [unit of y / N]
   /// What mu that differs from joint to joint adds to the variance of y, the same in all readings of it.
   Scalar scatter = 0;
+  bool has_zero = false;  ///< the instrument has an unknown zero of its own
+  int zero = 0;           ///< its number
 };
 
 /// No unknown of another instrument matters to the reading of this one.
 template <class BeliefType, class PredictionType>
 void clear_further(const BeliefType& unknowns, PredictionType& prediction) {
+  prediction.has_zero = false;
   for (int p = unknowns.carried(); p < unknowns.in_use(); ++p) prediction.H[p] = 0;
+}
+
+/// The reading is that much higher by the instrument's own zero, the unknown `p`, or -1 if it has none.
+template <class PredictionType>
+void depend_on_zero(int p, PredictionType& prediction) {
+  if (p < 0) return;
+  prediction.H[p] = 1;
+  prediction.has_zero = true;
+  prediction.zero = p;
 }
 
 /// The tension of a segment [N]. `unknowns` is a Belief, `jacks` are JackLoads. Always possible.

@@ -108,7 +108,7 @@ struct AlongLeg {
     const auto comes_closer = [&] {
       return (belief.is_nonlinear() || belief.moves_friction()) && relinearize(parts, belief.updated_mean());
     };
-    return parts.filter.update_by(comes_closer, predict, jacks, measured);
+    return parts.filter.update_by(parts.tracker, comes_closer, predict, jacks, measured);
   }
 };
 

@@ -22,8 +22,9 @@ class TrackedForces {
   using SlipState = typename Cables::SlipState;
   using Tensions = typename Cables::Tensions;
 
-  /// Whether the joint slides, or slid before the load came to rest.
-  bool is_at_limit(int joint) const { return cables_.state.slides[joint] != JointState::stick; }
+  /// Which way the joint slides, or slid before the load came to rest.
+  JointState limit(int joint) const { return cables_.state.slides[joint]; }
+  bool is_at_limit(int joint) const { return limit(joint) != JointState::stick; }
   /// rho of a joint as it is used now.
   Real rho(int joint) const { return is_started() ? cables_.laws.rho(joint) : Real(0); }
   /// Its derivative with respect to the unknown that friction of the joint depends on; 0 if there is none.
