@@ -192,8 +192,20 @@ struct EstimatorParts : CondensedType::Capacity::Account {
       if (jacks.end(k).cable() == c && !jacks[k].locked && !jacks[k].at.is_sure()) return false;
     return true;
   }
+  /// Whether the tracker pulls less than a jack does, as much as friction holds where it is: the state that
+  /// it has there, pulled through, is not that of the cable. Any cable counts if `cable` is negative.
+  bool is_held_back(int cable) const {
+    if constexpr (JacksType::capacity < 2) return false;
+    for (int k = 0; k < jacks.size(); ++k)
+      if ((cable < 0 || jacks.end(k).cable() == cable) && jacks[k].leads() &&
+          jacks[k].beyond() > 3 * jacks[k].at.sd && !tracker.reaches(k, jacks[k].best()))
+        return true;
+    return false;
+  }
   /// Whether what is read of a cable can teach anything.
-  bool can_teach(int cable) const { return filter.belief().has_friction() && !loads_are_in_doubt(cable); }
+  bool can_teach(int cable) const {
+    return filter.belief().has_friction() && !loads_are_in_doubt(cable) && !is_held_back(cable);
+  }
   /// Forces teach nothing of a cable for whose own jacks the tracker is ahead: what is read belongs to no
   /// place that is confirmed. `cable` is negative if they are of no cable in particular.
   bool can_learn(int cable) const { return can_teach(cable) && !(is_ahead && is_all_beyond(cable)); }
