@@ -96,6 +96,18 @@ TEST_CASE("an empty field keeps the last load factor, jack force and lock") {
   CHECK_FALSE(read[2].cables[0][0].locked);
 }
 
+TEST_CASE("whether an end is locked may be written as any number that is 0 or 1") {
+  const auto read = rows("time,C.start.locked\n0,1.0\n1,0.00\n2,1e0\n3,-0\n");
+  CHECK(read[0].cables[0][0].locked);
+  CHECK_FALSE(read[1].cables[0][0].locked);
+  CHECK(read[2].cables[0][0].locked);
+  CHECK_FALSE(read[3].cables[0][0].locked);
+  CHECK(rows("time;C.start.locked\n0;1,0\n")[0].cables[0][0].locked);
+  for (const char* none : {"0.5", "2.0", "true", "1.0x", "1 0", "nan"})
+    CHECK(refusal("time,C.start.locked\n0," + std::string(none) + "\n").find("neither locked nor unlocked") !=
+          std::string::npos);
+}
+
 TEST_CASE("an empty field is no measurement") {
   const auto read = rows("time,C.start.stroke,C.end\n0,0.01,500\n1,,\n");
   CHECK(read[0].cables[0][0].stroke == 0.01);

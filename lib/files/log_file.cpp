@@ -358,11 +358,7 @@ void LogReader::take(std::size_t i, LogRow& row) {
   if (column.quantity == Quantity::stroke) {
     end.stroke = number(i);
   } else if (column.quantity == Quantity::locked) {
-    if (fields_[i] != "0" && fields_[i] != "1") {
-      refuse_field(i, quote(fields_[i]) + " is neither locked nor unlocked",
-                   "write 1 for locked, 0 for unlocked");
-    }
-    end.locked = fields_[i] == "1";
+    end.locked = is_locked(i);
   } else {
     end.reading = scene_.cables[column.index].cell[column.end].force_of(number(i));
     // A reading that is impossible is for the estimator to refuse.
@@ -396,12 +392,29 @@ void LogReader::take_factor(std::size_t i, double& factor) {
                  parts));
 }
 
-double LogReader::number(std::size_t i) const {
-  const std::string& text = fields_[i];
-  std::string digits = text;
-  // With both it is one of thousands.
+// Tables with empty fields write 0 and 1 as any other number: 1.0.
+bool LogReader::is_locked(std::size_t i) const {
+  const std::string digits = with_decimal_point(i);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool is_whole = error == std::errc() && end == digits.data() + digits.size();
+  if (!is_whole || (value != 0 && value != 1))
+    refuse_field(i, quote(fields_[i]) + " is neither locked nor unlocked",
+                 "write 1 for locked, 0 for unlocked");
+  return value == 1;
+}
+
+// Between semicolons a number may have a decimal comma; with a point beside it, it is one of thousands.
+std::string LogReader::with_decimal_point(std::size_t i) const {
+  std::string digits = fields_[i];
   if (separator_ == ';' && digits.find('.') == std::string::npos && digits.find(',') != std::string::npos)
     digits[digits.find(',')] = '.';
+  return digits;
+}
+
+double LogReader::number(std::size_t i) const {
+  const std::string& text = fields_[i];
+  const std::string digits = with_decimal_point(i);
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool is_whole = end == digits.data() + digits.size();

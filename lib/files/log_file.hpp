@@ -115,6 +115,8 @@ class LogReader {
   void take_factor(std::size_t i, double& factor);
   double read_time(std::size_t i);
   void check_time(double time, double before, const std::string& before_text) const;
+  bool is_locked(std::size_t i) const;
+  std::string with_decimal_point(std::size_t i) const;
   double number(std::size_t i) const;
   double in_si(std::size_t i, double value, const std::string& digits) const;
   void check_jacks(const LogRow& row) const;
