@@ -231,6 +231,8 @@ TEST_CASE("a goal that cannot be used is refused with its place and a remedy, an
       {head + R"({ "C": 5e5 }, "limits": { "C": 0 } })", "/limits/C", "greater than zero"},
       {head + R"({ "C": 5e5 }, "limits": { "stroke": { "C": 1 } } })", "/limits/stroke/C",
        "there is no jack"},
+      {head + R"({ "C": 5e5 }, "limits": { "stroke": 0.4 } })", "/limits/stroke",
+       "write an object that gives jacks their largest strokes [m]"},
       {head + R"({ "C": 5e5 }, "stages": 0 })", "/stages", "0 moves of jacks"},
       {head + R"({ "C": 5e5 }, "stages": 2.5 })", "/stages", "whole number"},
       {head + R"({ "C": 5e5 }, "lock": 1 })", "/lock", "true or false"},

@@ -136,12 +136,13 @@ class GoalReader {
     for (const CableDescription& each : scene_.cables) known.push_back(each.name);
     for (const std::string& name : jacks()) known.push_back(name);
     for (const auto& [name, limit] : field.members("an object of largest forces [N] and strokes [m]")) {
-      if (name == stroke_key && !limit.is_number()) {
+      const bool is_cable = std::find(known.begin() + 1, known.end(), name) != known.end();
+      if (name == stroke_key && !(is_cable && limit.is_number())) {
         read_strokes(limit);
       } else if (const auto found = jack(name); found.first < scene_.cables.size()) {
         goal_.most_force[found.first][found.second] = carried(limit, "a jack force", found.first);
       } else {
-        if (std::find(known.begin() + 1, known.end(), name) == known.end())
+        if (!is_cable)
           limit.refuse("there is no cable and no jack " + quote(name),
                        suggestion(name, known, "limits can be those of"));
         const std::size_t c = cable(limit, name);
@@ -191,7 +192,7 @@ class GoalReader {
 }  // namespace
 
 PlanGoal read_goal_file(const std::string& path, const SceneDescription& scene) {
-  const JsonValue tree = parse_json(read_text(path, largest_file), path);
+  const JsonValue tree = parse_json(read_text(path, largest_file, "goal file"), path);
   return GoalReader(Field(tree, "", path), scene).read(path);
 }
 

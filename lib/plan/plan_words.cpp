@@ -79,20 +79,22 @@ std::vector<std::string> plan_sentences(const SceneDescription& scene, const Pla
   if (far.most > 0)
     stop += (stop.empty() ? "" : " and ") + segment_text(scene, far.high) + " (" + part_text(far.most) +
             " too high)";
+  const bool is_pair = far.least < 0 && far.most > 0;
   if (error > 1e-9 && result.for_mean)
     said.push_back("no smaller expected error was found (not proved); at the mean of mu " + stop +
-                   " are the furthest");
+                   (is_pair ? " are" : " is") + " the furthest");
   else if (error > 1e-9) {
     const std::string friction = has_limits(goal) ? "friction and the limits allow" : "friction allows";
+    const std::string stops = is_pair ? " stop it" : " stops it";
     switch (plan.certainty) {
       case Certainty::best_of_all:
-        said.push_back(friction + " nothing nearer, however it is jacked: " + stop + " stop it");
+        said.push_back(friction + " nothing nearer, however it is jacked: " + stop + stops);
         break;
       case Certainty::best_of_moves:
-        said.push_back(friction + " nothing nearer in so many moves (proved): " + stop + " stop it");
+        said.push_back(friction + " nothing nearer in so many moves (proved): " + stop + stops);
         break;
       case Certainty::best_found:
-        said.push_back("nothing nearer was found (not proved): " + stop + " stop it");
+        said.push_back("nothing nearer was found (not proved): " + stop + stops);
         break;
     }
   }
