@@ -17,6 +17,7 @@
 #include "lib/commands/watch.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/number_range.hpp"
+#include "lib/files/text.hpp"
 #include "lib/kinds/own_stack.hpp"
 
 namespace {
@@ -58,6 +59,12 @@ const CLI::Validator from_zero_up(
     },
     "NUMBER");
 
+// As for the rows of a log, - is what the shell hands over.
+CLI::Option* add_output(CLI::App& command, std::string& output, const std::string& meaning) {
+  return command.add_option("-o", output, meaning + "; standard output if absent or -")
+      ->transform([](const std::string& path) { return path == "-" ? std::string() : path; });
+}
+
 // The command line, with what it asks for.
 class CommandLine {
  public:
@@ -77,6 +84,7 @@ class CommandLine {
   }
 
   int run(int argc, char** argv) {
+    if (argc > 1) require_command(argv[1]);
     try {
       app_.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -97,6 +105,17 @@ class CommandLine {
   }
 
  private:
+  // CLI11 says that a command is missing, and not which one it does not know.
+  void require_command(const std::string& word) const {
+    if (word.rfind('-', 0) == 0) return;
+    std::vector<std::string> known;
+    for (const CLI::App* command : app_.get_subcommands([](const CLI::App*) { return true; }))
+      known.push_back(command->get_name());
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      throw InputError("taut", "", "there is no command " + quote(word),
+                       suggestion(word, known, "the commands are"));
+  }
+
   void add_check() {
     check_ = app_.add_subcommand("check", "Show what a scene holds and needs, and whether it stands");
     check_->add_option("SCENE", options_.scene, "Scene file (JSON)")->required();
@@ -187,7 +206,7 @@ class CommandLine {
   void add_run(CLI::App& command, const std::string& log) {
     command.add_option("SCENE", options_.scene, "Scene file (JSON)")->required();
     command.add_option("LOG", options_.log, log)->required();
-    command.add_option("-o", options_.output, "Result file (CSV); standard output if absent");
+    add_output(command, options_.output, "Result file (CSV)");
     command.add_option("--scalar", scalar_, "Floating-point type of the computation")
         ->check(CLI::IsMember({"double", "float"}))
         ->capture_default_str();
@@ -206,14 +225,14 @@ class CommandLine {
     export_ = app_.add_subcommand("export", "Write a C++ header with the condensed scene, for firmware");
     export_->add_option("SCENE", scenes_, "Scene files (JSON); several share one capacity and so their code")
         ->required();
-    export_->add_option("-o", options_.output, "Header file (C++); standard output if absent");
+    add_output(*export_, options_.output, "Header file (C++)");
     export_->add_option("--c", c_name_, "Write also a C interface, NAME.h and NAME.cpp, beside the header");
   }
 
   void add_template() {
     template_ = app_.add_subcommand("template", "Write the header of a log for a scene, with remarks");
     template_->add_option("SCENE", options_.scene, "Scene file (JSON)")->required();
-    template_->add_option("-o", options_.output, "Log file (CSV); standard output if absent");
+    add_output(*template_, options_.output, "Log file (CSV)");
   }
 
   CLI::App app_{"Cable forces with friction in cable-supported structures."};

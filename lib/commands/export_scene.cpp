@@ -114,7 +114,7 @@ int export_scenes(const ExportOptions& options) {
   const std::string c_file = beside(options, ".h"), source_file = beside(options, ".cpp");
   for (const std::string& written : {c_file, source_file}) {
     keep_inputs(written, options.scenes);
-    keep_inputs(written, {options.output});
+    keep_apart(options.output, written, "the header of the scene and a file of its C interface");
   }
   OutputFile output(options.output), c_output(c_file), source(source_file);
   output.write(header);

@@ -125,8 +125,8 @@ LogFollower::LogFollower(const RunOptions& options)
       turns_(scene_) {
   keep_inputs(options.output, {options.scene, options.log, options.state});
   keep_inputs(options.state, {options.scene, options.log});
-  if (!options.state.empty() && options.state == options.output)
-    throw InputError(options.state, "", "is the output and the state of one run", "name another file");
+  keep_apart(options.output, options.state, "the output and the state of one run");
+  require_writable(options.state);
   if (options.log == "-") {
     source_.emplace(LogStream{std::cin, standard_input, "", {}, {}, {}});
     read_state();
@@ -437,13 +437,13 @@ void LogFollower::keep_state() const {
     return;
   }
   OutputFile file(options_.state);
-  file.write(state_text(present_state(), read_text(options_.scene, largest_text_file)));
+  file.write(state_text(present_state(), read_text(options_.scene, largest_text_file, "scene file")));
   file.finish();
 }
 
 std::optional<std::string> LogFollower::state() const {
   if (model_->has_unknown_past()) return std::nullopt;
-  return state_text(present_state(), read_text(options_.scene, largest_text_file));
+  return state_text(present_state(), read_text(options_.scene, largest_text_file, "scene file"));
 }
 
 SavedState LogFollower::present_state() const {
@@ -461,11 +461,11 @@ SavedState LogFollower::present_state() const {
 
 void LogFollower::read_state() {
   if (options_.state.empty() || !std::filesystem::exists(options_.state)) return;
-  take_state(options_.state, read_text(options_.state, largest_text_file));
+  take_state(options_.state, read_text(options_.state, largest_text_file, "state file"));
 }
 
 void LogFollower::take_state(const std::string& path, const std::string& text) {
-  begun_ = taut::host::read_state(path, text, read_text(options_.scene, largest_text_file),
+  begun_ = taut::host::read_state(path, text, read_text(options_.scene, largest_text_file, "scene file"),
                                   name_of(options_.numbers.scalar));
   assume(begun_->assumed, scene_);
 }

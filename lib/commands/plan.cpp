@@ -24,8 +24,9 @@ namespace {
 void keep_files_apart(const PlanOptions& options) {
   keep_inputs(options.log, {options.scene, options.goal});
   keep_inputs(options.sheet, {options.scene, options.goal});
-  if (!options.log.empty() && options.log == options.sheet)
-    throw InputError(options.log, "", "is the log and the sheet of one plan", "name another file");
+  keep_apart(options.log, options.sheet, "the log and the sheet of one plan");
+  require_writable(options.log);
+  require_writable(options.sheet);
 }
 
 // What is said of the plan is what simulate finds for its log.

@@ -71,8 +71,8 @@ StressingSheet sheet_of(const ReportOptions& options, const LogFollower& followe
     sheet.most_segment = goal.most_segment;
   }
   sheet.version = TAUT_VERSION;
-  sheet.scene_hash = sha256(read_text(options.scene, largest_file));
-  sheet.log_hash = sha256(read_text(options.log, largest_file));
+  sheet.scene_hash = sha256(read_text(options.scene, largest_file, "scene file"));
+  sheet.log_hash = sha256(read_text(options.log, largest_file, "log file"));
   sheet.least_force = std::max(options.limits.least_force, 0.0);
   if (options.limits.most_force >= 0) sheet.most_force = options.limits.most_force;
   if (!sheet.job.elongation_tolerance) sheet.job.elongation_tolerance = options.limits.elongation;

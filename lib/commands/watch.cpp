@@ -61,9 +61,7 @@ void require_possible(const WatchOptions& options) {
   const std::vector<std::string> inputs = {options.scene, options.log, options.goal};
   keep_inputs(options.record, inputs);
   keep_inputs(options.state, inputs);
-  keep_inputs(options.record, {options.state});
-  if (!options.state.empty() && options.state == options.record)
-    throw InputError(options.state, "", "is the record and the state of one run", "name another file");
+  keep_apart(options.record, options.state, "the record and the state of one run");
 }
 
 class Watch {
@@ -81,7 +79,8 @@ class Watch {
       goal_ = std::make_unique<PlanGoal>(read_goal_file(options.goal, scene_));
     }
     if (!options.state.empty())
-      state_ = std::make_unique<WatchState>(options.state, read_text(options.scene, largest_text_file));
+      state_ = std::make_unique<WatchState>(options.state,
+                                            read_text(options.scene, largest_text_file, "scene file"));
     if (!options.record.empty())
       record_ = std::make_unique<RecordFile>(options.record, result_header(scene_, ResultColumns::estimate));
   }
@@ -265,8 +264,8 @@ class Watch {
     }
     for (const std::string& said : plan_sentences(scene_, *goal_, result))
       std::cerr << "plan: " << said << '\n';
-    guide_ = std::make_unique<PlanGuide>(scene_, *goal_, read_text(options_.goal, largest_text_file),
-                                         result.plan, result.prior);
+    guide_ = std::make_unique<PlanGuide>(
+        scene_, *goal_, read_text(options_.goal, largest_text_file, "goal file"), result.plan, result.prior);
     if (state_ && !state_->plan().empty() && !guide_->go_on(state_->plan()))
       std::cerr << "remark: " << options_.state
                 << " has a plan to another goal: its stages are found anew from the rows\n";

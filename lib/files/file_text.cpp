@@ -20,8 +20,8 @@ void require_readable(const std::string& path, const std::string& noun) {
   }
 }
 
-std::string read_text(const std::string& path, std::size_t most) {
-  require_readable(path, "scene file");
+std::string read_text(const std::string& path, std::size_t most, const std::string& noun) {
+  require_readable(path, noun);
   std::ifstream file(path, std::ios::binary);
   std::string text, block(std::size_t{1} << 16, '\0');
   while (text.size() <= most &&
@@ -32,7 +32,7 @@ std::string read_text(const std::string& path, std::size_t most) {
     throw InputError(path, "", "cannot be read to its end", "check the disk or copy the file again");
   if (text.size() > most) {
     throw InputError(path, "", "is larger than " + std::to_string(most >> 20) + " MiB",
-                     "check that it is a scene");
+                     "check that it is a " + noun);
   }
   return text;
 }

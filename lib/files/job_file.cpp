@@ -133,7 +133,7 @@ class JobReader {
 }  // namespace
 
 Job read_job_file(const std::string& path, const SceneDescription& scene) {
-  const JsonValue tree = parse_json(read_text(path, largest_json_file), path);
+  const JsonValue tree = parse_json(read_text(path, largest_json_file, "job file"), path);
   return JobReader(Field(tree, "", path), scene).read();
 }
 

@@ -98,4 +98,20 @@ void keep_inputs(const std::string& output, const std::vector<std::string>& inpu
   }
 }
 
+void keep_apart(const std::string& first, const std::string& second, const std::string& both) {
+  if (first.empty() || second.empty()) return;
+  std::error_code none;
+  const auto place = [&](const std::string& path) { return fs::weakly_canonical(fs::absolute(path), none); };
+  if (place(first) == place(second)) throw InputError(second, "", "is " + both, "name another file");
+}
+
+// A device or a pipe would take it for the output itself.
+void require_writable(const std::string& path) {
+  std::error_code none;
+  const fs::file_status status = fs::status(path, none);
+  const bool is_written_directly =
+      fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+  if (!path.empty() && !is_written_directly) const OutputFile tried(path);
+}
+
 }  // namespace taut::host

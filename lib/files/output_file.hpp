@@ -41,4 +41,12 @@ class OutputFile {
 /// Throws InputError if the output would take the place of an input of the same run.
 void keep_inputs(const std::string& output, const std::vector<std::string>& inputs);
 
+/// Throws InputError if two outputs of one run would be one file, however they are spelt; `both` says what it
+/// would be, as in `the log and the sheet of one plan`. An empty path is no file.
+void keep_apart(const std::string& first, const std::string& second, const std::string& both);
+
+/// Throws InputError if a file could not be written here, before time is spent on what goes into it. It stays
+/// as it was. An empty path is no file.
+void require_writable(const std::string& path);
+
 }  // namespace taut::host

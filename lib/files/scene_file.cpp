@@ -589,7 +589,7 @@ SceneDescription read_scene(std::string_view text, const std::string& file) {
 }
 
 SceneDescription read_scene_file(const std::string& path) {
-  return read_scene(read_text(path, largest_json_file), path);
+  return read_scene(read_text(path, largest_json_file, "scene file"), path);
 }
 
 }  // namespace taut::host

@@ -56,7 +56,7 @@ std::string WatchState::head(const std::string& state) const {
 }
 
 void WatchState::read() {
-  const std::string text = read_text(path_, most_bytes);
+  const std::string text = read_text(path_, most_bytes, "state file");
   const std::size_t end = text.find('\n');
   if (text.empty() || end == std::string::npos) refuse();
   std::istringstream line(text.substr(0, end));
