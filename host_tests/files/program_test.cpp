@@ -326,6 +326,24 @@ TEST_CASE("displacements that are no small ones are remarked on once, with what 
   CHECK(lines(leaning.err) == 1);
 }
 
+TEST_CASE("a temperature that has no effect for want of the cable's alpha is remarked on") {
+  const Scratch scratch;
+  const auto remarks_with = [&](const std::string& alpha) {
+    std::ofstream(scratch.path / "warm.json")
+        << R"({"taut": 1, "name": "warm wire", "dimension": 2, "nodes": {"a": [0, 0], "b": [10, 0]},
+               "supports": {"a": "xy", "b": "xy"},
+               "cables": [{"name": "C", "path": ["a", "b"], "E": 2e11, "A": 1e-3, "start": "anchored", "end": "anchored",
+                           "prestrain": 0.001)"
+        << alpha << R"(}], "loads": {"sun": {"temperature": {"C": 10}}}})";
+    return run_taut(scratch, simulation(scratch, "time,sun\n1,1\n", (scratch.path / "warm.json").string()))
+        .err;
+  };
+  CHECK(remarks_with("") ==
+        "remark: the load \"sun\" warms cable \"C\", which has no \"alpha\": its temperature changes "
+        "nothing\n");
+  CHECK(remarks_with(R"(, "alpha": 1.2e-5)").empty());
+}
+
 TEST_CASE("a target at which a beam buckles is refused with that reason, and one below it is not") {
   const Scratch scratch;
   for (const auto& [force, buckles] : {std::pair{"40000", false}, std::pair{"60000", true}}) {

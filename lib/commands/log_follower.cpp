@@ -503,6 +503,12 @@ void LogFollower::remark_on_columns(const LogReader& log) {
   for (const LoadDescription& load : scene_.loads) {
     if (!log.has(load.name))
       remark(Sentence("the log has no column {1}: the factor of this load stays 0", {quote(load.name)}));
+    for (const TemperatureDescription& given : load.temperatures)
+      if (const CableDescription& cable = scene_.cables[static_cast<std::size_t>(given.cable)];
+          cable.alpha == 0)
+        remark(
+            Sentence("the load {1} warms cable {2}, which has no \"alpha\": its temperature changes nothing",
+                     {quote(load.name), quote(cable.name)}));
   }
   const auto remark_on_measurement = [&](const std::string& column) {
     if (!measures && log.has(column))

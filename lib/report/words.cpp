@@ -597,6 +597,9 @@ constexpr Translation translations[] = {
      "Spalte {1} wird nicht benutzt: der Zustand begann ohne sie"},
     {"the log has no column {1}: the factor of this load stays 0", "记录中没有列 {1}：该荷载系数保持为 0",
      "das Protokoll hat keine Spalte {1}: der Faktor dieser Last bleibt 0"},
+    {"the load {1} warms cable {2}, which has no \"alpha\": its temperature changes nothing",
+     "荷载 {1} 使索 {2} 升温，而该索没有 \"alpha\"：其温度不起作用",
+     "die Last {1} erwärmt Seil {2}, das kein \"alpha\" hat: seine Temperatur bewirkt nichts"},
     {"the log has no column {1}: this jack force stays 0", "记录中没有列 {1}：该张拉力保持为 0",
      "das Protokoll hat keine Spalte {1}: diese Pressenkraft bleibt 0"},
     {"the load of {1} falls from {2} to {3} N after line {4}, and the end is locked in line {5}: if its "
