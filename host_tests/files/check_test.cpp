@@ -214,13 +214,13 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a second-order target at which no cable has tension is refused by its place, with nothing written") {
+    "a second-order target that has nothing to begin with is refused by its place, with nothing written") {
   const Scratch scratch;
   write(scratch, "log.csv", "time,C.end\n1,500000\n");
   const std::string expected =
-      "/second_order/target: no cable has tension at the target; write the jack forces (\"forces\") and "
-      "loads "
-      "(\"loads\") under which the cables are taut\n";
+      "/second_order/target: no jack pulls there, and no cable has prestrain; write the jack forces "
+      "(\"forces\") at the target: second-order theory begins with them or with prestrain, and not with what "
+      "loads alone tension\n";
   for (const char* target : {"{}", R"({ "loads": {}, "forces": {} })", R"({ "forces": { "C.end": 0 } })"}) {
     std::string scene = one_strut("0.1");
     scene.replace(scene.rfind('}'), 1, std::string(R"(, "second_order": { "target": )") + target + " } }");
@@ -294,6 +294,36 @@ TEST_CASE(
   CHECK(stands.status == 0);
   CHECK(stands.err.empty());
   CHECK(has(stands.out, "on the cable alone      joints 1 to 8 of cable \"C\", in 1 direction\n"));
+}
+
+TEST_CASE(
+    "loads alone leave open how far linear theory is off, and promise no answer of second-order theory") {
+  const Scratch scratch;
+  // A weight at the foot of a strut draws a cable tight between two anchors.
+  const std::string hung = R"({ "taut": 1, "name": "hung", "dimension": 2,
+    "nodes": { "hinge": [1, 1], "roller": [0, 0], "foot": [0, -1] },
+    "supports": { "hinge": "xy", "roller": "x", "foot": "x" },
+    "struts": [ { "nodes": ["roller", "foot"], "E": 2e11, "A": 1e-4 } ],
+    "cables": [ { "name": "C", "path": ["hinge", "roller", "foot"], "E": 2e11, "A": 1e-4, "start": "anchored", "end": "anchored",
+                  "friction": { "law": "point", "mu": 0.1 } } ],
+    "loads": { "Fy": { "forces": { "foot": [0, -1000] } } } })";
+  write(scratch, "log.csv", "time,Fy\n1,1\n");
+  write(scratch, "scene.json", hung);
+  const std::string check = "check " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv");
+  const Outcome stands = run_taut(scratch, check);
+  CHECK(stands.status == 0);
+  CHECK(has(stands.out,
+            "linear theory           how far it is off is not known: second-order theory begins with a "
+            "jack that pulls or with prestrain, and there is neither\n"));
+  // Without tension nothing holds the feet of these struts, in no theory.
+  std::string loose = hoop("");
+  loose.replace(loose.find("0.003"), 5, "0");
+  write(scratch, "scene.json", loose);
+  write(scratch, "log.csv", "time\n1\n");
+  const Outcome refused = run_taut(scratch, check);
+  CHECK(refused.status == 1);
+  CHECK(has(refused.err, "mechanism: nothing holds this node"));
+  CHECK_FALSE(has(refused.err, "second-order theory has an answer"));
 }
 
 TEST_CASE("between rigid saddles nothing leans, and a log is read all the same") {

@@ -155,6 +155,7 @@ TEST_CASE("limits that leave no way near end with 1, and with the best that was 
   const Run run = plan(two_bays, R"({ "taut": 1, "target": { "C": 5e5 }, "limits": { "C.end": 3e5 } })");
   CHECK(run.outcome.status == 1);
   CHECK(has(run.outcome.err, "goal.json: /limits: "));
+  CHECK(has(run.outcome.out, " too low) stops it\n"));
   CHECK(run.has_log);
   const auto table = rows_of(run.outcome.out);
   CHECK(std::stod(table[2][column(table[0], "C.end")]) == doctest::Approx(3e5).epsilon(1e-9));

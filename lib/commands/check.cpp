@@ -243,6 +243,11 @@ std::string where(const TheoryEnd& end) {
 std::string accuracy(const SceneDescription& scene, const std::optional<ComparedTheories>& compared) {
   if (!compared)
     return scene.second_order ? "" : line("linear theory", "how far it is off says: taut check SCENE LOG");
+  if (!compared->begins)
+    return line("linear theory",
+                "how far it is off is not known: second-order theory begins with a jack that pulls or with "
+                "prestrain, "
+                "and there is neither");
   const std::string off = gaps(*compared);
   if (off.empty()) return "";
   const bool ends = compared->linear || compared->second;
@@ -339,7 +344,7 @@ int check(const std::string& scene_path, const std::string& log_path) {
   const Status stands = condensed.condensing.status ? try_start(scene) : condensed.condensing.status;
   if (!stands) {
     output.finish();
-    const bool helps = !scene.second_order && compared && !compared->second;
+    const bool helps = !scene.second_order && compared && compared->begins && !compared->second;
     const std::string remedy =
         helps ? "second-order theory has an answer" + second_order_remedy(scene, *compared) : "";
     return refuse(scene, failure_text(stands, scene, remedy).english());
@@ -348,7 +353,7 @@ int check(const std::string& scene_path, const std::string& log_path) {
   output.write(condition(condensed.condensing.condition) + mechanisms(loose.size()) +
                (rigid ? "" : held_by_cable(scene, hanging) + accuracy(scene, compared)));
   output.finish();
-  for (const std::string& text : joint_warnings(scene, compared.has_value(), loose, hanging))
+  for (const std::string& text : joint_warnings(scene, compared && compared->begins, loose, hanging))
     std::cerr << "warning: " << text << '\n';
   if (compared)
     for (const std::string& text : theory_warnings(scene, *compared))

@@ -175,14 +175,14 @@ std::string loads_of(const SceneDescription& scene, const TargetDescription& loa
   return text;
 }
 
-// Without any there is no geometric stiffness.
-bool has_load(const SceneDescription& scene, const TargetDescription& target) {
+// Tension that geometric stiffness can begin with.
+bool has_tension(const SceneDescription& scene, const TargetDescription& target) {
   const auto is_any = [](double number) { return number != 0; };
   for (const CableDescription& cable : scene.cables)
     if (std::any_of(cable.prestrain.begin(), cable.prestrain.end(), is_any)) return true;
   for (const auto& force : target.force)
     if (std::any_of(force.begin(), force.end(), is_any)) return true;
-  return std::any_of(target.factor.begin(), target.factor.end(), is_any);
+  return false;
 }
 
 // One theory on its way.
@@ -239,7 +239,8 @@ ComparedTheories compare_theories(const SceneDescription& scene, const std::stri
 
   ComparedTheories compared;
   compared.target = *second_scene.second_order;
-  if (!has_load(scene, compared.target)) return compared;
+  compared.begins = has_tension(scene, compared.target);
+  if (!compared.begins) return compared;
   Theory linear(linear_scene), second(second_scene);
   Gap segments, struts, extensions;
   const auto take = [&] {
