@@ -15,12 +15,12 @@ endfunction()
 
 set(here ${SOURCE}/host_tests/export)
 run_or_fail("export" ${TAUT} export ${here}/${NAME}.json -o ${WORK}/${NAME}.hpp --c ${NAME}_jack)
-run_or_fail("the source" ${CXX} -std=c++17 -O1 ${warnings} -ffp-contract=off -I${SOURCE}/include -c ${WORK}/${NAME}_jack.cpp -o
+run_or_fail("the source" ${CXX} -std=c++17 -fno-exceptions ${warnings} -ffp-contract=off -I${SOURCE}/include -c ${WORK}/${NAME}_jack.cpp -o
             ${WORK}/${NAME}_jack.o)
 run_or_fail("the header in C++" ${CXX} -std=c++17 ${warnings} -fsyntax-only -x c++ ${WORK}/${NAME}_jack.h)
 run_or_fail("the program in C" ${C} -std=c99 -Wall -Wextra -pedantic -Werror -I${WORK} -DC_INTERFACE=${NAME}_jack
             -DC_HEADER="${NAME}_jack.h" -c ${here}/c_interface_test.c -o ${WORK}/${NAME}_test.o)
-run_or_fail("linking" ${CXX} ${WORK}/${NAME}_test.o ${WORK}/${NAME}_jack.o -o ${WORK}/${NAME}_test)
+run_or_fail("linking without a library of C++" ${C} ${WORK}/${NAME}_test.o ${WORK}/${NAME}_jack.o -lm -o ${WORK}/${NAME}_test)
 run_or_fail("the run" ${WORK}/${NAME}_test ${here}/${NAME}.csv ${arguments})
 set(found "${said}")
 run_or_fail("taut estimate" ${TAUT} estimate --scalar float --hex --columns ${COLUMNS} ${here}/${NAME}.json ${here}/${NAME}.csv)

@@ -64,10 +64,11 @@
 // place of Condensed in Tracker and Estimator.
 //
 //   run() takes the loads and jack forces of the target besides. It fails as Condensation does, there also
-//   with `mechanism` where tension and thrust at the target leave a node without stiffness, and with
-//   `out_of_range` if no cable has tension there. Costs twelve condensations, with a solve more for every
-//   strut and beam, and three paths to the target. A tracker has n^2 numbers more, and n^2 operations for
-//   every bar where its level changes by a 32nd.
+//   with `mechanism` where tension and thrust at the target leave a node without stiffness, with `gives_way`
+//   where members buckle there, and with `out_of_range` if no jack pulls there and no cable has prestrain.
+//   Costs twelve condensations, with a solve more for every strut and beam, and three paths to the target. A
+//   tracker has n^2 numbers more, and n^2 operations for every bar where its level or geometry has changed by
+//   a step.
 //
 // Tracker<Condensed, Parameters>: exact from sample to sample. The condensed scene must outlive it. start(),
 // then advance() for every Sample: factors of the L load patterns, force [N] and lock of both ends of every
