@@ -170,8 +170,7 @@ int main(int argc, char** argv) {
   }
   std::puts(
       "| instruments | truth in the 95 % interval [%] | from the jack inwards | error of inner forces at the "
-      "end, "
-      "rms [%] | with the nominal mu [%] | no answer |");
+      "end, rms [%] | with the nominal mu [%] | no answer |");
   std::puts("| --- | ---: | --- | ---: | ---: | ---: |");
   bool good = true;
   const char* names[] = {"jack and far end, double",         "jack alone, double",

@@ -24,8 +24,7 @@ TEST_CASE("a joint that locks itself by friction is exported as self-locking") {
 
 TEST_CASE(
     "unknowns: one mu for all joints of a cable, none of a self-locking joint, three memories of a noisy "
-    "jack "
-    "beside other loads, a draw-in of every wedge") {
+    "jack beside other loads, a draw-in of every wedge") {
   static_assert(arch::unknowns == 1 + 3 + 2);
 }
 

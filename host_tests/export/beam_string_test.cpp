@@ -4,8 +4,7 @@
 
 TEST_CASE(
     "a scene in second-order theory is exported with every bit, beams and pinned struts too, and tracked as "
-    "the "
-    "program tracks it") {
+    "the program tracks it") {
   exported::check<2, beam_string::unknowns, beam_string::reading_unknowns>(
       "beam_string", beam_string::condensed<float>, beam_string::prior<float>, &beam_string::struts<float>);
   exported::check<2, beam_string::unknowns, beam_string::reading_unknowns>(

@@ -115,6 +115,22 @@ TEST_CASE("loads, temperatures and the target of second-order theory that are ab
   check_refused(site, "check", "", "scene.json: /second_order/target/loads/dead: a load of ");
 }
 
+TEST_CASE("a thermal expansion in parts of a million is refused, and a temperature that no cable has") {
+  Site site;
+  for (const char* const alpha : {"12", "-0.002"}) {
+    site.wedge = std::string(R"(, "alpha": )") + alpha;
+    check_refused(site, "check", "", "scene.json: /cables/0/alpha: a thermal expansion of ");
+  }
+  site.wedge = R"(, "alpha": 1.2e-5, "temperature_sd": 1200)";
+  check_refused(site, "check", "",
+                "scene.json: /cables/0/temperature_sd: a temperature that is known to 1200 K ");
+  // Of carbon it is below zero, of polymers ten times that of steel.
+  for (const char* const alpha : {"-1e-6", "2e-4"}) {
+    site.wedge = std::string(R"(, "temperature_sd": 20, "alpha": )") + alpha;
+    check_taken(site, "check", "");
+  }
+}
+
 TEST_CASE("coordinates in mm are refused where they make a cable longer than 10 km") {
   Site site;
   site.coordinates = "[-20000, 0]";
@@ -332,8 +348,7 @@ TEST_CASE(
   };
   CHECK(remark({20000, 8000, 10}) ==
         "remark: the load of \"C.end\" falls from 30000 to 10 N after line 36, and the end is locked in line "
-        "40: "
-        "if its wedge was drawn in before, \"C.end.locked\" is 1 from line 37 on");
+        "40: if its wedge was drawn in before, \"C.end.locked\" is 1 from line 37 on");
   CHECK(remark({}).empty());
   // Overstressed, misread, and let out slowly.
   CHECK(remark({29500, 29000, 28500}).empty());
@@ -349,4 +364,17 @@ TEST_CASE("plausible is true or false") {
       << R"({ "taut": 1, "name": "n", "dimension": 2, "plausible": "no", "nodes": { "a": [0, 0] } })";
   CHECK(run_taut(scratch, "check " + scratch.quoted("scene.json")).err.find("/plausible: ") !=
         std::string::npos);
+}
+
+TEST_CASE("a drift of mu, which is not used yet, is remarked on where mu is estimated") {
+  const Scratch scratch;
+  Site site;
+  site.sensors = R"("C.end": { "exact": true })";
+  const std::string
+      log = "time,C.end\n1,10000\n2,20000\n",
+      remark = "remark: the drift of mu of cable \"C\" is not used yet: mu is taken to stay what it is\n";
+  CHECK(run(scratch, site, "estimate", log).err.empty());
+  site.friction += R"(, "drift": 0.05)";
+  CHECK(run(scratch, site, "estimate", log).err == remark);
+  CHECK(run(scratch, site, "simulate", log).err.empty());
 }

@@ -131,8 +131,7 @@ std::string summary(const std::string& lines) {
   for (const char* until : {"target", "within"}) {
     text << "\n| " << until
          << " | scenes | both to the target | neither begins | taut ends earlier | later | segments | struts "
-            "| "
-            "extension | displacements |\n|";
+            "| extension | displacements |\n|";
     for (int i = 0; i < 10; ++i) text << " --- |";
     text << "\n";
     for (const auto& [name, scenes] : kinds) {

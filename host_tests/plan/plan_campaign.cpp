@@ -379,8 +379,7 @@ int run(const Options& options) {
   std::printf("\nThe same with mu 30 %% lower and higher than planned for\n\n");
   std::printf(
       "| | mu | straight pull | 105 %% and back | plan | planned anew | planned anew in the core |\n| --- | "
-      "--- "
-      "| --- | --- | --- | --- | --- |\n");
+      "--- | --- | --- | --- | --- | --- |\n");
   for (Kind& kind : one) {
     std::printf("| %s | -30 %% | %s | %s | %s | %s | %s |\n", name_of(kind.kind),
                 kind.straight_low.text().c_str(), kind.rule_low.text().c_str(), kind.plan_low.text().c_str(),
@@ -407,10 +406,8 @@ int run(const Options& options) {
   std::printf("\nTwo jacks, up and back\n\n");
   std::printf(
       "| | scenes | straight pull | 105 %% and back | plan | plan less the best of %d random ones, at most "
-      "[%%] | "
-      "moves tried, at most | time [ms], mean / median / 95 %% |\n| --- | --- | --- | --- | --- | --- | --- "
-      "| "
-      "--- |\n",
+      "[%%] | moves tried, at most | time [ms], mean / median / 95 %% |\n| --- | --- | --- | --- | --- | --- "
+      "| --- | --- |\n",
       options.random);
   for (Kind& kind : two)
     std::printf("| %s | %d (%d without an answer) | %s | %s | %s | %.4f | %d | %s |\n", name_of(kind.kind),

@@ -374,8 +374,7 @@ void LogFollower::warn_of_bend(const LogRow& row, const Answer& answer) {
                                      {std::string(percent.data())});
       return remark(
           Sentence("{1}: {2}: {3}; second-order theory is made for a tenth: beyond it compare with a program "
-                   "for large "
-                   "displacements",
+                   "for large displacements",
                    {place(row), joint_text(scene_, static_cast<int>(c), static_cast<int>(j)), bend}));
     }
 }
@@ -515,6 +514,9 @@ void LogFollower::remark_on_columns(const LogReader& log) {
       remark(Sentence("column {1} is a measurement: simulate does not use it", {quote(column)}));
   };
   for (const CableDescription& cable : scene_.cables) {
+    if (measures && cable.drift != 0)
+      remark(Sentence("the drift of mu of cable {1} is not used yet: mu is taken to stay what it is",
+                      {quote(cable.name)}));
     for (std::size_t end = 0; end < 2; ++end) {
       const std::string column = cable.name + "." + end_name(end);
       if (cable.is_jacked(end) && !log.has(column)) {

@@ -12,8 +12,8 @@ namespace taut::host {
 namespace {
 
 constexpr double least_E = 1e9, most_E = 1e12, least_E_of_strut = 1e6, most_A_of_strut = 1, longest = 1e4,
-                 most_on_node = 1e10, most_kelvin = 1000, most_seating = 0.1, most_mu_of_capstan = 2,
-                 most_part = 1;
+                 most_on_node = 1e10, most_kelvin = 1000, most_alpha = 1e-3, most_seating = 0.1,
+                 most_mu_of_capstan = 2, most_part = 1;
 constexpr const char* no_per_cent = "write a part and not per cent";
 
 [[noreturn]] void refuse(const SceneDescription& scene, const std::string& place, const std::string& problem,
@@ -53,6 +53,14 @@ void check_cable(std::size_t c, const SceneDescription& scene) {
     if (drawn > most_seating)
       refuse(scene, place + key, "no wedge is drawn in by " + plain(drawn) + " m",
              "write it in m, as in 0.006");
+  if (std::fabs(cable.alpha) > most_alpha)
+    refuse(scene, place + "/alpha",
+           "a thermal expansion of " + plain(cable.alpha) + " 1/K is that of no cable",
+           "write it in 1/K, as in 1.2e-5 for steel");
+  if (cable.temperature_sd > most_kelvin)
+    refuse(scene, place + "/temperature_sd",
+           "a temperature that is known to " + plain(cable.temperature_sd) + " K is that of no cable",
+           "write it in K");
   if (const double length = length_of(cable, scene); length > longest)
     refuse(scene, place + "/path", "the cable is " + plain(std::round(length)) + " m long",
            "write the coordinates of nodes in m");

@@ -353,8 +353,7 @@ Sentence failure_problem(const Status& status, const SceneDescription& scene) {
   if (status.code == Code::gives_way && status.place == Place::node)
     return Sentence(
         "under the forces at the target of second-order theory members buckle, and this node moves or turns "
-        "most: "
-        "the target is not reached");
+        "most: the target is not reached");
   if (status.code == Code::mechanism && status.place == Place::joint)
     return Sentence("mechanism: when the cable slides over this joint, nothing holds its node");
   if (status.code == Code::not_finite)
@@ -396,8 +395,7 @@ Sentence failure_remedy_alone(const Status& status, const SceneDescription& scen
       if (status.place == Place::node)
         return Sentence(
             "name a smaller target, make stiffer what is under thrust there (larger I, fewer hinges), or "
-            "hold it "
-            "sideways");
+            "hold it sideways");
       return Sentence(
           "hold the node of this joint sideways (a second strut, a substructure), or stay below this load");
     case Code::state_iterations:

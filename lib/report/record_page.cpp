@@ -216,12 +216,10 @@ class RecordPage {
       note += say("Forces may differ by {1} %.", {significant(100 * job_.force_tolerance, 3)}) + " ";
     if (!any_line([](const StageLine& line) { return line.net.has_value(); }))
       return note + say("No stroke was measured.");
-    return note +
-           say("Expected: with the friction and the stiffness of the scene, for the measured force. Net: "
-               "what "
-               "the stroke has grown by since the first stage, and what was expected there. From half of the "
-               "largest force on it may differ by {1} %.",
-               {significant(100 * elongation_tolerance(job_), 3)});
+    return note + say("Expected: with the friction and the stiffness of the scene, for the measured force. "
+                      "Net: what the stroke has grown by since the first stage, and what was expected there. "
+                      "From half of the largest force on it may differ by {1} %.",
+                      {significant(100 * elongation_tolerance(job_), 3)});
   }
   template <class Is>
   bool any_line(const Is& is) const {

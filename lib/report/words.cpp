@@ -93,8 +93,7 @@ constexpr Translation translations[] = {
      "end",
      "节点旁的百分数：结束时该处因撑杆倾斜或滑动所用去的摩擦",
      "Prozent an einer Umlenkung: wie viel der Reibung dort am Ende verbraucht ist, durch einen geneigten "
-     "Stab "
-     "oder durch Gleiten"},
+     "Stab oder durch Gleiten"},
     {"States of the joints of cable {1} over time", "索 {1} 各节点状态时程",
      "Zustände der Umlenkungen von Seil {1} über die Zeit"},
     {"joint, node", "节点编号、名称", "Umlenkung, Knoten"},
@@ -297,8 +296,7 @@ constexpr Translation translations[] = {
      "scene.",
      "查看节点：污物、损伤、缺润滑或衬垫。若一切正常，修正模型中的 mu 和 mu_sd。",
      "Die Umlenkungen ansehen: Schmutz, Schaden, fehlendes Fett oder Futter. Ist alles gut, mu und mu_sd in "
-     "der "
-     "Szene berichtigen."},
+     "der Szene berichtigen."},
     {"The joint holds back more than its friction allows: it does not slide though it should.",
      "该节点的阻力大于摩擦所允许：本应滑动而未滑动。",
      "Die Umlenkung hält mehr zurück, als ihre Reibung erlaubt: das Seil gleitet dort nicht, obwohl es "
@@ -327,14 +325,13 @@ constexpr Translation translations[] = {
     {"Pull on, or release and pull again to bring the force over the joints; look for a slack cable.",
      "继续张拉，或放松后再张拉使力越过节点；检查索是否松弛。",
      "Weiter ziehen, oder nachlassen und wieder ziehen, damit die Kraft über die Umlenkungen kommt; nach "
-     "einem "
-     "schlaffen Seil sehen."},
+     "einem schlaffen Seil sehen."},
     {"The load cell at this anchored end was read, but joints between it and the jack stick: the reading "
      "says nothing about mu. Readings taken while the cable slides over all joints are worth more.",
      "读取了该锚固端测力计，但其与千斤顶之间有节点粘着：读数不能说明 mu。索在所有节点滑动时的读数更有价值。",
      "Die Messdose an diesem verankerten Ende wurde gelesen, aber Umlenkungen zwischen ihr und der Presse "
-     "haften: "
-     "die Ablesung sagt nichts über mu. Ablesungen, während das Seil überall gleitet, sind mehr wert."},
+     "haften: die Ablesung sagt nichts über mu. Ablesungen, während das Seil überall gleitet, sind mehr "
+     "wert."},
     {"Nothing.", "无须处理。", "Nichts."},
     {"The measured force of this strut or segment contradicts the model by more than five standard "
      "deviations.",
@@ -470,8 +467,7 @@ constexpr Translation translations[] = {
      "摩擦不再能维持平衡：结构将突跳到相距很远的状态",
      "die Reibung gibt nach: das Tragwerk spränge in einen weit entfernten Zustand"},
     {"under the forces at the target of second-order theory members buckle, and this node moves or turns "
-     "most: "
-     "the target is not reached",
+     "most: the target is not reached",
      "在二阶理论目标状态的力作用下构件失稳，该节点位移或转动最大：达不到目标状态",
      "unter den Kräften am Ziel der Theorie zweiter Ordnung knicken Stäbe aus, und dieser Knoten bewegt oder "
      "dreht sich am meisten: das Ziel wird nicht erreicht"},
@@ -561,8 +557,7 @@ constexpr Translation translations[] = {
      "jack pulls; --state FILE goes on from the log before",
      "{1} 仅由夹片锚固，且没有测力计读取其力：千斤顶张拉之前其力未知；--state FILE 可接续上一份记录",
      "nur Keile halten {1}, und kein Messwert sagt, was sie halten: ihre Kräfte sind unbekannt, bis eine "
-     "Presse "
-     "zieht; --state FILE setzt das vorige Protokoll fort"},
+     "Presse zieht; --state FILE setzt das vorige Protokoll fort"},
     {"only wedges hold {1} in the first row, and no load cell reads what they hold: they are taken to be "
      "without load; if they were pulled before, --state FILE goes on from the log before",
      "第一行中 {1} 仅由夹片锚固，且没有测力计读取其力：视为无荷载；若此前已张拉，--state FILE "
@@ -575,8 +570,7 @@ constexpr Translation translations[] = {
      "{1}: {2}: {3}; Theorie zweiter Ordnung ist für ein Zehntel gemacht: darüber mit einem Programm für "
      "große Verschiebungen vergleichen"},
     {"{1}: {2}; second-order theory is made for displacements up to a fifth of it: beyond it do not trust "
-     "its "
-     "forces, compare with a program for large displacements",
+     "its forces, compare with a program for large displacements",
      "{1}：{2}；二阶理论适用于位移不超过该距离五分之一：超出时其力不可信，请与大位移程序比较",
      "{1}: {2}; Theorie zweiter Ordnung ist für Verschiebungen bis zu einem Fünftel davon gemacht: darüber "
      "gelten ihre Kräfte nicht, mit einem Programm für große Verschiebungen vergleichen"},
@@ -584,8 +578,7 @@ constexpr Translation translations[] = {
      "forces, and give the scene \"second_order\"",
      "{1}：{2}；线性理论适用于位移不超过该距离二十分之一：超出时其力不可信，请在场景中写入 \"second_order\"",
      "{1}: {2}; lineare Theorie ist für Verschiebungen bis zu einem Zwanzigstel davon gemacht: darüber "
-     "gelten "
-     "ihre Kräfte nicht, in die Szene gehört dann \"second_order\""},
+     "gelten ihre Kräfte nicht, in die Szene gehört dann \"second_order\""},
     {"node {1} has moved by {2} m, and against node {3} by {4} of their distance",
      "节点 {1} 移动了 {2} m，相对节点 {3} 移动了两者距离的 {4}",
      "Knoten {1} hat sich um {2} m verschoben, gegen Knoten {3} um {4} ihres Abstands"},
@@ -597,6 +590,9 @@ constexpr Translation translations[] = {
      "Spalte {1} wird nicht benutzt: der Zustand begann ohne sie"},
     {"the log has no column {1}: the factor of this load stays 0", "记录中没有列 {1}：该荷载系数保持为 0",
      "das Protokoll hat keine Spalte {1}: der Faktor dieser Last bleibt 0"},
+    {"the drift of mu of cable {1} is not used yet: mu is taken to stay what it is",
+     "索 {1} 的摩擦系数漂移尚未使用：视摩擦系数保持不变",
+     "die Drift von mu des Seils {1} wird noch nicht benutzt: mu gilt als gleichbleibend"},
     {"the load {1} warms cable {2}, which has no \"alpha\": its temperature changes nothing",
      "荷载 {1} 使索 {2} 升温，而该索没有 \"alpha\"：其温度不起作用",
      "die Last {1} erwärmt Seil {2}, das kein \"alpha\" hat: seine Temperatur bewirkt nichts"},
@@ -607,8 +603,7 @@ constexpr Translation translations[] = {
      "{1} 的荷载在第 {4} 行之后从 {2} 降到 {3} N，而该端在第 {5} 行才锚固：如果夹片此前已回缩，则 {6} 应从第 "
      "{7} 行起为 1",
      "die Last von {1} fällt nach Zeile {4} von {2} auf {3} N, und das Ende ist erst in Zeile {5} verankert: "
-     "wenn sein "
-     "Keil vorher eingezogen wurde, ist {6} ab Zeile {7} gleich 1"},
+     "wenn sein Keil vorher eingezogen wurde, ist {6} ab Zeile {7} gleich 1"},
     {"column {1} is a measurement: simulate does not use it", "列 {1} 是测量值：simulate 不使用",
      "Spalte {1} ist eine Messung: simulate benutzt sie nicht"},
     {"column {1} is a measurement at an anchored end: simulate does not use it",
