@@ -142,9 +142,13 @@ class ModeDecision {
     resting_.find_jacked();
     if (!resting_.is_open()) return;
     cables_.freeze();
+    find_idle(false);
+  }
+  /// find_idle() where no slack length grows.
+  void find_idle(bool totally) {
     Lengths none;
     none.fill(Real(0));
-    find_idle(none, false);
+    find_idle(none, totally);
   }
   [[gnu::noinline]] void find_idle(const Lengths& growth, bool totally) {
     if constexpr (RestingSpans<Cables>::may_depend) {
@@ -528,9 +532,7 @@ class ModeDecision {
       state_.slack[r] = false;
       state_.moved.slack_length[r] = 0;
     }
-    Lengths none;
-    none.fill(Real(0));
-    find_idle(none, true);
+    find_idle(true);
     Spans all;
     for (int r = 0; r < spans_.size(); ++r) all[r] = !state_.rests[r];
     if (!solve_anew(all, all_limits(all), true)) return false;
