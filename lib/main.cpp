@@ -90,6 +90,8 @@ class CommandLine {
     } catch (const CLI::ParseError& error) {
       return app_.exit(error) == 0 ? 0 : unusable_input;
     }
+    for (const auto* limits : {&options_.limits, &watching_.limits, &reporting_.limits})
+      require_possible(*limits);
     if (check_->parsed()) return check(options_.scene, options_.log);
     if (export_->parsed()) return export_scenes({scenes_, options_.output, c_name_});
     if (template_->parsed()) return write_log_template(options_.scene, options_.output);
@@ -114,6 +116,14 @@ class CommandLine {
     if (std::find(known.begin(), known.end(), word) == known.end())
       throw InputError("taut", "", "there is no command " + quote(word),
                        suggestion(word, known, "the commands are"));
+  }
+
+  static void require_possible(const taut::AlarmLimits<double>& limits) {
+    if (limits.most_force >= 0 && limits.least_force > limits.most_force)
+      throw InputError("--least-force", "",
+                       "the limit of " + plain(limits.least_force) + " N is above that of --most-force, " +
+                           plain(limits.most_force) + " N",
+                       "write the smaller one here");
   }
 
   void add_check() {

@@ -1,5 +1,5 @@
-// The files that a run writes: none takes the place of another one, and what cannot be written is said before
-// anything is.
+// What a command line asks for: files that a run writes, none in the place of another one, and what cannot be
+// written or meant is said before anything is.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -114,4 +114,20 @@ TEST_CASE("a command that is not known is named, with the one that was meant or 
   CHECK(near.err == "taut: there is no command \"simulat\"; did you mean \"simulate\"?\n");
   CHECK(far.status == 2);
   CHECK(has(far.err, "taut: there is no command \"scene.json\"; the commands are \"check\", \"simulate\""));
+}
+
+TEST_CASE("limits between which no force lies are refused") {
+  for (const std::string command : {"estimate scene.json log.csv", "report scene.json log.csv -o x.html",
+                                    "watch scene.json log.csv --speed 1e6"}) {
+    CAPTURE(command);
+    const Scratch scratch;
+    const Outcome outcome = run_in(scratch, command + " --least-force 2e5 --most-force 1.5e5");
+    CHECK(outcome.status == 2);
+    CHECK(outcome.err ==
+          "--least-force: the limit of 2e+05 N is above that of --most-force, 150000 N; write the smaller "
+          "one here\n");
+    CHECK_FALSE(is_there(scratch, "x.html"));
+    for (const char* possible : {" --least-force 1.5e5 --most-force 1.5e5", " --least-force 2e5"})
+      CHECK(run_in(scratch, command + possible).status == 0);
+  }
 }
