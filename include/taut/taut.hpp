@@ -65,7 +65,7 @@
 //
 //   run() takes the loads and jack forces of the target besides. It fails as Condensation does, there also
 //   with `mechanism` where tension and thrust at the target leave a node without stiffness, with `gives_way`
-//   where members buckle there, and with `out_of_range` if no jack pulls there and no cable has prestrain.
+//   where members buckle there, and with `out_of_range` if no cable has tension there.
 //   Costs twelve condensations, with a solve more for every strut and beam, and three paths to the target. A
 //   tracker has n^2 numbers more, and n^2 operations for every bar where its level or geometry has changed by
 //   a step.

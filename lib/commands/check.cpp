@@ -245,9 +245,7 @@ std::string accuracy(const SceneDescription& scene, const std::optional<Compared
     return scene.second_order ? "" : line("linear theory", "how far it is off says: taut check SCENE LOG");
   if (!compared->begins && scene.cables.empty()) return "";
   if (!compared->begins)
-    return line("linear theory",
-                "how far it is off is not known: second-order theory begins with a jack that pulls or with "
-                "prestrain, and there is neither");
+    return line("linear theory", "how far it is off is not known: no cable has tension at the largest load");
   const std::string off = gaps(*compared);
   if (off.empty()) return "";
   const bool ends = compared->linear || compared->second;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "lib/files/deserved_digits.hpp"
+#include "lib/files/input_error.hpp"
 #include "lib/files/log_file.hpp"
 #include "lib/files/status_text.hpp"
 #include "lib/files/text.hpp"
@@ -175,14 +176,14 @@ std::string loads_of(const SceneDescription& scene, const TargetDescription& loa
   return text;
 }
 
-// Tension that geometric stiffness can begin with.
-bool has_tension(const SceneDescription& scene, const TargetDescription& target) {
+// Without any there is no geometric stiffness.
+bool has_load(const SceneDescription& scene, const TargetDescription& target) {
   const auto is_any = [](double number) { return number != 0; };
   for (const CableDescription& cable : scene.cables)
     if (std::any_of(cable.prestrain.begin(), cable.prestrain.end(), is_any)) return true;
   for (const auto& force : target.force)
     if (std::any_of(force.begin(), force.end(), is_any)) return true;
-  return false;
+  return std::any_of(target.factor.begin(), target.factor.end(), is_any);
 }
 
 // One theory on its way.
@@ -239,9 +240,17 @@ ComparedTheories compare_theories(const SceneDescription& scene, const std::stri
 
   ComparedTheories compared;
   compared.target = *second_scene.second_order;
-  compared.begins = has_tension(scene, compared.target);
-  if (!compared.begins) return compared;
-  Theory linear(linear_scene), second(second_scene);
+  if (!has_load(scene, compared.target)) return compared;
+  std::optional<Theory> begun;
+  try {
+    begun.emplace(second_scene);
+  } catch (const InputError&) {
+    if (scene.second_order) throw;  // else nobody asked for a theory that no tension begins
+    return compared;
+  }
+  compared.begins = true;
+  Theory linear(linear_scene);
+  Theory& second = *begun;
   Gap segments, struts, extensions;
   const auto take = [&] {
     if (!linear.goes_on() || !second.goes_on()) return;

@@ -19,8 +19,8 @@ struct TheoryEnd {
 /// How far linear theory is off, as parts of the largest value that second-order theory has.
 struct ComparedTheories {
   TargetDescription target;  ///< of second-order theory: that of the scene, or the largest load of the log
-  bool begins = false;  ///< whether a jack pulls there or a cable has prestrain: else nothing is followed
-  bool shown = false;   ///< whether both have an answer somewhere: else the parts are empty
+  bool begins = false;       ///< whether cables have tension there: else nothing is followed
+  bool shown = false;        ///< whether both have an answer somewhere: else the parts are empty
   std::optional<double> segments, struts, extensions;  ///< empty: all are zero, or there are none
   std::optional<TheoryEnd> linear, second;             ///< empty: it has an answer to the end
 };

@@ -13,7 +13,8 @@ namespace taut {
 ///
 /// Geometric stiffness at each level is that of the forces on the straight way to the target, over the
 /// lengths that segments have there, Eq. (42). They are found by a fixed point: at first the jack's force in
-/// all segments and no thrust in the struts, then all forces and lengths of the round before.
+/// all segments (where none pulls what prestrain gives, and without either the largest load) and no
+/// thrust in the struts, then all forces and lengths of the round before.
 template <class Scalar, class SceneType>
 class SecondOrderCondensation {
  public:
@@ -49,7 +50,12 @@ class SecondOrderCondensation {
       const bool is_last = round == rounds;
       const Status status = condense(scene, condensed, struts, is_last ? displacements : nullptr);
       if (!status || is_last) return status;
-      if (!take_forces(scene, condensed, target, struts)) round = rounds - 1;
+      if (take_forces(scene, condensed, target, struts)) {
+        is_by_loads_ = false;
+        continue;
+      }
+      if (is_by_loads_) return Status::at(Code::out_of_range, Place::none, 0);
+      round = rounds - 1;
     }
   }
   Real condition() const { return condensation_.condition(); }
@@ -63,7 +69,8 @@ class SecondOrderCondensation {
   /// The least part of the target whose forces say something of those there.
   static constexpr Real least_part = Real(0.01);
 
-  /// The largest force of a jack in all segments, or what prestrain gives them.
+  /// The largest force of a jack in all segments, or what prestrain gives them, or the largest load on a
+  /// node or by temperature.
   void find_guess(const SceneType& scene, const Sample<Scalar, Cap>& target) {
     Real most = 0;
     for (int c = 0; c < scene.cables.size(); ++c)
@@ -77,6 +84,23 @@ class SecondOrderCondensation {
             most > 0 ? most : static_cast<Real>(cable.E * cable.A) * static_cast<Real>(scene.prestrain[i]);
         for (Geometry& geometry : geometry_) geometry.segment_force[i] = T;
         target_force_ += T;
+      }
+    is_by_loads_ = !(target_force_ > 0);
+    if (!is_by_loads_) return;
+    for (const auto& given : scene.forces)
+      for (const auto component : given.force)
+        most = larger(most,
+                      std::fabs(static_cast<Real>(target.factor[given.load]) * static_cast<Real>(component)));
+    for (const auto& given : scene.temperatures) {
+      const auto& cable = scene.cables[given.cable];
+      most = larger(most, std::fabs(static_cast<Real>(target.factor[given.load]) *
+                                    static_cast<Real>(given.kelvin) * static_cast<Real>(cable.alpha)) *
+                              static_cast<Real>(cable.E * cable.A));
+    }
+    for (const auto& cable : scene.cables)
+      for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i) {
+        for (Geometry& geometry : geometry_) geometry.segment_force[i] = most;
+        target_force_ += most;
       }
   }
   /// At all levels, with the forces known so far.
@@ -257,8 +281,9 @@ class SecondOrderCondensation {
     Real part = 0;
   };
   std::array<Waypoint, 3> way_;
-  Real target_force_ = 0;  // of all segments together at the high level [N]
-  Real reach_ = 1;         // the part of the target that is the high level
+  Real target_force_ = 0;     // of all segments together at the high level [N]
+  Real reach_ = 1;            // the part of the target that is the high level
+  bool is_by_loads_ = false;  // neither a jack nor prestrain has said yet how large forces are
 };
 
 }  // namespace taut
