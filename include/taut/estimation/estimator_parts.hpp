@@ -192,14 +192,18 @@ struct EstimatorParts : CondensedType::Capacity::Account {
       if (jacks.end(k).cable() == c && !jacks[k].locked && !jacks[k].at.is_sure()) return false;
     return true;
   }
-  /// Whether the tracker pulls less than a jack does, as much as friction holds where it is: the state that
-  /// it has there, pulled through, is not that of the cable. Any cable counts if `cable` is negative.
+  /// Whether the tracker pulls less than one of two jacks of a cable does, as much as friction holds where it
+  /// is: the state that it has there, pulled through, is not that of the cable. Any cable counts if `cable`
+  /// is negative.
   bool is_held_back(int cable) const {
     if constexpr (JacksType::capacity < 2) return false;
-    for (int k = 0; k < jacks.size(); ++k)
-      if ((cable < 0 || jacks.end(k).cable() == cable) && jacks[k].leads() &&
+    for (int k = 0; k < jacks.size(); ++k) {
+      const int c = jacks.end(k).cable();
+      const auto pulls = jacks.pulls(c);
+      if ((cable < 0 || c == cable) && pulls[0] && pulls[1] && jacks[k].leads() &&
           jacks[k].beyond() > 3 * jacks[k].at.sd && !tracker.reaches(k, jacks[k].best()))
         return true;
+    }
     return false;
   }
   /// Whether what is read of a cable can teach anything.

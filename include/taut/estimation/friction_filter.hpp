@@ -413,7 +413,7 @@ class FrictionFilter {
   void keep_line(const TrackerType& tracker) {
     if constexpr (Further > 0) {
       if (!prediction_.has_zero || cell_zeros_.empty()) return;
-      std::uint32_t slides = 0;  // as a hash of Fowler, Noll and Vo
+      std::uint32_t slides = 0;  // a hash, with the prime of Fowler, Noll and Vo
       for (int j = 0; j < tracker.model().joints; ++j)
         slides = slides * 16777619u + static_cast<std::uint32_t>(tracker.limit(j));
       lines_.keep(

@@ -77,14 +77,18 @@ class SecondOrderCondensation {
       for (std::size_t end = 0; end < 2; ++end)
         if (!scene.cables[c].closed && scene.cables[c].ends[end] == End::jacked)
           most = larger(most, static_cast<Real>(target.jack[c][end].force));
-    target_force_ = 0;
-    for (const auto& cable : scene.cables)
-      for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i) {
-        const Real T =
-            most > 0 ? most : static_cast<Real>(cable.E * cable.A) * static_cast<Real>(scene.prestrain[i]);
-        for (Geometry& geometry : geometry_) geometry.segment_force[i] = T;
-        target_force_ += T;
-      }
+    const auto give = [&](const auto& force) {
+      target_force_ = 0;
+      for (const auto& cable : scene.cables)
+        for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i) {
+          const Real T = force(cable, i);
+          for (Geometry& geometry : geometry_) geometry.segment_force[i] = T;
+          target_force_ += T;
+        }
+    };
+    give([&](const auto& cable, int i) {
+      return most > 0 ? most : static_cast<Real>(cable.E * cable.A) * static_cast<Real>(scene.prestrain[i]);
+    });
     is_by_loads_ = !(target_force_ > 0);
     if (!is_by_loads_) return;
     for (const auto& given : scene.forces)
@@ -97,11 +101,7 @@ class SecondOrderCondensation {
                                     static_cast<Real>(given.kelvin) * static_cast<Real>(cable.alpha)) *
                               static_cast<Real>(cable.E * cable.A));
     }
-    for (const auto& cable : scene.cables)
-      for (int i = cable.first_segment; i < cable.first_segment + cable.segments(); ++i) {
-        for (Geometry& geometry : geometry_) geometry.segment_force[i] = most;
-        target_force_ += most;
-      }
+    give([&](const auto&, int) { return most; });
   }
   /// At all levels, with the forces known so far.
   Status condense(const SceneType& scene, Model& condensed, typename Model::Struts& struts,
