@@ -142,6 +142,12 @@ TEST_CASE("a locked end may read below zero, an anchored one too") {
   CHECK(rows("time,C.start,C.start.locked,C.end\n0,-3,1,-5\n").size() == 1);
 }
 
+TEST_CASE("a segment that its cable has not is refused with those that it has") {
+  CHECK(refusal("time,C.T2\n0,1\n") ==
+        "log: line 1, column 2: cable \"C\" has no segment of this number: \"C.T2\"; its only one is "
+        "\"C.T1\"");
+}
+
 TEST_CASE("a negative jack force is refused, unless readings may carry noise") {
   const std::string log = "time,C.start\n0,-3\n";
   CHECK(refusal(log) ==

@@ -237,6 +237,14 @@ void LogReader::refuse_unknown_column(std::size_t i, const std::string& name) co
     refuse_field(i, "columns are separated by commas and by semicolons",
                  "use one of the two, in the whole log");
   for (const CableDescription& cable : scene_.cables) {
+    const std::string tension = cable.name + ".T";
+    const bool is_numbered = name.size() > tension.size() && name.compare(0, tension.size(), tension) == 0 &&
+                             name.find_first_not_of("0123456789", tension.size()) == std::string::npos;
+    if (is_numbered)
+      refuse_field(i, "cable " + quote(cable.name) + " has no segment of this number: " + quote(name),
+                   cable.segments() == 1 ? "its only one is " + quote(tension + "1")
+                                         : "its segments are " + quote(tension + "1") + " to " +
+                                               quote(tension + std::to_string(cable.segments())));
     if (cable.closed && name.compare(0, cable.name.size() + 1, cable.name + ".") == 0) {
       refuse_field(i, "cable " + quote(cable.name) + " is closed and has no ends", "remove the column");
     }
