@@ -9,10 +9,12 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <thread>
 
 #include "files/run_program.hpp"
+#include "lib/files/output_file.hpp"
 
 namespace fs = std::filesystem;
 
@@ -101,4 +103,24 @@ TEST_CASE("a signal that was to be ignored is ignored") {
   run.send(SIGTERM);
   CHECK(run.ended_by() == SIGTERM);
   CHECK_FALSE(run.has_part());
+}
+
+TEST_CASE("a signal leaves none of several results that were begun at once, and what was finished stays") {
+  const Scratch scratch;
+  const auto path = [&](const char* name) { return (scratch.path / name).string(); };
+  const pid_t process = fork();
+  if (process == 0) {
+    signal(SIGTERM, SIG_DFL);  // not that of the test runner
+    taut::host::OutputFile first(path("first")), done(path("done")), third(path("third"));
+    done.write("whole");
+    done.finish();
+    taut::host::OutputFile fourth(path("fourth"));
+    raise(SIGTERM);
+    _exit(1);
+  }
+  int status = 0;
+  waitpid(process, &status, 0);
+  CHECK(WIFSIGNALED(status));
+  CHECK(text_of(path("done")) == "whole");
+  CHECK(std::distance(fs::directory_iterator(scratch.path), fs::directory_iterator()) == 1);
 }

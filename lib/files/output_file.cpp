@@ -49,7 +49,7 @@ OutputFile::~OutputFile() {
 
 void OutputFile::remove_temporary() {
   std::remove(temporary_.c_str());
-  forget_unfinished();
+  forget_unfinished(temporary_.c_str());
 }
 
 void OutputFile::fail() const {
@@ -81,7 +81,7 @@ void OutputFile::finish() {
   const fs::file_status replaced = fs::status(final_, error);
   if (fs::exists(replaced)) fs::permissions(temporary_, replaced.permissions(), error);
   if (closed && std::rename(temporary_.c_str(), final_.c_str()) == 0) {
-    forget_unfinished();
+    forget_unfinished(temporary_.c_str());
     return;
   }
   const int reason = errno;

@@ -4,8 +4,10 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #endif
 
 namespace taut::host {
@@ -13,7 +15,7 @@ namespace taut::host {
 #ifdef _WIN32
 
 std::FILE* open_unfinished(const char* path) { return std::fopen(path, "wbx"); }
-void forget_unfinished() {}
+void forget_unfinished(const char*) {}
 
 #else
 
@@ -21,12 +23,13 @@ namespace {
 
 constexpr std::array<int, 4> ending_signals = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
 
-std::atomic<const char*> unfinished = nullptr;
+std::array<std::atomic<const char*>, most_unfinished> unfinished{};
 static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler must not wait for a lock");
 
 // The default action is back in force when this is called: the signal still ends the program.
 extern "C" void remove_unfinished(int signal) {
-  if (const char* const path = unfinished.exchange(nullptr)) unlink(path);
+  for (auto& each : unfinished)
+    if (const char* const path = each.exchange(nullptr)) unlink(path);
   raise(signal);
 }
 
@@ -49,13 +52,21 @@ std::FILE* open_unfinished(const char* path) {
   for (const int signal : ending_signals) watch(signal);
   // Between making the file and noting it no signal may come.
   pthread_sigmask(SIG_BLOCK, &held, &before);
-  std::FILE* const file = std::fopen(path, "wbx");
-  if (file != nullptr) unfinished = path;
+  const auto room = std::find(unfinished.begin(), unfinished.end(), nullptr);
+  std::FILE* file = nullptr;
+  errno = EMFILE;
+  if (room != unfinished.end()) file = std::fopen(path, "wbx");
+  const int reason = errno;
+  if (file != nullptr) *room = path;
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  errno = reason;
   return file;
 }
 
-void forget_unfinished() { unfinished = nullptr; }
+void forget_unfinished(const char* path) {
+  const auto noted = std::find(unfinished.begin(), unfinished.end(), path);
+  if (noted != unfinished.end()) *noted = nullptr;
+}
 
 #endif
 
