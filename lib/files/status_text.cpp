@@ -444,7 +444,10 @@ Sentence run_away_text(const Status& status, const SceneDescription& scene) {
           "{1}: the cable alone holds this node sideways, and without friction {2} runs away; give the joint "
           "friction, or hold its node ({3})",
           {joint, struts, Sentence(sliding_remedy)});
-    if (status.code == Code::mechanism && cable.is_jacked(0) && cable.is_jacked(1))
+    // Where it runs away as the lowest level ends, no forces are found at all, and no joint is named.
+    const bool is_free =
+        status.code == Code::mechanism || (status.code == Code::gives_way && status.place == Place::none);
+    if (is_free && cable.is_jacked(0) && cable.is_jacked(1))
       return Sentence(
           "{1}: between two jacks at work the cable can follow this node, and {2} runs away; prescribe the "
           "stroke of one jack (lock its end, or anchor it), or {3}",

@@ -295,15 +295,6 @@ struct LevelModel : Condensed<Scalar_, Cap> {
     return by;
   }
   int shift_count() const { return this->joints + this->segments * Cap::normals; }
-  /// The largest part of a segment's own stiffness that geometry gives or takes at the lowest level. Costs
-  /// segments.
-  Real geometric_part() const {
-    Real most = 0;
-    for (int i = 0; i < this->segments; ++i)
-      if (source_->low.coupling(i, i) > 0)
-        most = larger(most, std::fabs(source_->rise.rows.elongation[i][i]) / source_->low.coupling(i, i));
-    return most * Curve::low / (Curve::high - Curve::low);
-  }
   const CondensedLean<Scalar, Cap>& lean() const { return source_->lean; }
   /// rho of a joint that holds rho in the scene's geometry.
   static Real scaled(Real flat, Real by) {
@@ -321,12 +312,22 @@ struct LevelModel : Condensed<Scalar_, Cap> {
   Real level_at(const Loads& drive, const Elongations& e) const {
     return sum_at(drive, e) / target_force;
   }
-  /// How all bars lean at these loads and elongations [m], of this level. Costs bars x (segments + struts).
+  /// How all bars lean at these loads and elongations [m], of this level. At the lowest one they do not
+  /// count as leaning, and struts pull by the thrusts that they have at it. Costs bars x (segments + struts).
   template <class Loads, class Elongations>
   Leant leant_at(const Loads& drive, const Elongations& e, Real level) const {
     Leant leant{};
-    if (!is_tangent()) return leant;
+    if (!is_tangent() && !is_lowest()) return leant;
     find_asides(drive, e, leant.given);
+    // Nothing pushes yet. Without its thrusts C is positive semidefinite; as pulls they hold feet that cables
+    // at zero lead.
+    if (is_lowest()) {
+      lean().for_each_push([&](int n, int b, int m) {
+        leant.apart[b] = larger(Real(0), -2 * lean().low_thrust[b]);
+        leant.push[n] = 2 * leant.apart[b] * leant.given[m];
+      });
+      return leant;
+    }
     const auto weights = Curve{}.weights(level);
     Thrusts given;
     for (int b = 0; b < lean().struts; ++b)

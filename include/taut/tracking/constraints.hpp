@@ -33,7 +33,7 @@ class Constraints {
   /// held by its cables alone; weak springs then choose among its places, and forces do not depend on them.
   bool set_up() {
     joint_without_pivot_ = -1;
-    cables_.is_set_up = add_all(Real(0)) || add_all(held_at_zero());
+    cables_.is_set_up = add_all(Real(0)) || add_all(held_at_zero);
     return cables_.is_set_up;
   }
   /// After set_up(): the first joint that nothing holds any more as it slides, after those before it in the
@@ -47,7 +47,7 @@ class Constraints {
   /// Only what follows whatever happens, to decide all else from nothing. False if its laws contradict.
   bool set_up_equalities() {
     map_.clear();
-    map_.set().hold(held_at_zero());
+    map_.set().hold(held_at_zero);
     cables_.is_set_up = false;
     return add_equalities();
   }
@@ -127,15 +127,8 @@ class Constraints {
   }
 
  private:
-  /// Of a segment's own stiffness, in decisions from zero tension: the springs that make them well posed. In
-  /// second-order theory a node may be pushed away at the lowest level, by thrusts that are not there yet.
-  Real held_at_zero() const {
-    constexpr Real least = Real(1e-8);
-    if constexpr (Cables::Model::has_level)
-      return larger(least, model_.geometric_part());
-    else
-      return least;
-  }
+  /// Of a segment's own stiffness, in decisions from zero tension: the springs that make them well posed.
+  static constexpr Real held_at_zero = Real(1e-8);
 
   bool add_all(Real held, Real least = Set::singular) {
     map_.clear();

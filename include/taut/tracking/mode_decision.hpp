@@ -61,7 +61,7 @@ class ModeDecision {
       const bool is_mapped = state_.has_map && !map_.is_held();
       cables_.freeze();
       cables_.drop_map();
-      if ((cables_.is_set_up || constraints_.set_up()) && go_on(modes, false, nullptr, is_mapped)) {
+      if ((cables_.is_set_up || constraints_.set_up()) && go_on(modes, nullptr, is_mapped)) {
         constraints_.rebuild(ending.has_total);
         return decided(Route::from_before);
       }
@@ -282,14 +282,13 @@ class ModeDecision {
     remember_last(solver);
     return false;
   }
-  /// What slides, begun from what slid: an ordinary event is one pivot. From rates, or from all forces.
-  /// Segments of the spans in `tightening` must then gain tension.
-  [[gnu::noinline]] bool go_on(const SlipModes& modes, bool totally, const Spans* tightening = nullptr,
-                               bool is_mapped = false) {
+  /// What slides, begun from what slid, from rates: an ordinary event is one pivot. Segments of the spans in
+  /// `tightening` must then gain tension.
+  [[gnu::noinline]] bool go_on(const SlipModes& modes, const Spans* tightening, bool is_mapped = false) {
     Solver solver;
     solver.begin(model_, laws_, map_.set());
     for (const SlipMode& each : modes) solver.add_slip(each);
-    if (!solve(solver, totally, true, is_mapped)) {
+    if (!solve(solver, false, true, is_mapped)) {
       cables_.drop_set();
       return false;
     }
@@ -349,7 +348,7 @@ class ModeDecision {
       if (slides) slide_toward_jacks(r);
     }
     cables_.drop_set();
-    if (constraints_.set_up_soundly() && go_on(modes, false, &zero)) {
+    if (constraints_.set_up_soundly() && go_on(modes, &zero)) {
       constraints_.rebuild();
       return true;
     }
@@ -391,27 +390,29 @@ class ModeDecision {
     cables_.drop_set();
     return false;
   }
-  /// What slides and what is slack, from what follows whatever happens. False if the path has no end.
-  [[gnu::noinline]] bool find_modes(const Spans& zero, const SlipModes& modes, bool totally, int covering) {
+  /// What slides and what is slack, from what follows whatever happens; or, if `slack` says which spans were,
+  /// begun from what slid and was slack. False if the path has no end.
+  [[gnu::noinline]] bool find_modes(const Spans& zero, const SlipModes& modes, bool totally, int covering,
+                                    const Spans* slack = nullptr) {
     Solver solver;
     solver.begin(model_, laws_, map_.set(), covering);
     for (int r = 0; r < spans_.size(); ++r)
-      if (zero[r]) add_span(r, totally, solver);
+      if (zero[r]) add_span(r, totally, solver, slack != nullptr && (*slack)[r]);
     for (const SlipMode& each : modes) solver.add_slip(each);
-    if (!solve(solver, totally, false)) return false;
+    if (!solve(solver, totally, slack != nullptr)) return false;
     adopt(solver, zero, totally);
     return true;
   }
   /// Segments of a span at zero, but for those that a jack gives their tension; joints without friction make
   /// one of two.
-  void add_span(int r, bool totally, Solver& solver) const {
+  void add_span(int r, bool totally, Solver& solver, bool is_slack = false) const {
     const Span& span = spans_[r];
     for (int i = 0; i < span.count; ++i) {
       if (i > 0 && cables_.glides(span.joint(i - 1))) continue;
       const Pull pull = pull_on(span, i, totally);
       // Where statics give its force, no length does.
       if (!(model_.coupling(span.segment(i), span.segment(i)) > 0)) continue;
-      if (!pull.is_direct) solver.add_segment(span.segment(i), larger(Real(0), pull.least));
+      if (!pull.is_direct) solver.add_segment(span.segment(i), larger(Real(0), pull.least), is_slack);
     }
   }
   /// The jack that gives a segment of a span at zero the larger tension, by what friction leaves of its force
@@ -539,17 +540,27 @@ class ModeDecision {
     cables_.find_forces();
     return true;
   }
-  /// All forces at the present loads, by Lemke's path from the present modes: slack spans stay slack.
-  /// `has_map`: the slips are those of the map.
+  /// All forces at the present loads, by Lemke's path from the present modes; a span that no jack pulls may
+  /// go slack or become taut by it. `has_map`: the slips are those of the map.
   bool go_on_totally(bool has_map) {
     // Not frozen for good: the map may be refused.
     if (has_map) state_.moved = cables_.slip_state();
     cables_.drop_map();
-    Spans taut;
-    for (int r = 0; r < spans_.size(); ++r) taut[r] = !state_.rests[r] && !state_.slack[r];
+    Spans bearing, loose;
+    const Spans slack = state_.slack;
+    bool any_loose = false;
+    for (int r = 0; r < spans_.size(); ++r) {
+      bearing[r] = !state_.rests[r];
+      loose[r] = bearing[r] && !cables_.is_jacked(spans_[r]);
+      any_loose = any_loose || loose[r];
+      if (!slack[r]) continue;
+      state_.slack[r] = false;
+      state_.moved.slack_length[r] = 0;
+    }
     const bool is_set_up = constraints_.set_up();
     if (constraints_.joint_without_pivot() >= 0) doubtful_joint_ = constraints_.joint_without_pivot();
-    if (!is_set_up || !go_on(all_limits(taut), true)) return false;
+    if (!is_set_up || !find_modes(loose, all_limits(bearing), true, 0, &slack)) return false;
+    if (any_loose && !constraints_.set_up()) return false;
     constraints_.rebuild();
     cables_.find_forces();
     return constraints_.is_held(true);

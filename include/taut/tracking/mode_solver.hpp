@@ -46,6 +46,7 @@ class ModeSolver {
   struct Pair {
     std::int16_t index = 0;
     JointState way = JointState::stick;
+    bool is_slack = false;  ///< a segment that has length to spare already
     bool is_segment() const { return way == JointState::stick; }
     SlipMode slip() const { return {index, way}; }
   };
@@ -70,10 +71,11 @@ class ModeSolver {
     stiffest_ = set.stiffest();
   }
   void add_slip(const SlipMode& slip) { pairs_.add({slip.joint, slip.way}); }
-  /// `least` is the rate of tension that jacks and friction give it at least.
-  void add_segment(int segment, Real least) {
+  /// `least` is the rate of tension that jacks and friction give it at least. `is_slack`: where all goes on
+  /// it has length to spare at first.
+  void add_segment(int segment, Real least, bool is_slack = false) {
     least_[segment] = least;
-    pairs_.add({static_cast<std::int16_t>(segment), JointState::stick});
+    pairs_.add({static_cast<std::int16_t>(segment), JointState::stick, is_slack});
   }
   const FixedList<Pair, max_pairs>& pairs() const { return pairs_; }
   /// After solve(): whether the pair slides, or the segment has more and more length to spare.
@@ -114,6 +116,8 @@ class ModeSolver {
     place_.fill(inactive);
     equalities_ = 0;
     while (equalities_ < set_->size() && (*set_)[equalities_].sense == 0) ++equalities_;
+    for (int p = 0; go_on && p < pairs_.size(); ++p)
+      if (pairs_[p].is_slack && !enter(p)) return Outcome::singular;
     const Real softest = Real(1) / stiffest_;
     for (int p = 0; p < pairs_.size(); ++p)
       scale_[segment_of(p)] = std::sqrt(static_cast<float>(stiffness(active_of(p)) * softest));
@@ -235,7 +239,7 @@ class ModeSolver {
         const int p = leaves[i] ? (*set_)[i].pair : -1;
         if (p < 0) continue;
         has_left[p] = true;
-        const int other = other_way(p);
+        const int other = pairs_[p].is_segment() ? -1 : other_way(p);
         if (other >= 0) turns[other] = !has_left[other];
       }
       if (!set_->remove_if(*laws_, [&](int i) { return leaves[i]; })) return false;
@@ -255,7 +259,7 @@ class ModeSolver {
   void name_all() {
     for (int i = equalities_; i < set_->size(); ++i) {
       const ActiveConstraint& active = (*set_)[i];
-      const int p = find(active.variable.index, active.sense > 0);
+      const int p = active.slides() ? find(active.variable.index, active.sense > 0) : active.pair;
       if (p < 0) continue;
       set_->set_pair(i, p);
       place_[p] = 0;
@@ -290,7 +294,7 @@ class ModeSolver {
     }
     for (int i = equalities_; i < set_->size(); ++i) {
       const ActiveConstraint& active = (*set_)[i];
-      if (active.slides()) tie_[active.pair] = perturbation(active.pair);
+      if (active.pair >= 0 && !is_lengthened(active.pair)) tie_[active.pair] = perturbation(active.pair);
     }
   }
 
@@ -306,11 +310,11 @@ class ModeSolver {
   };
   Real tie_of_row(int p) const {
     const Real of_tensions = row(p, T_tie_);
-    return pairs_[p].is_segment() ? of_tensions : of_tensions + perturbation(p) + cover(p) * z_tie_;
+    return is_lengthened(p) ? of_tensions : of_tensions + perturbation(p) + cover(p) * z_tie_;
   }
   Real value_of_row(int p) const {
     const Real of_tensions = row(p, T_);
-    return pairs_[p].is_segment() ? of_tensions - least_[pairs_[p].index] : of_tensions + cover(p) * z_;
+    return is_lengthened(p) ? of_tensions - least_[pairs_[p].index] : of_tensions + cover(p) * z_;
   }
 
   void respond(const ActiveConstraint& to, Response& response) const {
@@ -324,7 +328,7 @@ class ModeSolver {
     bool any = covers_all_;
     for (int i = equalities_; i < set_->size(); ++i) {
       const ActiveConstraint& active = (*set_)[i];
-      any = any || (active.slides() && active.pair >= 0 && covers_[active.pair]);
+      any = any || (active.pair >= 0 && covers_[active.pair]);
     }
     if (!any) return;
     if (covers_all_)
@@ -337,13 +341,15 @@ class ModeSolver {
     dues.fill(Real(0));
     for (int i = equalities_; is_cover && i < set_->size(); ++i) {
       const ActiveConstraint& active = (*set_)[i];
-      if (active.slides() && active.pair >= 0) dues[i] = -cover(active.pair);
+      if (active.pair >= 0) dues[i] = -direct(active.pair);
     }
     response.values.fill(Real(0));
     set_->settle(*laws_, dues, response.T, response.values);
   }
   /// What a unit of the covering variable adds to the row itself.
-  Real direct(int p) const { return pairs_[p].is_segment() ? Real(0) : cover(p); }
+  Real direct(int p) const { return is_lengthened(p) ? Real(0) : cover(p); }
+  /// From zero, segments are covered and perturbed by lengths that they all have too much.
+  bool is_lengthened(int p) const { return covers_all_ && pairs_[p].is_segment(); }
 
   /// Along which the laws of the set hold, that of the pending slip, and that of the entering one.
   bool find(Direction& direction) {
