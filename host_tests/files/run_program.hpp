@@ -44,12 +44,20 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Runs taut with the arguments, by a shell that has run `before`; TAUT_PROGRAM is its path.
-inline Outcome run_taut(const Scratch& scratch, const std::string& arguments,
-                        const std::string& before = "true") {
-  const std::string command = before + " && exec '" TAUT_PROGRAM "' " + arguments + " > " +
+/// Runs a program with the arguments, by a shell that has run `before`.
+inline Outcome run_program(const Scratch& scratch, const std::string& program, const std::string& arguments,
+                           const std::string& before = "true") {
+  const std::string command = before + " && exec '" + program + "' " + arguments + " > " +
                               scratch.quoted("out") + " 2> " + scratch.quoted("err");
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(scratch.path / "out"),
           text_of(scratch.path / "err")};
 }
+
+#ifdef TAUT_PROGRAM
+/// The same of taut; TAUT_PROGRAM is its path.
+inline Outcome run_taut(const Scratch& scratch, const std::string& arguments,
+                        const std::string& before = "true") {
+  return run_program(scratch, TAUT_PROGRAM, arguments, before);
+}
+#endif

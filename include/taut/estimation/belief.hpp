@@ -42,7 +42,7 @@ struct Measured {
 /// The unknowns are added in this order: those of friction, whose bounds are kept; those that jacks' forces
 /// depend on; errors that friction remembers, which are in use as soon as they have a variance; those that
 /// readings alone depend on. The model is linearized anew for the first and the third.
-template <class Scalar, int Parameters, int Jacks>
+template <class Scalar, int Parameters, int Jacks, int Bounds = Jacks / 2>
 class Belief {
  public:
   using Values = FixedArray<Scalar, Parameters>;
@@ -56,13 +56,14 @@ class Belief {
     /// Of the unknowns with the error that a jack's reading had, that the last one of them was learned with.
     FixedArray<Values, Jacks> with_load;
     /// What it has taught that a number is not above zero, as if it had been measured: the precision of that
-    /// number, and its product with the number. One for every two jacks.
+    /// number, and its product with the number.
     struct Bound {
       Values H;
       Scalar precision = 0, pull = 0;
     };
-    FixedArray<Bound, Jacks / 2> bounds;
+    FixedArray<Bound, Bounds> bounds;
   };
+  using Bound = typename State::Bound;
   /// The model is linearized anew where a predicted number would be off its line by more than half of this
   /// part of its standard deviation.
   static constexpr Scalar nonlinearity = Scalar(0.3);
@@ -368,9 +369,17 @@ class Belief {
     bound = {H, gone / left, (gone * at - hazard / std::sqrt(S)) / left};
     return add_information(bound);
   }
+  const Bound& bound_at(int b) const { return state_.bounds[b]; }
+  /// Takes back what bound `b` has taught, for what it had taught before. Cost: twice the square of the
+  /// unknowns in use.
+  void put_back_bound(int b, const Bound& before) {
+    Bound& bound = state_.bounds[b];
+    static_cast<void>(add_information({bound.H, -bound.precision, -bound.pull}));
+    bound = before;
+    if (!add_information(bound)) bound = {};
+  }
 
  private:
-  using Bound = typename State::Bound;
   /// Adds precision H H^T to the inverse of the covariance P, and H pull to that times the mean. False if
   /// that leaves none; then nothing has changed.
   bool add_information(const Bound& added) {

@@ -72,31 +72,38 @@ bool arrive(const TrackerType& tracker, Jacks& jacks, const SampleType& to,
   return is_there;
 }
 
-/// Where the path to `to` has ended without an answer: a jack may pull more than it is taken to, and a
-/// structure that leans on its cable may have an answer then. Drives the tracker on from there with every
-/// unlocked jack one, two and three standard deviations above its best estimate, until there is one; `to` is
-/// then where that is. Otherwise fails as before. Cost: that of drive_straight() three times.
+/// Where the path to `to` has ended without an answer: there may be more friction, which hold.stand(progress,
+/// go_on, bounds) finds, or a jack may pull more than it is taken to, and a structure that leans on its cable
+/// may have an answer then. Drives the tracker on from there with every unlocked jack where it was to come,
+/// and one, two and three standard deviations above its best estimate, until there is an answer; `to` is then
+/// where that is. Otherwise fails as before. Cost: that of drive_straight() and hold.stand() eight times.
 template <class TrackerType, class Jacks, class SampleType, class Hold>
-Progress<typename TrackerType::Scalar> pull_more(TrackerType& tracker, const Jacks& jacks, SampleType& to,
-                                                 int event_budget, const Hold& hold,
-                                                 Progress<typename TrackerType::Scalar> progress) {
+Progress<typename TrackerType::Scalar> look_for_answer(TrackerType& tracker, const Jacks& jacks,
+                                                       SampleType& to, int event_budget, const Hold& hold,
+                                                       Progress<typename TrackerType::Scalar> progress) {
   using Scalar = typename TrackerType::Scalar;
   constexpr int most = 3;
-  const auto lacks_pull = [](Code code) {
+  const auto lacks_answer = [](Code code) {
     return code == Code::mechanism || code == Code::gives_way || code == Code::state_iterations;
   };
-  for (int deviations = 1; deviations <= most && lacks_pull(progress.status.code); ++deviations) {
-    bool pulls = false;
-    for (int k = 0; k < jacks.size(); ++k) {
-      const Scalar sd = larger(jacks[k].at.sd, jacks[k].filter.sd());
-      if (jacks[k].locked || !(jacks[k].filter.sd() > 0)) continue;
-      jacks.in(to.jack, k).force =
-          larger(jacks[k].target(), jacks[k].at.load) + static_cast<Scalar>(deviations) * sd;
-      pulls = true;
+  const auto go_on = [&] { return drive_straight(tracker, to, event_budget, hold); };
+  // That a load is off by a deviation is as likely as that friction is.
+  for (const int bounds : Hold::bounds)
+    for (int deviations = 0; deviations <= most && lacks_answer(progress.status.code); ++deviations) {
+      bool pulls = deviations == 0;
+      for (int k = 0; k < jacks.size(); ++k) {
+        const Scalar sd = larger(jacks[k].at.sd, jacks[k].filter.sd());
+        if (jacks[k].locked || !(jacks[k].filter.sd() > 0)) continue;
+        const Scalar target = jacks[k].target();
+        jacks.in(to.jack, k).force =
+            deviations == 0 ? target
+                            : larger(target, jacks[k].at.load) + static_cast<Scalar>(deviations) * sd;
+        pulls = true;
+      }
+      if (!pulls) break;
+      if (deviations > 0) progress = join(progress, go_on());
+      progress = hold.stand(progress, go_on, bounds);
     }
-    if (!pulls) break;
-    progress = join(progress, drive_straight(tracker, to, event_budget, hold));
-  }
   return progress;
 }
 
@@ -156,7 +163,7 @@ Progress<typename TrackerType::Scalar> drive_through(TrackerType& tracker, Jacks
 
 /// Drives the tracker through the corners to `target`, where more happens than that a load changes. Fails as
 /// Tracker::advance() does; the jacks are then where the path ended. Cost: that of drive_straight() six
-/// times, and of pull_more().
+/// times, and of look_for_answer().
 template <class TrackerType, class Jacks, class SampleType, class Leave, class Remember, class RememberLoad,
           class Hold>
 [[gnu::noinline]] Progress<typename TrackerType::Scalar> drive(
@@ -169,7 +176,7 @@ template <class TrackerType, class Jacks, class SampleType, class Leave, class R
   SampleType to = target;
   if (progress.status) leave(to);
   if (progress.status) progress = join(progress, drive_straight(tracker, to, event_budget, hold));
-  if (!progress.status) progress = pull_more(tracker, jacks, to, event_budget, hold, progress);
+  if (!progress.status) progress = look_for_answer(tracker, jacks, to, event_budget, hold, progress);
   if (progress.status.code != Code::not_started) arrive(tracker, jacks, to, progress);
   return progress;
 }

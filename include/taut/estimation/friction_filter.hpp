@@ -42,7 +42,11 @@ class FrictionFilter {
   using Linear = typename CondensedType::Linear;
   using TrackerType = Tracker<CondensedType, Parameters>;
   using PriorType = FrictionPrior<Scalar, Cap>;
-  using BeliefType = Belief<Scalar, Parameters + Further, max_jacks<Cap>>;
+  /// Of what is known not to be above zero: one for two jacks, and in second-order theory one for every
+  /// unknown that may be friction.
+  static constexpr int jack_bounds = max_jacks<Cap> / 2,
+                       bounds = jack_bounds + (TrackerType::Model::has_level ? Parameters : 0);
+  using BeliefType = Belief<Scalar, Parameters + Further, max_jacks<Cap>, bounds>;
   using Values = typename BeliefType::Values;
   using PredictionType = typename BeliefType::PredictionType;
   using JackReadings = typename BeliefType::JackReadings;
@@ -376,6 +380,13 @@ class FrictionFilter {
     const Scalar now = expected();
     return now > 0 && now * now > variance && belief_.variance_of_reading(H) > 0 &&
            belief_.bring_below_zero(bound, H, variance, expected);
+  }
+  /// The bound below which unknown `p` of friction would let a strut run away.
+  static int lower_bound_of(int p) { return jack_bounds + p; }
+  /// Takes back what that bound has taught since it was `before`.
+  void put_back_lower_bound(TrackerType& tracker, int p, const typename BeliefType::Bound& before) {
+    belief_.put_back_bound(lower_bound_of(p), before);
+    static_cast<void>(relinearize(tracker, belief_.mean()));
   }
   /// Brings the tracker to these values of the unknowns. False if it has no state there: then it stays.
   bool relinearize(TrackerType& tracker, const Values& values) {

@@ -71,11 +71,14 @@ bool go_straight(Parts& parts, typename Parts::SampleType to) {
 }
 
 /// Goes back, and on to where the loads of this row are confirmed to have come: while it was ahead they may
-/// have gone far. Cost: that of go_back(), and of a path.
+/// have gone far. Where there is no answer, it stays where it was before it went ahead. Cost: that of
+/// go_back() twice, and of a path.
 template <class Parts>
 void go_back_to_target(Parts& parts) {
   go_back(parts);
-  static_cast<void>(go_straight(parts, parts.jacks.target(parts.jacks.driven(parts.patterns()))));
+  if (go_straight(parts, parts.jacks.target(parts.jacks.driven(parts.patterns())))) return;
+  parts.is_ahead = true;
+  go_back(parts);
 }
 
 /// Where the best estimate of a load lies beyond the present piece, the forces there follow from the events

@@ -9,6 +9,7 @@
 #include "taut/estimation/estimator_unknowns.hpp"
 #include "taut/estimation/held_over.hpp"
 #include "taut/estimation/learning.hpp"
+#include "taut/estimation/standing_structure.hpp"
 #include "taut/numerics/larger.hpp"
 
 namespace taut {
@@ -123,6 +124,12 @@ struct HoldByFriction {
   bool raise(int c) const {
     if constexpr (learns) return raise_friction(parts, c);
     return false;
+  }
+  /// So many, one after the other, before another load is tried.
+  static constexpr auto bounds = bounds_of_friction<typename Parts::TrackerType>;
+  template <class GoOn>
+  auto stand(const Progress<typename Parts::Scalar>& progress, const GoOn& go_on, int most) const {
+    return find_where_it_stands(parts, progress, go_on, most);
   }
 };
 
