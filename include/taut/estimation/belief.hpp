@@ -258,7 +258,7 @@ class Belief {
       innovation.with_error[k] = sum;
       variance += by_error(k) * sum;
     }
-    Scalar of_friction = 0, through_friction = 0, of_cells = 0, of_both = 0;
+    Scalar of_friction = 0, of_cells = 0, of_both = 0, of_unknowns = 0, through_unknowns = 0;
     for (int p = 0; p < in_use_; ++p) {
       Scalar sum = 0;
       for (int q = 0; q < friction_; ++q) sum += P[p][q] * H[q];
@@ -268,11 +268,12 @@ class Belief {
         for (int q = friction_; q < loads_; ++q) of_cells += H[p] * P[p][q] * H[q];
       }
       for (int q = friction_; q < in_use_; ++q) sum += P[p][q] * H[q];
+      of_unknowns += H[p] * sum;
       for (int k = 0; k < jacks.size() && has_errors_; ++k) sum += state_.with_load[k][p] * by_error(k);
       innovation.with_unknown[p] = sum;
-      variance += H[p] * sum;
-      if (p < friction_) through_friction += H[p] * sum;
+      through_unknowns += H[p] * sum;
     }
+    variance += through_unknowns;
     // A load that is off times what friction leaves of it.
     const Scalar square = prediction.value * prediction.value;
     if (square > 0) variance += (of_friction * of_cells + of_both * of_both) / square;
@@ -288,7 +289,7 @@ class Belief {
       if (p < friction_) shift += std::fabs(H[p] * (innovation.updated_mean[p] - state_.linearized_at[p]));
     }
     // A force is about exponential in mu: by shift^2 / 2T it is off the line.
-    const Scalar left = of_friction - through_friction * through_friction * innovation.precision;
+    const Scalar left = of_unknowns - through_unknowns * through_unknowns * innovation.precision;
     const Scalar off = shift * shift, allowed = nonlinearity * larger(std::fabs(expected), sd);
     innovation.is_nonlinear = off * off > allowed * allowed * larger(left, Scalar(0));
     return true;

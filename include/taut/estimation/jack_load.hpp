@@ -280,7 +280,7 @@ struct JackLoad {
     }
     if (at.reversed) filter.start_at(filter.sd(), at.load, at.sd);
     at.reversed = at.behind = false;
-    if (at.confirmed > up * taken)
+    if (at.confirmed > up * taken && at.load > up * taken)
       taken = 0;
     else
       at.confirmed = up * taken;
