@@ -246,3 +246,40 @@ TEST_CASE(
     if (i > 1) CHECK(slow->estimator().deviation(2) < 2 * even->estimator().deviation(2));
   }
 }
+
+TEST_CASE("where a load turned between two rows, as a hand pump's does, the far end tells how far it was") {
+  Score forces;
+  int alarms = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Random random(seed);
+    SaddleSite site;
+    site.noise = 1e-4 * full;
+    const auto jacking = std::make_unique<ReadSite>(site, seed);
+    double load = 0, left = 1;  // of the time until the next row
+    // At a steady pace; corners lie anywhere between two rows.
+    const auto go = [&](double to, double pace) {
+      for (double way = std::fabs(to - load); way > 0; way = std::fabs(to - load)) {
+        const double time = std::fmin(way / pace, left);
+        load += std::copysign(time * pace, to - load);
+        if (way <= time * pace * (1 + 1e-9)) load = to;
+        jacking->site.pull(load);
+        left -= time;
+        if (left > 1e-9) continue;
+        left = 1;
+        jacking->row(load);
+        if (load > 0.1 * full) jacking->site.add_to(forces, jacking->estimator());
+      }
+    };
+    for (double top = 0; top < full;) {
+      top += full * random.between(0.02, 0.05);
+      go(top, 0.012 * full);
+      go(top - full * random.between(0.015, 0.03), 0.008 * full);
+    }
+    alarms += jacking->alarms;
+  }
+  MESSAGE("seeds 1 to 60: ", 100 * forces.share(), " % are held, errors ", forces.rms(), " deviations, rms, ",
+          alarms, " alarms");
+  CHECK(forces.share() > 0.93);
+  CHECK(forces.rms() < 1.3);
+  CHECK(alarms < 10);
+}

@@ -81,7 +81,7 @@ struct JackLoad {
   bool was_unread = false;               ///< until this row
   bool went_on = false;                  ///< surely, as it was read last
   bool turned_unseen = false;            ///< once it has turned while it was not read
-  Scalar missed_in = 0;                  ///< if its last reading came after a time without rows, that [s]
+  Scalar missed_in = 0;                  ///< if it had not come as far as at its pace, in what time [s]
   Scalar missed = 0;   ///< by how much it may have gone farther while it was not read, and come back [N]
   Scalar read_sd = 0;  ///< then the standard deviation of the load where it was last [N]
   Scalar step_by = 0, stride = 0;    ///< how far it had come since the reading before [N], in that time
@@ -225,11 +225,15 @@ struct JackLoad {
     constexpr Scalar surely = 6;
     Scalar come = at.load;
     if (at.alone) return;
-    const Scalar hidden = gone_missed();
+    const Scalar hidden = gone_missed(2 * surely * beyond);
     goes_on = at.reversed || (filter.goes_on() && short_of_farthest(at.load) == 0);
     if (at.reversed) {
       missed = larger(missed, hidden);
-      if (missed > 0) at.reversal_sd = turn_beyond(at.reversal, larger(at.reversal_sd, sd_before));
+      if (missed > 0) {
+        const Scalar seen = at.reversal;
+        at.reversal_sd = turn_beyond(seen, larger(at.reversal_sd, sd_before));
+        if (turned == seen) rest_beyond(seen);
+      }
       turn_sd = at.reversal_sd > 0 ? at.reversal_sd : larger(sd_before, back(at.reversal));
       rises = !rises;
     } else {
@@ -246,20 +250,35 @@ struct JackLoad {
     farthest_sd = larger(at.sd, beyond);
   }
   /// By how much the load may have gone farther since it was read last, and have come back, at the pace that
-  /// it had [N]: where it was on its way, and rows were missed in between. Half of that is the most likely.
-  Scalar gone_missed() const {
-    constexpr Scalar gap = 3;
-    if (!went_on || !(stride > 0 && stride <= JumpGuard<Scalar>::far_apart && since > gap * stride)) return 0;
-    return larger(step_by / stride * since - std::fabs(at.load - load_before), Scalar(0)) / 2;
+  /// it had [N]: where it was on its way, and has not come as far by `least` [N]. Half of that is the most
+  /// likely.
+  Scalar gone_missed(Scalar least) const {
+    if (!went_on || !(stride > 0 && stride <= JumpGuard<Scalar>::far_apart)) return 0;
+    const Scalar left = step_by / stride * since - std::fabs(at.load - load_before);
+    return left > least ? left / 2 : Scalar(0);
   }
   /// It has turned half of that beyond `seen`, which is known to `sd`. Returns the standard deviation of the
   /// turn [N].
   Scalar turn_beyond(Scalar seen, Scalar sd) {
     const Scalar half = missed / 2;
-    at.reversal = rises ? seen + half : seen - half;
+    at.reversal = larger(rises ? seen + half : seen - half, Scalar(0));
     missed = 0;
     turned_unseen = true;
     return std::sqrt(sd * sd + half * half);
+  }
+  /// It has turned there, and not where it was seen: between the branches of a ram it rests there.
+  void rest_beyond(Scalar seen) {
+    turned = at.reversal;
+    turned_sd = at.reversal_sd;
+    if (at.load == seen) {
+      at.load = turned;
+      at.sd = larger(at.sd, turned_sd);
+    }
+    if (at.come == seen) {
+      at.come = turned;
+      at.come_sd = larger(at.come_sd, turned_sd);
+    }
+    if (at.confirmed == seen) at.confirmed = turned;
   }
   /// Whether the one reading that was refused before this one was a peak of the load: the load has come at
   /// least half-way there.
