@@ -258,7 +258,8 @@ class Belief {
       innovation.with_error[k] = sum;
       variance += by_error(k) * sum;
     }
-    Scalar of_friction = 0, of_cells = 0, of_both = 0, of_unknowns = 0, through_unknowns = 0;
+    Scalar of_friction = 0, through_friction = 0, of_cells = 0, of_both = 0, of_unknowns = 0,
+           through_unknowns = 0;
     for (int p = 0; p < in_use_; ++p) {
       Scalar sum = 0;
       for (int q = 0; q < friction_; ++q) sum += P[p][q] * H[q];
@@ -272,6 +273,7 @@ class Belief {
       for (int k = 0; k < jacks.size() && has_errors_; ++k) sum += state_.with_load[k][p] * by_error(k);
       innovation.with_unknown[p] = sum;
       through_unknowns += H[p] * sum;
+      if (p < friction_) through_friction += H[p] * sum;
     }
     variance += through_unknowns;
     // A load that is off times what friction leaves of it.
@@ -289,9 +291,13 @@ class Belief {
       if (p < friction_) shift += std::fabs(H[p] * (innovation.updated_mean[p] - state_.linearized_at[p]));
     }
     // A force is about exponential in mu: by shift^2 / 2T it is off the line.
-    const Scalar left = of_unknowns - through_unknowns * through_unknowns * innovation.precision;
+    const auto left_of = [&](Scalar before, Scalar through) {
+      return larger(before - through * through * innovation.precision, Scalar(0));
+    };
+    const Scalar left =
+        -larger(-left_of(of_friction, through_friction), -left_of(of_unknowns, through_unknowns));
     const Scalar off = shift * shift, allowed = nonlinearity * larger(std::fabs(expected), sd);
-    innovation.is_nonlinear = off * off > allowed * allowed * larger(left, Scalar(0));
+    innovation.is_nonlinear = off * off > allowed * allowed * left;
     return true;
   }
   /// After innovate(): whether the mean that would follow is too far from where the model is linearized.

@@ -50,6 +50,8 @@ struct JackLoad {
   static constexpr Scalar fastest = Scalar(0.014);
   /// Readings in a row that show that the jack of a locked end pulls less than its wedge holds.
   static constexpr std::uint8_t confirmed_below = 3;
+  /// A time without readings is so many times as long as the step before, or longer.
+  static constexpr Scalar gap = 3;
 
   LoadFilter<Scalar> filter;
   JumpGuard<Scalar> guard;
@@ -228,10 +230,13 @@ struct JackLoad {
     const Scalar hidden = gone_missed(2 * surely * beyond);
     goes_on = at.reversed || (filter.goes_on() && short_of_farthest(at.load) == 0);
     if (at.reversed) {
-      missed = larger(missed, hidden);
+      // In rows that come as usual it may as well have turned where it was seen.
+      const bool as_usual = hidden > 0 ? since <= gap * stride : missed_in > 0 && missed_in < gap * since;
+      missed = larger(as_usual ? missed_at_pace_back() : missed, hidden);
       if (missed > 0) {
         const Scalar seen = at.reversal;
-        at.reversal_sd = turn_beyond(seen, larger(at.reversal_sd, sd_before));
+        at.reversal_sd =
+            turn_beyond(seen, as_usual ? Scalar(0) : missed / 2, larger(at.reversal_sd, sd_before));
         if (turned == seen) rest_beyond(seen);
       }
       turn_sd = at.reversal_sd > 0 ? at.reversal_sd : larger(sd_before, back(at.reversal));
@@ -257,14 +262,22 @@ struct JackLoad {
     const Scalar left = step_by / stride * since - std::fabs(at.load - load_before);
     return left > least ? left / 2 : Scalar(0);
   }
-  /// It has turned half of that beyond `seen`, which is known to `sd`. Returns the standard deviation of the
-  /// turn [N].
-  Scalar turn_beyond(Scalar seen, Scalar sd) {
-    const Scalar half = missed / 2;
-    at.reversal = larger(rises ? seen + half : seen - half, Scalar(0));
+  /// It has turned, and comes back at a pace: if it did so at once, in a row that came as usual, it has not
+  /// gone as much farther as `missed` has it, which is at the pace that it went on with [N].
+  Scalar missed_at_pace_back() const {
+    if (!(missed > 0)) return 0;
+    const Scalar way = 2 * missed + step_by,
+                 back = -larger(-way, -std::fabs(at.reversal - at.load) * missed_in / since);
+    return missed * 2 * back / (way + back);
+  }
+  /// It has turned as much farther than `seen`, which is known to `sd`, and by `missed` at most. Returns the
+  /// standard deviation of the turn [N].
+  Scalar turn_beyond(Scalar seen, Scalar further, Scalar sd) {
+    const Scalar left = missed - further;
+    at.reversal = larger(rises ? seen + further : seen - further, Scalar(0));
     missed = 0;
     turned_unseen = true;
-    return std::sqrt(sd * sd + half * half);
+    return std::sqrt(sd * sd + left * left);
   }
   /// It has turned there, and not where it was seen: between the branches of a ram it rests there.
   void rest_beyond(Scalar seen) {
@@ -392,7 +405,7 @@ struct JackLoad {
     const bool has_turned = come_back > (since > JumpGuard<Scalar>::far_apart ? Scalar(0) : 5 * filter.sd());
     at.reversed = has_turned || missed > 0 || fallen > 3 * at.come_sd;
     if (missed > 0) {
-      turn_sd = turn_beyond(farthest, farthest_sd);
+      turn_sd = turn_beyond(farthest, missed / 2, farthest_sd);
       corners.reverses = true;
     } else if (at.reversed) {
       at.reversal = has_turned ? farthest : at.come;
