@@ -2,13 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <sstream>
 
 namespace large_displacements {
-namespace {
-
-using Table = std::map<std::string, std::vector<std::string>>;
 
 Table table_of(const std::string& text) {
   Table table;
@@ -26,6 +22,8 @@ Table table_of(const std::string& text) {
   }
   return table;
 }
+
+namespace {
 
 /// C.T1, strut2, C.end.extension, C.slip3, node.x; empty for others.
 std::string kind_of(const std::string& column) {

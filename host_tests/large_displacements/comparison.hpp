@@ -2,10 +2,15 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace large_displacements {
+
+/// The columns of a result by name, as they are written.
+using Table = std::map<std::string, std::vector<std::string>>;
+Table table_of(const std::string& text);
 
 /// The largest difference in one kind of columns, of the largest value there.
 struct Difference {

@@ -5,35 +5,15 @@
 #include <fstream>
 #include <numeric>
 #include <random>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include "files/run_program.hpp"
+#include "large_displacements/comparison.hpp"
 #include "large_displacements/path.hpp"
 
 namespace large_displacements {
 namespace {
-
-using Columns = std::map<std::string, std::vector<double>>;
-
-/// Columns that hold numbers.
-Columns columns_of(const std::string& csv) {
-  std::istringstream lines(csv);
-  std::string line, cell;
-  std::vector<std::string> names;
-  Columns columns;
-  while (std::getline(lines, line)) {
-    std::istringstream cells(line);
-    for (std::size_t i = 0; std::getline(cells, cell, ','); ++i) {
-      if (names.size() <= i) names.push_back(cell);
-      char* end = nullptr;
-      const double number = std::strtod(cell.c_str(), &end);
-      if (end != cell.c_str()) columns[names[i]].push_back(number);
-    }
-  }
-  return columns;
-}
 
 /// Five rows for one as long as the jack is at work.
 std::vector<Row> more_rows(const Jacking& jacking, bool ramp_alone) {
@@ -134,18 +114,21 @@ std::optional<Estimated> estimate(const Jacking& jacking, const Known& known, co
   const Outcome outcome = run(scratch, taut, "estimate");
   found.status = outcome.status;
   found.said = outcome.err;
-  const Columns columns = columns_of(text_of(scratch.path / "found.csv"));
+  const Table columns = table_of(text_of(scratch.path / "found.csv"));
   if (columns.count(cable.name + ".T1") == 0) return found;
+  const auto number = [&](const std::string& column, std::size_t row) {
+    return std::stod(columns.at(cable.name + column)[row]);
+  };
   const std::size_t answered = columns.at(cable.name + ".T1").size();
   found.force.assign(answered, {});
   found.sd.assign(answered, {});
   for (int i = 1; i <= cable.segments(); ++i)
     for (std::size_t r = 0; r < answered; ++r) {
-      found.force[r].push_back(columns.at(cable.name + ".T" + std::to_string(i))[r]);
-      found.sd[r].push_back(columns.at(cable.name + ".sd" + std::to_string(i))[r]);
+      found.force[r].push_back(number(".T" + std::to_string(i), r));
+      found.sd[r].push_back(number(".sd" + std::to_string(i), r));
     }
-  found.mu = columns.at(cable.name + ".mu1").back();
-  found.mu_sd = columns.at(cable.name + ".mu_sd1").back();
+  found.mu = number(".mu1", answered - 1);
+  found.mu_sd = number(".mu_sd1", answered - 1);
   return found;
 }
 

@@ -2,7 +2,6 @@
 // finds them.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>

@@ -52,13 +52,18 @@ bool is_best_further(const Parts& parts) {
   return true;
 }
 
-/// To where the loads are confirmed to have come. Cost: that of Tracker::restore().
+/// To where the loads were confirmed to have come when it went ahead. Cost: that of Tracker::restore().
 template <class Parts>
-void go_back(Parts& parts) {
-  if (!parts.is_ahead) return;
+void restore_confirmed(Parts& parts) {
   parts.is_ahead = false;
   static_cast<void>(put_back(parts, parts.confirmed.tracker).ok());
   for (int k = 0; k < parts.jacks.size(); ++k) parts.jacks[k].driven = parts.confirmed.jack[k];
+}
+
+/// If it is ahead, to where the loads are confirmed to have come. Cost: that of Tracker::restore().
+template <class Parts>
+void go_back(Parts& parts) {
+  if (parts.is_ahead) restore_confirmed(parts);
 }
 
 /// Goes straight to these loads, two jacks as far as friction holds them. Returns whether it is there.
@@ -76,9 +81,7 @@ bool go_straight(Parts& parts, typename Parts::SampleType to) {
 template <class Parts>
 void go_back_to_target(Parts& parts) {
   go_back(parts);
-  if (go_straight(parts, parts.jacks.target(parts.jacks.driven(parts.patterns())))) return;
-  parts.is_ahead = true;
-  go_back(parts);
+  if (!go_straight(parts, parts.jacks.target(parts.jacks.driven(parts.patterns())))) restore_confirmed(parts);
 }
 
 /// Where the best estimate of a load lies beyond the present piece, the forces there follow from the events
