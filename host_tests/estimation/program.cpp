@@ -1067,16 +1067,26 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "rows in which wedges hold all and nothing is read tell nothing: the first reading after them does") {
+    "rows in which wedges hold all tell nothing, whatever the jack reads that pulls at none of them: the "
+    "first reading after them does") {
   const std::string friction = R"("mu": 0.2, "mu_sd": 0.02, "shared": true)",
-                    silent = "time,C.end,C.end.locked\n1,,1\n2,,1\n3,,0\n";
-  for (const bool was_pulled : {false, true})
+                    header = "time,C.end,C.end.locked\n";
+  struct Begin {
+    std::string rows;
+    bool was_pulled;
+  };
+  // What a jack read behind a wedge was taken for a first load of none at commit 2e9fa1a.
+  for (const auto& [rows, was_pulled] :
+       {Begin{"1,,1\n2,,1\n3,,0\n", false}, Begin{"1,,1\n2,,1\n3,,0\n", true},
+        Begin{"1,-20,1\n2,30,1\n3,,0\n", false}, Begin{"1,-20,1\n2,30,1\n3,,0\n", true},
+        Begin{"1,-20,1\n2,40000,1\n3,,0\n", true}})
     for (const bool stream : {false, true}) {
+      CAPTURE(rows);
       CAPTURE(was_pulled);
       CAPTURE(stream);
       const Scratch scratch;
       write(scratch, "scene.json", scene(friction, both_cells));
-      std::string log = silent;
+      std::string log = header + rows;
       for (int i = 0; i < 30; ++i)
         log += std::to_string(4 + i) + ',' + std::to_string(was_pulled ? 80000 + 50 * i : 2000 * i) + ",0\n";
       write(scratch, "log.csv", log);
@@ -1086,6 +1096,7 @@ TEST_CASE(
       REQUIRE(outcome.status == 0);
       const Table table(outcome.out);
       REQUIRE(table.rows.size() == 33);
+      if (was_pulled) CHECK(table.number(0, "C.T1") + 2 * table.number(0, "C.sd1") > 80000);
       CHECK((table.at(20, "alarms") == "unknown-past:C") == was_pulled);
       CHECK((outcome.err.find("begins under load") != std::string::npos) == was_pulled);
       // Once the jack was seen without load there was none before.

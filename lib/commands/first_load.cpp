@@ -76,8 +76,11 @@ void FirstLoad::take(const LogRow& row) {
   }
   for (std::size_t c = 0; c < jacks_.size(); ++c)
     for (std::size_t end = 0; end < 2; ++end) {
-      const auto& reading = row.cables[c][end].reading;
-      if (!scene_.cables[c].is_jacked(end) || !reading || !rules_.is_possible_force(c, *reading)) continue;
+      const auto& given = row.cables[c][end];
+      // While wedges hold it, the cell of a jack reads nothing of its cable.
+      if (!scene_.cables[c].is_jacked(end) || given.locked) continue;
+      const auto& reading = given.reading;
+      if (!reading || !rules_.is_possible_force(c, *reading)) continue;
       Jack& jack = jacks_[c][end];
       if (!jack.first)
         jack.first = telling_ == 1 ? *reading : 0;
