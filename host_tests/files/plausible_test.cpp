@@ -326,6 +326,16 @@ TEST_CASE("a column that goes over to another unit is refused where it does; a l
   check_taken(site, "estimate", ramp("time,C.end", 60, [](int i) {
                 return std::to_string(i <= 30 ? 1000.0 * i : 30 * (1 + 0.3 * (i % 4)));
               }));
+  // Behind a wedge, where a logger goes on writing what was read last; in another unit once it pulls again.
+  const auto locked = [](int first_row_after) {
+    return ramp("time,C.end,C.end.locked", 60, [=](int i) {
+      const bool is_after = i >= first_row_after;
+      return i <= 30 ? std::to_string(1000.0 * i) + ",0" : is_after ? "30.1,0" : "30.1,1";
+    });
+  };
+  check_taken(site, "estimate", locked(100));
+  check_refused(site, "estimate", locked(50),
+                "log.csv: line 51, column 2 (C.end): from one row to the next ");
 }
 
 TEST_CASE(

@@ -68,7 +68,8 @@ void PlausibleLog::take(const LogRow& row) {
         cables_[c].lock[end].take(row.time, given.reading.value_or(std::nan("")), given.locked,
                                   first_stage_strain * cable.E * cable.A, row.line);
       if (!given.reading) continue;
-      cables_[c].unit[end].take(*given.reading, row.line);
+      // Behind a wedge the cell of a jack reads whatever is left there.
+      if (!given.locked) cables_[c].unit[end].take(*given.reading, row.line);
       if (!cable.is_jacked(end)) {
         cables_[c].is_read_under_load |= *given.reading > 0;
         continue;
