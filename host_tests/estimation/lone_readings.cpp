@@ -118,3 +118,27 @@ TEST_CASE("forces that friction holds are, after a single wrong reading, what th
       CHECK(std::fabs((*jacked)[0].force - before) < said.jack_sd);
     }
 }
+
+TEST_CASE("however long a pause is, a load has turned nowhere that its cable cannot go") {
+  for (const double pause : {3600.0, 36000.0, 1e6})
+    for (const bool locks : {true, false}) {
+      CAPTURE(pause);
+      CAPTURE(locks);
+      support::Random random(1);
+      estimation::Read read(noise);
+      for (int i = 1; i <= 40; ++i)
+        static_cast<void>(read.tells(5000 * i + noise * support::gaussian(random), 0.1));
+      static_cast<void>(read.tells(2e5 - 10 * noise, pause));
+      double farthest = read.reversal();
+      if (locks) {
+        static_cast<void>(read.locks_after_turn(0.1));
+        farthest = read.reversal();
+      }
+      for (int i = 1; i <= 10 && !locks; ++i) {
+        static_cast<void>(read.tells(2e5 - 10 * noise - 1000 * i, 0.1));
+        farthest = std::fmax(farthest, read.reversal());
+      }
+      // At commit 2e9fa1a up to 1.3e11 N: lock-off had no answer then.
+      CHECK(farthest <= estimation::Read::most);
+    }
+}

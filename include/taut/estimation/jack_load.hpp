@@ -221,13 +221,13 @@ struct JackLoad {
     at.reversal = was_highest ? larger(turn.load, at.confirmed) : -larger(-turn.load, -at.confirmed);
     at.reversal_sd = turn.sd;
   }
-  /// Once the load of a row is known. Where a ramp ends the estimate overshoots: it is farther than it was
-  /// read by `beyond` at most [N], and known no better than that.
-  void note_farthest(Scalar beyond) {
+  /// Once the load of a row is known, of a cable that can carry `most` [N]. Where a ramp ends the estimate
+  /// overshoots: it is farther than it was read by `beyond` at most [N], and known no better than that.
+  void note_farthest(Scalar beyond, Scalar most) {
     constexpr Scalar surely = 6;
     Scalar come = at.load;
     if (at.alone) return;
-    const Scalar hidden = gone_missed(2 * surely * beyond);
+    const Scalar hidden = gone_missed(2 * surely * beyond, most);
     goes_on = at.reversed || (filter.goes_on() && short_of_farthest(at.load) == 0);
     if (at.reversed) {
       // In rows that come as usual it may as well have turned where it was seen.
@@ -255,12 +255,13 @@ struct JackLoad {
     farthest_sd = larger(at.sd, beyond);
   }
   /// By how much the load may have gone farther since it was read last, and have come back, at the pace that
-  /// it had [N]: where it was on its way, and has not come as far by `least` [N]. Half of that is the most
-  /// likely.
-  Scalar gone_missed(Scalar least) const {
+  /// it had, and to no more than `most` [N]: where it was on its way, and has not come as far by `least` [N].
+  /// Half of that is the most likely.
+  Scalar gone_missed(Scalar least, Scalar most) const {
     if (!went_on || !(stride > 0 && stride <= JumpGuard<Scalar>::far_apart)) return 0;
-    const Scalar left = step_by / stride * since - std::fabs(at.load - load_before);
-    return left > least ? left / 2 : Scalar(0);
+    const Scalar left = step_by / stride * since - std::fabs(at.load - load_before),
+                 room = larger(rises ? most - farthest : farthest, Scalar(0));
+    return left > least ? -larger(-left / 2, -room) : Scalar(0);
   }
   /// It has turned, and comes back at a pace: if it did so at once, in a row that came as usual, it has not
   /// gone as much farther as `missed` has it, which is at the pace that it went on with [N].
@@ -477,8 +478,8 @@ struct JackLoad {
     if (!at.refused) sd_before = at.sd;
     // Placed there, not on the heap: a copy would read back at once what was just written in parts, and wait.
     Scalar reading = possible(given.force, most);
-    // How far the jack pulled while the wedge held is not known.
-    if (is_released) guard.start(reading);
+    // How far the jack pulled while the wedge held is not known; but not that it hardly pulls any more.
+    if (is_released) guard.start(larger(cell.up * taken_least, reading), dt);
     bool is_held =
         cell.sd > 0 && std::isfinite(reading) && guard.holds(reading, since, filter.sd(), fastest * most);
     // What both cells read in a single row may be a fault of their supply: the load is taken to be there, and
@@ -540,7 +541,7 @@ struct JackLoad {
       at = behind_branches(at, cell);
       raw /= branch(cell);
     }
-    note_farthest(filter.sd() / branch(cell) / 2);
+    note_farthest(filter.sd() / branch(cell) / 2, most);
     if (first == 0 && at.load > 0) first = Scalar(1e-3) * cell.sd;
     step_by = std::fabs(at.load - load_before);
     stride = since;

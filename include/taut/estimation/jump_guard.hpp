@@ -4,16 +4,18 @@
 #include <cmath>
 #include <cstdint>
 
+#include "taut/numerics/larger.hpp"
+
 namespace taut {
 
 /// Tells a jump of the readings from a load that moves: a reading four times as far away as any has gone from
-/// one row to the next is held back, and those after it until they come back to where the load can have gone
-/// meanwhile, or at least jump back towards it from where they had stayed. Where they go on for two rows
-/// more, by a third of the step before at least, the load does: it has begun to move, or moves faster. What
-/// lasts for more than `most_held` readings is believed. Readings more than 5 s apart, a row a load stage,
-/// and those after a pause are not held back: what happened before them is not known. Only where rows merely
-/// come more slowly, as in a hold after a ramp, one that still shows what was held back is. A plain value.
-/// Cost: a few operations a reading.
+/// one row to the next, and not come back in the one after, is held back, and those after it until they come
+/// back to where the load can have gone meanwhile, or at least jump back towards it from where they had
+/// stayed. Where they go on for two rows more, by a third of the step before at least, the load does: it has
+/// begun to move, or moves faster. What lasts for more than `most_held` readings is believed. Readings more
+/// than 5 s apart, a row a load stage, and those after a pause are not held back: what happened before them
+/// is not known. Only where rows merely come more slowly, as in a hold after a ramp, one that still shows
+/// what was held back is. A plain value. Cost: a few operations a reading.
 template <class Scalar>
 class JumpGuard {
  public:
@@ -27,11 +29,17 @@ class JumpGuard {
     held_ = stayed_ = 0;
     passed_ = 0;
   }
+  /// The same of a jack that takes over from a wedge in a row `dt` [s] after the one before.
+  void start(Scalar load, Scalar dt) {
+    start(load);
+    step_ = dt;
+  }
   /// Whether this reading [N] of a cell with noise `sd`, `dt` [s] after the one before, is held back; no load
   /// goes faster than `fastest` [N/s].
   [[nodiscard]] bool holds(Scalar reading, Scalar dt, Scalar sd, Scalar fastest) {
     const Scalar off = std::fabs(reading - last_), from_shown = std::fabs(reading - shown_),
-                 scatter = at_most * sd, change = off - scatter, jump = far * (farthest_ + scatter),
+                 scatter = at_most * sd, change = off - scatter,
+                 jump = far * (larger(farthest_, gone_) + scatter),
                  steps = step_ > 0 && dt > step_ ? dt / step_ : Scalar(1),
                  possible = held_ == 0 ? jump : scatter + (passed_ + steps) * farthest_;
     const bool stays = held_ > 0 && from_shown < jump && from_shown < off;
@@ -55,7 +63,10 @@ class JumpGuard {
     step_ = dt;
     // Only what went on from one row to the next says how far loads go.
     if (goes_on && pace > farthest_) farthest_ = pace;
-    if (held_ == 0 && seen_ > 0 && change > farthest_ && !is_pause) farthest_ = change;
+    const bool is_peak = gone_ > 0 && std::fabs(reading - before_) < std::fabs(last_ - before_) / 2;
+    if (!is_peak) farthest_ = larger(farthest_, gone_);
+    gone_ = held_ == 0 && seen_ > 0 && change > farthest_ && !is_pause && !is_peak ? change : Scalar(0);
+    before_ = last_;
     if (seen_ < enough) ++seen_;
     start(reading);
     return false;
@@ -103,8 +114,11 @@ class JumpGuard {
   Scalar last_ = 0, step_ = 0;  // the last reading that was believed; its time after the one before [s]
   Scalar passed_ = 0;           // since then, in such steps
   Scalar farthest_ = 0;         // that readings have gone in a row [N], less their scatter
-  Scalar shown_ = 0;            // the last one that was held back
-  Scalar pace_ = 0;             // how far it had gone on a step, from the one before or as they jumped [N]
+  // How much farther the last reading went than any before [N], and from where: a load does not if it is a
+  // peak.
+  Scalar gone_ = 0, before_ = 0;
+  Scalar shown_ = 0;  // the last one that was held back
+  Scalar pace_ = 0;   // how far it had gone on a step, from the one before or as they jumped [N]
   std::uint8_t seen_ = 0, held_ = 0;
   bool may_move_ = false, has_moved_ = false;
   bool is_line_ = false;     // as they jumped they have gone on, by a third of the step before, at least
