@@ -101,6 +101,7 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.jacking.pumped_again = true;
   }
   add("cells-in-turn", Demand::model).instruments.in_turn = true;
+  add("held-cells").instruments.is_held = true;
   add("drop-outs", Demand::model).instruments.drops_out = true;
   add("any-pace", Demand::model).jacking.any_pace = true;
   {

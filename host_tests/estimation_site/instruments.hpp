@@ -22,6 +22,7 @@ struct InstrumentRules {
   bool loose_plug = false;   ///< the jack's, for 5 to 15 rows
   bool in_turn = false;      ///< each row has the reading of one end only
   bool drops_out = false;    ///< the jack's is not read for 3 to 20 rows, now and then
+  bool is_held = false;      ///< each is read at its own pace, and written again in between
   bool far_freezes = false;  ///< the far cell keeps its value from the first ramp on
   double gauge_gain_sd = 0, gauge_zero_sd = 0;  ///< of gauges on segments and struts: relative, part
   bool gauges_freeze = false;  ///< those of the first joint or segment keep a value of the first ramp
@@ -80,6 +81,18 @@ inline void drop_out(support::Random& random, std::vector<double>& readings) {
     const std::size_t end = std::min(readings.size(), i + 3 + std::size_t(random.below(18)));
     for (; i < end; ++i) readings[i] = std::nan("");
     i += 20 + std::size_t(random.below(80));
+  }
+}
+
+/// A cell is read at an even pace of its own, once in 0.3 to 3 s and in two rows at most; rows in between
+/// have its last value.
+inline void hold(support::Random& random, const std::vector<double>& times, std::vector<double>& readings) {
+  const double row = (times.back() - times.front()) / double(times.size() - 1),
+               pace = std::max(0.3 * std::pow(10, random.between(0, 1)), 2 * row);
+  double next = times.front() + pace;
+  for (std::size_t i = 1; i < readings.size(); ++i) {
+    if (times[i] < next) readings[i] = readings[i - 1];
+    while (times[i] >= next) next += pace;
   }
 }
 

@@ -81,6 +81,12 @@ Readings read_cable(Random& random, const InstrumentRules& rules, const Jacked& 
   if (rules.in_turn) read_in_turn(readings.end, readings.start);
   if (rules.drops_out) drop_out(random, readings.end);
   if (rules.loose_plug) loosen_plug(random, full, readings.end, last_free);
+  if (rules.is_held) {
+    std::vector<double> times;
+    for (const Deed& deed : jacked.rows) times.push_back(deed.time);
+    hold(random, times, readings.end);
+    hold(random, times, readings.start);
+  }
   if (rules.far_freezes) freeze(readings.start, static_cast<int>(last_of_ramp * random.between(0.3, 0.8)));
   return readings;
 }

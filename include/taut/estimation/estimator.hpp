@@ -74,6 +74,7 @@ class Estimator {
     typename Parts::LockOff lock_off;
     typename ForceWatchType::State forces;
     typename Parts::TurnedForcesType turned;
+    typename Parts::HeldCellsType held;
     typename Parts::LaggingCellsType lagging;
   };
 
@@ -103,10 +104,19 @@ class Estimator {
   Progress<Scalar> come_down(const ReadingsType& first);
   /// The state between two rows. Cost: a copy of it.
   State save() const {
-    return {parts_.tracker.save(),  parts_.jacks.save(),  parts_.filter.save(),
-            parts_.far_ends.save(), parts_.gauges.save(), parts_.sliding_way,
-            parts_.confirmed,       parts_.is_ahead,      parts_.leg,
-            parts_.lock_off,        parts_.forces.save(), parts_.turned,
+    return {parts_.tracker.save(),
+            parts_.jacks.save(),
+            parts_.filter.save(),
+            parts_.far_ends.save(),
+            parts_.gauges.save(),
+            parts_.sliding_way,
+            parts_.confirmed,
+            parts_.is_ahead,
+            parts_.leg,
+            parts_.lock_off,
+            parts_.forces.save(),
+            parts_.turned,
+            parts_.held,
             parts_.lagging};
   }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `capacity_exceeded` if and
@@ -134,6 +144,7 @@ class Estimator {
     parts_.is_beyond.fill(state.is_ahead);
     parts_.leg = state.leg;
     parts_.lock_off = state.lock_off;
+    parts_.held = state.held;
     parts_.lagging = state.lagging;
     const Status restored = parts_.tracker.restore(condensed, parts_.filter.friction(linear_part(condensed)),
                                                    state.tracker, load_errors(parts_));
@@ -237,6 +248,7 @@ class Estimator {
     parts_.forces.start();
     parts_.turned.clear();
     parts_.sliding_way = {};
+    parts_.held = {};
     parts_.lagging = {};
     return number_unknowns(parts_, condensed, prior, gauges);
   }
@@ -245,7 +257,7 @@ class Estimator {
     new (static_cast<void*>(&parts_)) Parts();
     return why;
   }
-  /// advance() with readings that have no lag.
+  /// advance() with readings that count, and have no lag.
   Progress<Scalar> follow_row(const ReadingsType& readings, int event_budget);
   /// What a row measures, once the tracker has come to its loads; the tracker looks ahead.
   [[gnu::always_inline]] void measure_row(const ReadingsType& readings, Corners<Scalar>& corners) {
@@ -310,13 +322,13 @@ auto Estimator<CondensedType, Parameters, Further>::advance(const ReadingsType& 
   for (int i = 0; i < parts_.jacks.patterns(); ++i)
     if (!(std::fabs(readings.sample.factor[i]) <= parts_.model().most_factor[i]))
       return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
-  if constexpr (Cap::lags) {
-    ReadingsType undone = readings;
-    parts_.lagging.undo(parts_.filter.prior().cell, parts_.model().most_force, undone);
-    return follow_row(undone, event_budget);
-  } else {
-    return follow_row(readings, event_budget);
-  }
+  const bool has_held = parts_.tracker.is_started() && parts_.held.take(readings, parts_.model().cables);
+  if (!Cap::lags && !has_held) return follow_row(readings, event_budget);
+  ReadingsType counted = readings;
+  if (has_held) parts_.held.drop(counted);
+  if constexpr (Cap::lags)
+    parts_.lagging.undo(parts_.filter.prior().cell, parts_.model().most_force, counted);
+  return follow_row(counted, event_budget);
 }
 
 template <class CondensedType, int Parameters, int Further>

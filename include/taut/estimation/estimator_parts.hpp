@@ -13,6 +13,7 @@
 #include "taut/estimation/force_watch.hpp"
 #include "taut/estimation/friction_filter.hpp"
 #include "taut/estimation/gauges.hpp"
+#include "taut/estimation/held_reading.hpp"
 #include "taut/estimation/jack_loads.hpp"
 #include "taut/estimation/joint_reach.hpp"
 #include "taut/estimation/lagging_reading.hpp"
@@ -43,6 +44,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   using Drives = FixedArray<Jack<Scalar>, JacksType::capacity>;
   using FarEndsType = FarEnds<FilterType, JacksType>;
   using GaugesType = Gauges<Scalar, Further, Cap::lags>;
+  using HeldCellsType = HeldCells<Scalar, Cap>;
   using LaggingCellsType = LaggingCells<Scalar, Cap>;
   using SlidingWayType = SlidingWay<Scalar, Cap::cables>;
   using ForceWatchType = ForceWatch<Scalar, Cap::segments>;
@@ -96,6 +98,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   TrackerType tracker;
   FilterType filter;
   GaugesType gauges;
+  HeldCellsType held;
   LaggingCellsType lagging;
   Strokes strokes;
   SlidingWayType sliding_way;

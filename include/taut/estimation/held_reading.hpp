@@ -1,0 +1,120 @@
+// Readings that a logger writes again until the next one comes: they are no new ones.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "taut/estimation/readings.hpp"
+#include "taut/numerics/larger.hpp"
+#include "taut/scene/scene.hpp"
+
+namespace taut {
+
+/// A load cell that is read more seldom than rows are written: its last value is written again until the next
+/// comes, and counts once, Eq. (77). That is seen where changes hardly follow each other directly, and are
+/// large beside how finely the cell reads: its noise would not repeat a reading to the last digit. Steps of a
+/// coarse display repeat, too, but are multiples of one; so does a load at rest without noise, but not while
+/// it moves. A plain value. Cost: a few operations a row.
+template <class Scalar>
+class HeldReading {
+ public:
+  /// What is written for longer was read [s].
+  static constexpr Scalar most = 60;
+
+  /// Time goes on [s].
+  void wait(Scalar dt) { age_ += dt; }
+  /// After wait(): what a row has [N]. Returns whether it was read before, and is no longer there than others
+  /// were; or may have been, with `doubts`, as long as it is not known how the cell is read.
+  bool take(Scalar reading, bool doubts) {
+    if (reading == last_) {
+      is_repeated_ = true;
+      return is_known() ? usual_ > fine * step_ && age_ < nearly * longest_ : doubts && in_row_ < straight;
+    }
+    change(std::fabs(reading - last_));
+    last_ = reading;
+    age_ = 0;
+    is_repeated_ = false;
+    return false;
+  }
+
+ private:
+  static constexpr std::uint8_t few = 3, many = 8, straight = 4;  // changes
+  static constexpr Scalar fine = 8, nearly = Scalar(0.99), some = 10;
+
+  // Load stages without noise are held for a quarter of a minute, too.
+  bool is_known() const { return held_ >= (longest_ > some ? many : few); }
+  void change(Scalar by) {
+    const Scalar other = std::fabs(by - before_);
+    before_ = by;
+    if (!is_repeated_) {
+      if (in_row_ < straight) ++in_row_;
+      if (in_row_ == straight) held_ = 0;
+      return;
+    }
+    in_row_ = 0;
+    if (age_ > most) return;
+    if (held_ == 0) {
+      longest_ = usual_ = 0;
+      step_ = by;
+    }
+    if (held_ < many) ++held_;
+    longest_ = larger(longest_, age_);
+    usual_ += (by - usual_) / static_cast<Scalar>(held_);
+    // Steps of a display are multiples of one but for the last digit that is written.
+    for (const Scalar step : {by, other})
+      if (step > by / 256 && step < step_) step_ = step;
+  }
+
+  Scalar last_ = 0;                     // reading [N]
+  Scalar age_ = 0;                      // since it was first written [s]
+  Scalar longest_ = 0;                  // that one was there until the next came [s]
+  Scalar before_ = 0;                   // the last change [N]
+  Scalar usual_ = 0;                    // mean of those that followed a reading that was written again [N]
+  Scalar step_ = 0;                     // how finely the cell reads, at most [N]
+  std::uint8_t held_ = 0, in_row_ = 0;  // readings that were written again; changes one after the other
+  bool is_repeated_ = false;
+};
+
+/// The load cells of all ends.
+template <class Scalar, class Cap>
+class HeldCells {
+ public:
+  /// Returns whether a row has readings that count no more: then drop() takes them out. Cost: that of
+  /// HeldReading for each.
+  template <class Cables>
+  bool take(const Readings<Scalar, Cap>& readings, const Cables& cables) {
+    bool any = false;
+    for (int c = 0; c < cables.size(); ++c) {
+      bool is_pulled = false;
+      for (std::size_t end = 0; end < 2; ++end)
+        is_pulled |= cables[c].ends[end] == End::jacked && !readings.sample.jack[c][end].locked;
+      for (std::size_t end = 0; end < 2; ++end) {
+        const auto& given = readings.ends[c][end];
+        auto& cell = cells_[c][end];
+        cell.reading.wait(readings.dt);
+        // What a far end teaches of a load of before stays; a jack that rests is no rare thing.
+        const bool doubts = is_pulled && cables[c].ends[end] == End::anchored;
+        cell.is_held = given.has_force && cell.reading.take(given.force, doubts);
+        any |= cell.is_held;
+      }
+    }
+    return any;
+  }
+  void drop(Readings<Scalar, Cap>& readings) const {
+    for (int c = 0; c < cells_.size(); ++c)
+      for (std::size_t end = 0; end < 2; ++end)
+        if (cells_[c][end].is_held) readings.ends[c][end].has_force = false;
+  }
+
+ private:
+  struct Cell {
+    HeldReading<Scalar> reading;
+    bool is_held = false;  // in this row
+  };
+
+  FixedArray<std::array<Cell, 2>, Cap::cables> cells_;
+};
+
+}  // namespace taut
