@@ -19,8 +19,7 @@ using Held = taut::HeldReading<double>;
 int write(Held& held, double reading, int rows, double dt, bool doubts = false) {
   int again = 0;
   for (int i = 0; i < rows; ++i) {
-    held.wait(dt);
-    again += held.take(reading, doubts) ? 1 : 0;
+    again += held.take(reading, dt, [doubts] { return doubts; }) ? 1 : 0;
   }
   return again;
 }

@@ -23,16 +23,22 @@ class HeldReading {
   /// What is written for longer was read [s].
   static constexpr Scalar most = 60;
 
-  /// Time goes on [s].
-  void wait(Scalar dt) { age_ += dt; }
-  /// After wait(): what a row has [N]. Returns whether it was read before, and is no longer there than others
-  /// were; or may have been, with `doubts`, as long as it is not known how the cell is read.
-  bool take(Scalar reading, bool doubts) {
+  /// What a row has [N], `dt` [s] after the one before. Returns whether it was read before, and is no longer
+  /// there than others were; or may have been, with doubts(), as long as it is not known how the cell is
+  /// read.
+  template <class Doubts>
+  bool take(Scalar reading, Scalar dt, const Doubts& doubts) {
+    age_ += dt;
     if (reading == last_) {
       is_repeated_ = true;
-      return is_known() ? usual_ > fine * step_ && age_ < nearly * longest_ : doubts && in_row_ < straight;
+      return is_known() ? usual_ > fine * step_ && age_ < nearly * longest_ : in_row_ < straight && doubts();
     }
-    change(std::fabs(reading - last_));
+    const Scalar by = std::fabs(reading - last_);
+    if (is_repeated_)
+      follow(by);
+    else if (in_row_ < straight && ++in_row_ == straight)
+      held_ = 0;
+    before_ = by;
     last_ = reading;
     age_ = 0;
     is_repeated_ = false;
@@ -45,14 +51,9 @@ class HeldReading {
 
   // Load stages without noise are held for a quarter of a minute, too.
   bool is_known() const { return held_ >= (longest_ > some ? many : few); }
-  void change(Scalar by) {
+  /// A change that follows a reading that was written again.
+  void follow(Scalar by) {
     const Scalar other = std::fabs(by - before_);
-    before_ = by;
-    if (!is_repeated_) {
-      if (in_row_ < straight) ++in_row_;
-      if (in_row_ == straight) held_ = 0;
-      return;
-    }
     in_row_ = 0;
     if (age_ > most) return;
     if (held_ == 0) {
@@ -86,20 +87,19 @@ class HeldCells {
   template <class Cables>
   bool take(const Readings<Scalar, Cap>& readings, const Cables& cables) {
     bool any = false;
-    for (int c = 0; c < cables.size(); ++c) {
-      bool is_pulled = false;
-      for (std::size_t end = 0; end < 2; ++end)
-        is_pulled |= cables[c].ends[end] == End::jacked && !readings.sample.jack[c][end].locked;
+    for (int c = 0; c < cables.size(); ++c)
       for (std::size_t end = 0; end < 2; ++end) {
         const auto& given = readings.ends[c][end];
+        if (!given.has_force) continue;
         auto& cell = cells_[c][end];
-        cell.reading.wait(readings.dt);
         // What a far end teaches of a load of before stays; a jack that rests is no rare thing.
-        const bool doubts = is_pulled && cables[c].ends[end] == End::anchored;
-        cell.is_held = given.has_force && cell.reading.take(given.force, doubts);
+        cell.is_held = cell.reading.take(given.force, readings.dt, [&] {
+          const std::size_t other = 1 - end;
+          return cables[c].ends[end] == End::anchored && cables[c].ends[other] == End::jacked &&
+                 !readings.sample.jack[c][other].locked;
+        });
         any |= cell.is_held;
       }
-    }
     return any;
   }
   void drop(Readings<Scalar, Cap>& readings) const {
@@ -111,7 +111,7 @@ class HeldCells {
  private:
   struct Cell {
     HeldReading<Scalar> reading;
-    bool is_held = false;  // in this row
+    bool is_held = false;  // in the last row that has a reading
   };
 
   FixedArray<std::array<Cell, 2>, Cap::cables> cells_;

@@ -64,8 +64,9 @@ class JumpGuard {
     // Only what went on from one row to the next says how far loads go.
     if (goes_on && pace > farthest_) farthest_ = pace;
     const bool is_peak = gone_ > 0 && std::fabs(reading - before_) < std::fabs(last_ - before_) / 2;
-    if (!is_peak) farthest_ = larger(farthest_, gone_);
-    gone_ = held_ == 0 && seen_ > 0 && change > farthest_ && !is_pause && !is_peak ? change : Scalar(0);
+    if (gone_ > farthest_ && !is_peak) farthest_ = gone_;
+    const bool goes_farther = change > farthest_ && held_ == 0 && seen_ > 0 && !is_pause && !is_peak;
+    gone_ = goes_farther ? change : Scalar(0);
     before_ = last_;
     if (seen_ < enough) ++seen_;
     start(reading);
