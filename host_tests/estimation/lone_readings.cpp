@@ -138,7 +138,7 @@ TEST_CASE("however long a pause is, a load has turned nowhere that its cable can
         static_cast<void>(read.tells(2e5 - 10 * noise - 1000 * i, 0.1));
         farthest = std::fmax(farthest, read.reversal());
       }
-      // At commit 2e9fa1a up to 1.3e11 N: lock-off had no answer then.
+      // At commit 2e9fa1a 4.5e7 to 1.2e10 N: lock-off had no answer then.
       CHECK(farthest <= estimation::Read::most);
     }
 }

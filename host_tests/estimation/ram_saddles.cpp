@@ -78,10 +78,7 @@ TEST_CASE("what a far end has taught of mu and of a ram together holds on as the
     // Between the branches of most rams; nothing slides back at the far end.
     pressed->press(0.5 * (1 - part), 20);
     REQUIRE(pressed->site.force.front() == held);
-    far.held += pressed->far.held;
-    far.count += pressed->far.count;
-    far.square += pressed->far.square;
-    far.worst = std::max(far.worst, pressed->far.worst);
+    far.add(pressed->far);
     alarms += pressed->alarms;
   }
   MESSAGE("seeds 1 to 60: ", 100 * far.share(), " % are held, errors ", far.rms(),

@@ -18,6 +18,13 @@ struct Score {
     square += std::min(z * z, 1e4);
     worst = std::max(worst, z);
   }
+  /// Those of another one.
+  void add(const Score& other) {
+    held += other.held;
+    count += other.count;
+    square += other.square;
+    worst = std::max(worst, other.worst);
+  }
   double share() const { return 1.0 * held / count; }
   double rms() const { return std::sqrt(square / count); }
 };

@@ -13,7 +13,7 @@
 namespace taut::host {
 
 /// The jacks from the first row on that tells of loads: in those before, wedges hold all that a jack can
-/// pull, and no load cell is read.
+/// pull, and no load cell at an anchored end is read.
 class FirstLoad {
  public:
   /// The scene has what fill_in_deviations() gives it.

@@ -9,7 +9,7 @@
 namespace taut {
 
 /// Tells a jump of the readings from a load that moves: a reading four times as far away as any has gone from
-/// one row to the next, and not come back in the one after, is held back, and those after it until they come
+/// one row to the next, peaks of one row aside, is held back, and those after it until they come
 /// back to where the load can have gone meanwhile, or at least jump back towards it from where they had
 /// stayed. Where they go on for two rows more, by a third of the step before at least, the load does: it has
 /// begun to move, or moves faster. What lasts for more than `most_held` readings is believed. Readings more
@@ -65,9 +65,11 @@ class JumpGuard {
     if (goes_on && pace > farthest_) farthest_ = pace;
     const bool is_peak = gone_ > 0 && std::fabs(reading - before_) < std::fabs(last_ - before_) / 2;
     if (gone_ > farthest_ && !is_peak) farthest_ = gone_;
-    const bool goes_farther = change > farthest_ && held_ == 0 && seen_ > 0 && !is_pause && !is_peak;
-    gone_ = goes_farther ? change : Scalar(0);
-    before_ = last_;
+    gone_ = 0;
+    if (change > farthest_ && held_ == 0 && seen_ > 0 && !is_pause && !is_peak) {
+      gone_ = change;
+      before_ = last_;
+    }
     if (seen_ < enough) ++seen_;
     start(reading);
     return false;
