@@ -322,7 +322,7 @@ auto Estimator<CondensedType, Parameters, Further>::advance(const ReadingsType& 
   for (int i = 0; i < parts_.jacks.patterns(); ++i)
     if (!(std::fabs(readings.sample.factor[i]) <= parts_.model().most_factor[i]))
       return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
-  const bool has_held = parts_.tracker.is_started() && parts_.held.take(readings, parts_.model().cables);
+  const bool has_held = parts_.tracker.is_started() && parts_.held.take(readings, parts_.model());
   if (!Cap::lags && !has_held) return follow_row(readings, event_budget);
   ReadingsType counted = readings;
   if (has_held) parts_.held.drop(counted);

@@ -23,11 +23,11 @@ class HeldReading {
   /// What is written for longer was read [s].
   static constexpr Scalar most = 60;
 
-  /// What a row has [N], `dt` [s] after the one before. Returns whether it was read before, and is no longer
-  /// there than others were; or may have been, with doubts(), as long as it is not known how the cell is
-  /// read.
+  /// What a row has [N], `dt` [s] after the one before; by more than is `possible` [N], or to what is no
+  /// number, no load changes. Returns whether it was read before, and is no longer there than others were; or
+  /// may have been, with doubts(), as long as it is not known how the cell is read.
   template <class Doubts>
-  bool take(Scalar reading, Scalar dt, const Doubts& doubts) {
+  bool take(Scalar reading, Scalar dt, const Scalar& possible, const Doubts& doubts) {
     age_ += dt;
     if (reading == last_) {
       is_repeated_ = true;
@@ -35,7 +35,7 @@ class HeldReading {
     }
     const Scalar by = std::fabs(reading - last_);
     if (is_repeated_)
-      follow(by);
+      follow(by, possible);
     else if (in_row_ < straight && ++in_row_ == straight)
       held_ = 0;
     before_ = by;
@@ -52,10 +52,10 @@ class HeldReading {
   // Load stages without noise are held for a quarter of a minute, too.
   bool is_known() const { return held_ >= (longest_ > some ? many : few); }
   /// A change that follows a reading that was written again.
-  void follow(Scalar by) {
+  void follow(Scalar by, Scalar possible) {
     const Scalar other = std::fabs(by - before_);
     in_row_ = 0;
-    if (age_ > most) return;
+    if (age_ > most || !(by <= possible)) return;
     if (held_ == 0) {
       longest_ = usual_ = 0;
       step_ = by;
@@ -82,10 +82,11 @@ class HeldReading {
 template <class Scalar, class Cap>
 class HeldCells {
  public:
-  /// Returns whether a row has readings that count no more: then drop() takes them out. Cost: that of
-  /// HeldReading for each.
-  template <class Cables>
-  bool take(const Readings<Scalar, Cap>& readings, const Cables& cables) {
+  /// Returns whether a row of this model has readings that count no more: then drop() takes them out. Cost:
+  /// that of HeldReading for each.
+  template <class Model>
+  bool take(const Readings<Scalar, Cap>& readings, const Model& model) {
+    const auto& cables = model.cables;
     bool any = false;
     for (int c = 0; c < cables.size(); ++c)
       for (std::size_t end = 0; end < 2; ++end) {
@@ -93,7 +94,7 @@ class HeldCells {
         if (!given.has_force) continue;
         auto& cell = cells_[c][end];
         // What a far end teaches of a load of before stays; a jack that rests is no rare thing.
-        cell.is_held = cell.reading.take(given.force, readings.dt, [&] {
+        cell.is_held = cell.reading.take(given.force, readings.dt, model.most_force[c], [&] {
           const std::size_t other = 1 - end;
           return cables[c].ends[end] == End::anchored && cables[c].ends[other] == End::jacked &&
                  !readings.sample.jack[c][other].locked;
