@@ -234,6 +234,31 @@ TEST_CASE("without a cell at the far end what warms unseen is in the interval") 
   }
 }
 
+TEST_CASE_TEMPLATE(
+    "what warms unseen is told where the scene says nothing of it, and neither gains nor mu are known",
+    Scalar, double, float) {
+  static Ground ground;
+  for (const bool elastic : {false, true}) {
+    CAPTURE(elastic);
+    int told = 0, told_at_rest = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      Random random(seed);
+      make_ground(ground, elastic, 0, std::fmax(0.02, 0.2 + 0.04 * gaussian(random)));
+      for (auto& cell : ground.known.cables[0].cell) cell.gain_sd = 0.01;
+      for (const double kelvin : {0.0, elastic ? -15.0 : -3.0, elastic ? 15.0 : 3.0}) {
+        CAPTURE(kelvin);
+        const auto site = std::make_unique<Site<Scalar>>(ground, Instruments{}, full, seed);
+        bool any = false;
+        warm(*site, kelvin,
+             [&] { any |= raised(site->estimator().alarms(), taut::Alarm::Kind::misfit) > 0; });
+        (kelvin == 0 ? told_at_rest : told) += any ? 1 : 0;
+      }
+    }
+    CHECK(told >= 38);
+    CHECK(told_at_rest <= 1);
+  }
+}
+
 TEST_CASE("a strain is no extension: the wedge stays where it is") {
   static Ground ground;
   make_ground(ground, true, 8, 0.2);

@@ -5,7 +5,9 @@
 #include <cstdint>
 
 #include "taut/estimation/consistency.hpp"
+#include "taut/estimation/lone_outliers.hpp"
 #include "taut/estimation/noise_level.hpp"
+#include "taut/estimation/since_lock_off.hpp"
 #include "taut/numerics/larger.hpp"
 
 namespace taut {
@@ -17,14 +19,13 @@ struct CellWatch {
   /// by this part of itself, does not live: a display that is coarser than that must say so (`resolution`).
   static constexpr Scalar far = 10, part = Scalar(0.02);
   static constexpr std::uint8_t often = 3;
-  /// An innovation beyond so many of its deviations is an outlier.
-  static constexpr Scalar outlier = 5;
 
   NoiseLevel<Scalar> noise;
   Scalar sd = 0;     ///< that readings are taken to scatter by [N]
   Scalar lasts = 0;  ///< what they are off by together, NoiseLevel::Found::lasting [N]
   Consistency<Scalar> fit;
-  Scalar off = 0;          ///< the last innovation [N]
+  LoneOutliers<Scalar> outliers;
+  SinceLockOff<Scalar> since_lock_off;
   Scalar last = 0;         ///< reading [N]
   Scalar expected = 0;     ///< of the force when it was first read [N]
   std::uint8_t same = 0;   ///< readings in a row that were no other
@@ -51,16 +52,12 @@ struct CellWatch {
   bool stays_frozen(Scalar reading) const { return is_frozen && reading == last; }
   /// A reading of what should be `force` [N], with the variances of that and of the noise.
   void take(Scalar reading, Scalar force, Scalar of_model, Scalar of_noise) {
-    fit.take(confirmed(reading - force, std::sqrt(of_model + of_noise)), of_model, of_noise);
+    fit.take(outliers.confirmed(reading - force, std::sqrt(of_model + of_noise)), of_model, of_noise);
     follow(reading, force, std::sqrt(of_model));
   }
-  /// Outliers come alone: an innovation counts as far as the one before it was off to the same side.
-  Scalar confirmed(Scalar innovation, Scalar deviation) {
-    const Scalar before = (innovation < 0) == (off < 0) ? std::fabs(off) : Scalar(0),
-                 most = larger(outlier * deviation, before);
-    off = innovation;
-    return larger(-most, -larger(-most, -innovation));
-  }
+  /// By how much its readings are off the model, or what they were at lock-off, where that is more than
+  /// chance allows [N]; else zero.
+  Scalar misfit() const { return larger(fit.misfit(), since_lock_off.misfit()); }
   /// `deviation` is that of the force: what may not have gone on is no sign that the cell does not live.
   void follow(Scalar reading, Scalar force, Scalar deviation) {
     if (reading != last || same == 0) {

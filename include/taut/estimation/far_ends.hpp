@@ -93,14 +93,14 @@ class FarEnds {
   /// Whether some cell is off the model by more than chance allows.
   bool misfits() const {
     for (int e = 0; e < ends_.size(); ++e)
-      if (state_.watch[e].fit.misfit() > 0) return true;
+      if (state_.watch[e].misfit() > 0) return true;
     return false;
   }
   /// By how much the cells of a cable are off the model, where that is more than chance allows [N].
   Scalar misfit(int cable) const {
     Scalar largest = 0;
     for (int e = 0; e < ends_.size(); ++e)
-      if (ends_[e].cable() == cable) largest = larger(largest, state_.watch[e].fit.misfit());
+      if (ends_[e].cable() == cable) largest = larger(largest, state_.watch[e].misfit());
     return largest;
   }
   /// Takes a reading [N] of cell `e` into account at once, if FilterType::is_informative() with slides(c).

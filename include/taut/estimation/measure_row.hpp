@@ -80,6 +80,29 @@ bool measure_far_end(Parts& parts, int e, typename Parts::Scalar reading, bool g
   return update == Update::updated;
 }
 
+/// What a reading that measure_far_end() has taken says of a cable that wedges hold, where nothing takes up
+/// what strains it. `before` is the force there before that. Cost: a few operations.
+template <class Parts>
+[[gnu::noinline]] void follow_since_lock_off(Parts& parts, int e,
+                                             const typename Parts::ReadingsType& readings,
+                                             typename Parts::Scalar reading, typename Parts::Scalar before) {
+  const auto& end = parts.far_ends.ends()[e];
+  const int c = end.cable();
+  auto& watch = parts.far_ends.watch(e);
+  if (watch.is_frozen) return;
+  if (parts.drift[c] >= 0 || !parts.is_held(c)) {
+    watch.since_lock_off = {};
+    return;
+  }
+  const std::size_t other = 1 - end.end;
+  const auto& jack = readings.ends[c][other];
+  if (parts.can_be(jack, c))
+    watch.since_lock_off.follow_jack(jack.force, parts.filter.prior().cell[c][other].noise());
+  const auto force = parts.tracker.tension(end.segment(parts.model()));
+  watch.since_lock_off.correct(force - before);
+  watch.since_lock_off.take(reading, force, watch.sd, watch.lasts);
+}
+
 /// A reading of the cell at anchored end `e` that waits, see sees_unread(): what the cell would read in this
 /// row, in which the jack of its cable is read and it is not. None where the load has not come straight on.
 /// Cost: a few operations.
@@ -127,10 +150,15 @@ bool measure_far_ends(Parts& parts, const typename Parts::ReadingsType& readings
     far_ends.begin_memory();
     if (in_doubt && is_reading && parts.loads_are_read(end.cable()))
       far_ends.compare_in_doubt(e, given.force, parts.tracker, parts.filter, parts.jacks);
-    if (!in_doubt && is_reading) learns |= measure_far_end(parts, e, given.force, gathers);
+    if (!in_doubt && is_reading) {
+      const auto before = parts.tracker.tension(end.segment(parts.model()));
+      learns |= measure_far_end(parts, e, given.force, gathers);
+      if (parts.is_held(end.cable()) || far_ends.watch(e).since_lock_off.has_begun())
+        follow_since_lock_off(parts, e, readings, given.force, before);
+    }
     if (far_ends.corrects_memory()) correct_turned(parts);
     if (in_doubt) continue;
-    if (!(far_ends.watch(e).fit.misfit() > 0)) continue;
+    if (!(far_ends.watch(e).misfit() > 0)) continue;
     parts.misfits = true;
     if (given.has_force) parts.alarms.add(Parts::alarm_at(Alarm::Kind::misfit, end));
   }
