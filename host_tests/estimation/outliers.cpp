@@ -40,7 +40,7 @@ class Jacking {
 
 /// Noise of 100 N, and no load that goes faster than 10 kN/s.
 bool holds(taut::JumpGuard<double>& guard, double reading, double dt) {
-  return guard.holds(reading, dt, 100, 1e4);
+  return guard.holds(reading, dt, 0, 100, 1e4);
 }
 /// Rows that go on by `step`, `dt` apart, up from zero. Returns where that is.
 double pull(taut::JumpGuard<double>& guard, int rows, double step, double dt) {
@@ -229,6 +229,21 @@ TEST_CASE("what jumped at once is not believed because the load could have come 
   double load = pull(guard, 10, 1e4, 1);
   for (int i = 0; i < 14; ++i) CHECK(holds(guard, load + 1e5, 1));
   CHECK_FALSE(holds(guard, load, 1));
+}
+
+TEST_CASE("where readings come more seldom, a load that goes as fast as it did before is no jump") {
+  taut::JumpGuard<double> guard;
+  double load = pull(guard, 20, 5e3, 1);
+  // Four such steps are less than one of these; of the first of them it is not known what was before.
+  for (int i = 0; i < 10; ++i) CHECK_FALSE(holds(guard, load += 22.5e3, 4.5));
+  CHECK(holds(guard, load + 120e3, 4.5));
+  // A peak does not tell how fast loads go.
+  taut::JumpGuard<double> other;
+  load = pull(other, 20, 1e3, 1);
+  CHECK_FALSE(holds(other, load + 4e3, 1));
+  CHECK_FALSE(holds(other, load, 1));
+  CHECK_FALSE(holds(other, load, 1));
+  CHECK(holds(other, load + 12e3, 3.5));
 }
 
 TEST_CASE("peaks of one row do not teach how far a load goes in one, however often they come") {

@@ -188,9 +188,18 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   }
   /// Whether what is read of a cable cannot be compared with what its own jacks would make of it, for their
   /// loads may be others; any jack counts if `cable` is negative.
-  bool loads_are_in_doubt(int cable = -1) const { return jacks.are_in_doubt(cable); }
+  bool loads_are_in_doubt(int cable = -1) const { return jacks.are_in_doubt(cable) || may_be_old(cable); }
+  /// Whether what was read of a jack may be its load of before; any jack counts if `cable` is negative.
+  bool may_be_old(int cable) const {
+    for (int k = 0; k < jacks.size(); ++k) {
+      const int c = jacks.end(k).cable();
+      if ((cable < 0 || c == cable) && !jacks[k].locked && held.may_be_old(c, jacks.end(k).end)) return true;
+    }
+    return false;
+  }
   /// Whether it is known of all its jacks that are not locked what they pull.
   bool loads_are_read(int c) const {
+    if (may_be_old(c)) return false;
     for (int k = 0; k < jacks.size(); ++k)
       if (jacks.end(k).cable() == c && !jacks[k].locked && !jacks[k].at.is_sure()) return false;
     return true;

@@ -23,15 +23,18 @@ class HeldReading {
   /// What is written for longer was read [s].
   static constexpr Scalar most = 60;
 
+  /// Whether what a row has was read before: it is known to, being no longer there than others were; or may
+  /// have been, as long as it is not known how the cell is read.
+  enum class Again : std::uint8_t { no, maybe, yes };
+
   /// What a row has [N], `dt` [s] after the one before; by more than is `possible` [N], or to what is no
-  /// number, no load changes. Returns whether it was read before, and is no longer there than others were; or
-  /// may have been, with doubts(), as long as it is not known how the cell is read.
-  template <class Doubts>
-  bool take(Scalar reading, Scalar dt, const Scalar& possible, const Doubts& doubts) {
+  /// number, no load changes.
+  Again take(Scalar reading, Scalar dt, const Scalar& possible) {
     age_ += dt;
     if (reading == last_) {
       is_repeated_ = true;
-      return is_known() ? usual_ > fine * step_ && age_ < nearly * longest_ : in_row_ < straight && doubts();
+      if (is_known()) return usual_ > fine * step_ && age_ < nearly * longest_ ? Again::yes : Again::no;
+      return in_row_ < straight ? Again::maybe : Again::no;
     }
     const Scalar by = std::fabs(reading - last_);
     if (is_repeated_)
@@ -42,7 +45,7 @@ class HeldReading {
     last_ = reading;
     age_ = 0;
     is_repeated_ = false;
-    return false;
+    return Again::no;
   }
 
  private:
@@ -82,23 +85,30 @@ class HeldReading {
 template <class Scalar, class Cap>
 class HeldCells {
  public:
-  /// Returns whether a row of this model has readings that count no more: then drop() takes them out. Cost:
-  /// that of HeldReading for each.
+  /// Returns whether a row of this model has readings that count no more: then drop() takes them out. Of a
+  /// far end those do not count that may have been read before either while its jack pulls: what it has
+  /// taught of a load of before stays, and a jack that rests is no rare thing. Cost: that of HeldReading for
+  /// each.
   template <class Model>
   bool take(const Readings<Scalar, Cap>& readings, const Model& model) {
+    using Again = typename HeldReading<Scalar>::Again;
     const auto& cables = model.cables;
     bool any = false;
+    may_be_old_ = false;
     for (int c = 0; c < cables.size(); ++c)
       for (std::size_t end = 0; end < 2; ++end) {
         const auto& given = readings.ends[c][end];
-        if (!given.has_force) continue;
         auto& cell = cells_[c][end];
-        // What a far end teaches of a load of before stays; a jack that rests is no rare thing.
-        cell.is_held = cell.reading.take(given.force, readings.dt, model.most_force[c], [&] {
-          const std::size_t other = 1 - end;
-          return cables[c].ends[end] == End::anchored && cables[c].ends[other] == End::jacked &&
-                 !readings.sample.jack[c][other].locked;
-        });
+        cell.is_held = cell.may_be_old = false;
+        if (!given.has_force) continue;
+        const Again again = cell.reading.take(given.force, readings.dt, model.most_force[c]);
+        if (again == Again::no) continue;
+        const std::size_t other = 1 - end;
+        cell.is_held = again == Again::yes ||
+                       (cables[c].ends[end] == End::anchored && cables[c].ends[other] == End::jacked &&
+                        !readings.sample.jack[c][other].locked);
+        cell.may_be_old = !cell.is_held;
+        may_be_old_ |= cell.may_be_old;
         any |= cell.is_held;
       }
     return any;
@@ -108,14 +118,17 @@ class HeldCells {
       for (std::size_t end = 0; end < 2; ++end)
         if (cells_[c][end].is_held) readings.ends[c][end].has_force = false;
   }
+  /// Whether what the last row has of an end counts, but may have been read before.
+  bool may_be_old(int cable, std::size_t end) const { return may_be_old_ && cells_[cable][end].may_be_old; }
 
  private:
   struct Cell {
     HeldReading<Scalar> reading;
-    bool is_held = false;  // in the last row that has a reading
+    bool is_held = false, may_be_old = false;  // in the last row
   };
 
   FixedArray<std::array<Cell, 2>, Cap::cables> cells_;
+  bool may_be_old_ = false;  // of any end
 };
 
 }  // namespace taut

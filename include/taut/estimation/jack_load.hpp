@@ -480,8 +480,8 @@ struct JackLoad {
     Scalar reading = possible(given.force, most);
     // How far the jack pulled while the wedge held is not known; but not that it hardly pulls any more.
     if (is_released) guard.start(larger(cell.up * taken_least, reading), dt);
-    bool is_held =
-        cell.sd > 0 && std::isfinite(reading) && guard.holds(reading, since, filter.sd(), fastest * most);
+    bool is_held = cell.sd > 0 && std::isfinite(reading) &&
+                   guard.holds(reading, since, standing.stood(), filter.sd(), fastest * most);
     // What both cells read in a single row may be a fault of their supply: the load is taken to be there, and
     // friction to follow in the next row.
     const bool is_first = at.is_sure() && since <= JumpGuard<Scalar>::far_apart;
@@ -545,8 +545,13 @@ struct JackLoad {
     if (first == 0 && at.load > 0) first = Scalar(1e-3) * cell.sd;
     step_by = std::fabs(at.load - load_before);
     stride = since;
-    if (!at.alone && filter.goes_on() && stride > 0 && step_by > fastest_seen * stride)
+    constexpr int few = 3;
+    if (!at.alone && filter.goes_on() && filter.run_length() > few && stride > 0 &&
+        step_by > fastest_seen * stride)
       fastest_seen = step_by / stride;
+    // What is not believed yet may have begun to move.
+    if (!at.is_sure() && std::isfinite(shown) && (!is_held || guard.may_begin_to_move()))
+      step_by = larger(step_by, std::fabs(shown / branch(cell) - load_before));
     since = 0;
     is_new = at.is_sure();
     went_on = goes_on && filter.sd() > 0 && filter.knows_pace();

@@ -9,13 +9,14 @@
 namespace taut {
 
 /// Tells a jump of the readings from a load that moves: a reading four times as far away as any has gone from
-/// one row to the next, peaks of one row aside, is held back, and those after it until they come
-/// back to where the load can have gone meanwhile, or at least jump back towards it from where they had
-/// stayed. Where they go on for two rows more, by a third of the step before at least, the load does: it has
-/// begun to move, or moves faster. What lasts for more than `most_held` readings is believed. Readings more
-/// than 5 s apart, a row a load stage, and those after a pause are not held back: what happened before them
-/// is not known. Only where rows merely come more slowly, as in a hold after a ramp, one that still shows
-/// what was held back is. A plain value. Cost: a few operations a reading.
+/// one row to the next, peaks of one row aside, and farther than twice the fastest that any has gone from one
+/// that was another, is held back, and those after it until they come back to where the load can have gone
+/// meanwhile, or at least jump back towards it from where they had stayed. Where they go on for two rows
+/// more, by a third of the step before at least, the load does: it has begun to move, or moves faster. What
+/// lasts for more than `most_held` readings is believed. Readings more than 5 s apart, a row a load stage,
+/// and those after a pause are not held back: what happened before them is not known. Only where rows merely
+/// come more slowly, as in a hold after a ramp, one that still shows what was held back is. A plain value.
+/// Cost: a few operations a reading.
 template <class Scalar>
 class JumpGuard {
  public:
@@ -25,21 +26,26 @@ class JumpGuard {
 
   /// Begins at a load that is known [N].
   void start(Scalar load) {
-    last_ = load;
-    held_ = stayed_ = 0;
-    passed_ = 0;
+    come_to(load);
+    age_ = gone_ = went_ = 0;
   }
-  /// The same of a jack that takes over from a wedge in a row `dt` [s] after the one before.
+  /// The same of a jack that takes over from a wedge in a row `dt` [s] after the one before: it begins there.
   void start(Scalar load, Scalar dt) {
     start(load);
     step_ = dt;
+    age_ = -dt;
   }
-  /// Whether this reading [N] of a cell with noise `sd`, `dt` [s] after the one before, is held back; no load
-  /// goes faster than `fastest` [N/s].
-  [[nodiscard]] bool holds(Scalar reading, Scalar dt, Scalar sd, Scalar fastest) {
+  /// Whether this reading [N] of a cell with noise `sd`, `dt` [s] after the one before, is held back; it has
+  /// been shown for the time `stood` [s]. No load goes faster than `most` [N/s].
+  [[nodiscard]] bool holds(Scalar reading, Scalar dt, Scalar stood, Scalar sd, Scalar most) {
+    age_ += dt;
+    // A peak does not tell how loads go.
+    const bool was_peak = std::fabs(reading - left_) < std::fabs(last_ - left_) / 2;
     const Scalar off = std::fabs(reading - last_), from_shown = std::fabs(reading - shown_),
-                 scatter = at_most * sd, change = off - scatter,
-                 jump = far * (larger(farthest_, gone_) + scatter),
+                 scatter = at_most * sd, change = off - scatter, took = age_ - stood,
+                 in = -larger(-took, -far_apart), fastest = was_peak ? fastest_ : larger(fastest_, went_),
+                 jump = larger(far * (larger(farthest_, gone_) + scatter),
+                               scatter + Scalar(1.25) * fastest * in),
                  steps = step_ > 0 && dt > step_ ? dt / step_ : Scalar(1),
                  possible = held_ == 0 ? jump : scatter + (passed_ + steps) * farthest_;
     const bool stays = held_ > 0 && from_shown < jump && from_shown < off;
@@ -53,7 +59,8 @@ class JumpGuard {
       pace_ = pace;
       is_line_ = is_line;
       has_moved_ = false;
-      may_move_ = (held_ == 0 || may_move_) && (held_ == 0 ? off : from_shown) <= fastest * dt + scatter;
+      may_move_ = (held_ == 0 || may_move_) &&
+                  (held_ == 0 ? off <= most * in + scatter : from_shown <= most * dt + scatter);
       ++held_;
       passed_ += steps;
       shown_ = reading;
@@ -63,15 +70,19 @@ class JumpGuard {
     step_ = dt;
     // Only what went on from one row to the next says how far loads go.
     if (goes_on && pace > farthest_) farthest_ = pace;
-    const bool is_peak = gone_ > 0 && std::fabs(reading - before_) < std::fabs(last_ - before_) / 2;
-    if (gone_ > farthest_ && !is_peak) farthest_ = gone_;
-    gone_ = 0;
-    if (change > farthest_ && held_ == 0 && seen_ > 0 && !is_pause && !is_peak) {
-      gone_ = change;
-      before_ = last_;
+    if (reading != last_) {
+      if (!was_peak) {
+        farthest_ = larger(farthest_, gone_);
+        fastest_ = fastest;
+      }
+      const bool tells = seen_ > 0 && !was_peak;
+      gone_ = tells && held_ == 0 && !is_pause && change > farthest_ ? change : Scalar(0);
+      went_ = tells && took > 0 && change > fastest_ * took ? change / took : Scalar(0);
+      left_ = last_;
+      age_ = stood;
     }
     if (seen_ < enough) ++seen_;
-    start(reading);
+    come_to(reading);
     return false;
   }
   /// A reading that was held back is believed after all: the load has gone there [N].
@@ -85,6 +96,8 @@ class JumpGuard {
   bool has_moved() const { return has_moved_; }
   /// Whether those that are held back go on as those of a load that moves: one more tells.
   bool may_go_on() const { return held_ == line && is_line_; }
+  /// Whether the last reading is the first that is held back, and a load can have gone there.
+  bool may_begin_to_move() const { return held_ == 1 && may_move_; }
   /// How far the load can have gone since the last reading that was believed: as far as ever, at most twice
   /// as far as where it was read; at least as far where it can have gone as fast [N].
   Scalar reach() const {
@@ -94,6 +107,11 @@ class JumpGuard {
   }
 
  private:
+  void come_to(Scalar load) {
+    last_ = load;
+    held_ = stayed_ = 0;
+    passed_ = 0;
+  }
   /// How far a reading has gone on a step from the one before, away from where the load was [N].
   Scalar on_by(Scalar reading, Scalar steps) const {
     return (shown_ > last_ ? reading - shown_ : shown_ - reading) / steps;
@@ -117,9 +135,10 @@ class JumpGuard {
   Scalar last_ = 0, step_ = 0;  // the last reading that was believed; its time after the one before [s]
   Scalar passed_ = 0;           // since then, in such steps
   Scalar farthest_ = 0;         // that readings have gone in a row [N], less their scatter
-  // How much farther the last reading went than any before [N], and from where: a load does not if it is a
-  // peak.
-  Scalar gone_ = 0, before_ = 0;
+  Scalar fastest_ = 0;          // that they have gone from one that was another, less their scatter [N/s]
+  // How much farther the last one went, and faster, if it is no peak [N], [N/s], and from where.
+  Scalar gone_ = 0, went_ = 0, left_ = 0;
+  Scalar age_ = 0;    // since the last reading that was believed was first shown [s]
   Scalar shown_ = 0;  // the last one that was held back
   Scalar pace_ = 0;   // how far it had gone on a step, from the one before or as they jumped [N]
   std::uint8_t seen_ = 0, held_ = 0;
