@@ -16,7 +16,13 @@ struct Outcome {
   Tally far, alone;
 };
 
-/// Collects what misses.
+/// A demand, and what was found, with what was asked.
+struct Judged {
+  std::string demand, found;
+  bool is_met = false;
+};
+
+/// Judges results by what is asked of them.
 class Demands {
  public:
   void check(const Outcome& outcome) {
@@ -27,15 +33,15 @@ class Demands {
       check(*outcome.tried, outcome.way, far, tally);
     }
   }
-  const std::vector<std::string>& missed() const { return missed_; }
+  const std::vector<Judged>& judged() const { return judged_; }
 
  private:
   void check(const Case& tried, const std::string& way, bool far, const Tally& tally) {
     if (!tally.refusal.empty()) {
-      missed_.push_back(where_ + ": refused: " + tally.refusal);
+      judged_.push_back({where_ + ": an answer", "refused: " + tally.refusal, false});
       return;
     }
-    if (tally.broken > 0) missed_.push_back(where_ + ": runs without a usable result");
+    between("runs without a usable result", double(tally.broken), 0, 0);
     const std::string& name = tried.name;
     const bool in_stages = tried.jacking.stages;
     if (tried.silent) {
@@ -85,14 +91,13 @@ class Demands {
   }
   static double part(long count, const Tally& tally) { return 100 * double(count) / double(tally.jackings); }
   void between(const std::string& what, double found, double least, double most) {
-    if (found >= least && found <= most) return;
     char text[100];
-    std::snprintf(text, sizeof text, ": %.4g, not in %.4g to %.4g", found, least, most);
-    missed_.push_back(where_ + ": " + what + text);
+    std::snprintf(text, sizeof text, "%.4g, asked are %.4g to %.4g", found, least, most);
+    judged_.push_back({where_ + ": " + what, text, found >= least && found <= most});
   }
 
   std::string where_;
-  std::vector<std::string> missed_;
+  std::vector<Judged> judged_;
 };
 
 }  // namespace estimation_site

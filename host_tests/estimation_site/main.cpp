@@ -1,15 +1,23 @@
 // An adversary of the estimator: sites with a known truth, through the files of the program alone.
 //
 //     estimation_site [--count N] [--seed S] [--first I] [--case NAME,..] [--far yes|no|both]
-//                     [--plain] [--declared] [--phase] [--alarms] [--check] [--verify]
+//                     [--plain] [--declared] [--asked] [--phase] [--alarms] [--check] [--missed FILE]
+//                     [--verify]
+//                     [--threads T]
 //                     [--keep DIR] [--keep-all DIR] [--program PATH] [--year-rows N] [--fineness N]
 //
 // README.md here says what each is.
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "estimation_site/demands.hpp"
@@ -20,17 +28,19 @@ namespace {
 
 constexpr char usage[] =
     "usage: estimation_site [--count N] [--seed S] [--first I] [--case NAME,..] [--far yes|no|both]\n"
-    "                       [--plain] [--declared] [--phase] [--alarms] [--check] [--verify]\n"
+    "                       [--plain] [--declared] [--asked] [--phase] [--alarms] [--check] [--missed FILE] "
+    "[--verify]\n"
+    "                       [--threads T]\n"
     "                       [--keep DIR] [--keep-all DIR] [--program PATH] [--year-rows N] [--fineness N]\n"
     "host_tests/estimation_site/README.md says what each is.\n";
 
 struct Options {
   long count = 300, first = 0;
   std::uint64_t seed = 1;
-  std::string only, keep, program = TAUT_PROGRAM;
+  std::string only, keep, missed, program = TAUT_PROGRAM;
   bool keep_all = false, plain = true, declared = true, with_far = true, without_far = true;
-  bool by_phase = false, alarms = false, check = false, verify = false;
-  int fineness = 1000, year_rows = 1500;
+  bool by_phase = false, alarms = false, check = false, verify = false, asked = false;
+  int fineness = 1000, year_rows = 1500, threads = 1;
 };
 
 std::uint64_t mixed(std::uint64_t seed, std::uint64_t i) {
@@ -178,16 +188,12 @@ Unread random_jacking(const Options& options, const Case& tried, std::uint64_t i
   std::exit(1);
 }
 
-/// Jackings by number; kept for the cases that differ in their instruments only.
+/// Jackings by number, of cases that differ in their instruments only.
 class Jackings {
  public:
   explicit Jackings(const Options& options) : options_(options) {}
 
   Jacked read(const Case& tried, std::uint64_t i) {
-    if (kept_for_ == nullptr || kept_for_->ground.all() != tried.ground.all() ||
-        kept_for_->jacking.all() != tried.jacking.all())
-      kept_.clear();
-    kept_for_ = &tried;
     auto found = kept_.find(i);
     if (found == kept_.end())
       found = kept_.emplace(i, random_jacking(options_, tried, i, without_truth_)).first;
@@ -199,7 +205,6 @@ class Jackings {
 
  private:
   const Options& options_;
-  const Case* kept_for_ = nullptr;
   std::map<std::uint64_t, Unread> kept_;
   long without_truth_ = 0;
 };
@@ -368,7 +373,7 @@ std::vector<Outcome> try_case(const Options& options, const Case& tried, Jacking
   if (tried.silent) {
     add("silent");
   } else {
-    if (options.plain) add("plain");
+    if (options.plain || (options.asked && tried.demand == Demand::alarm)) add("plain");
     if (options.declared) add("declared");
   }
   Trial trial(options);
@@ -455,12 +460,20 @@ bool read_options(int count, char** words, Options& options) {
       options.declared = false;
     } else if (word == "--declared") {
       options.plain = false;
+    } else if (word == "--asked") {
+      options.plain = false;
+      options.asked = true;
     } else if (word == "--phase") {
       options.by_phase = true;
     } else if (word == "--alarms") {
       options.alarms = true;
     } else if (word == "--check") {
       options.check = true;
+    } else if (word == "--missed") {
+      options.missed = value();
+      options.check = true;
+    } else if (word == "--threads") {
+      options.threads = std::max(1, std::atoi(value().c_str()));
     } else if (word == "--verify") {
       options.verify = true;
     } else if (word == "-h" || word == "--help") {
@@ -477,6 +490,84 @@ bool read_options(int count, char** words, Options& options) {
 /// Whether a name is one of those between commas.
 bool is_listed(const std::string& name, const std::string& list) {
   return ("," + list + ",").find("," + name + ",") != std::string::npos;
+}
+
+/// Cases one after the other that have the same jackings.
+std::vector<std::vector<const Case*>> in_groups(const std::vector<const Case*>& cases) {
+  std::vector<std::vector<const Case*>> groups;
+  for (const Case* tried : cases) {
+    const Case* before = groups.empty() ? nullptr : groups.back().front();
+    if (before == nullptr || before->ground.all() != tried->ground.all() ||
+        before->jacking.all() != tried->jacking.all())
+      groups.emplace_back();
+    groups.back().push_back(tried);
+  }
+  return groups;
+}
+
+/// Tries all cases, and prints them in their order.
+std::vector<Outcome> try_all(const Options& options, const std::vector<const Case*>& cases) {
+  const auto groups = in_groups(cases);
+  std::vector<std::vector<Outcome>> found(groups.size());
+  std::vector<Outcome> outcomes;
+  std::set<std::size_t> done;
+  std::size_t printed = 0;
+  long without_truth = 0;
+  std::mutex guard;
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t g = next++; g < groups.size(); g = next++) {
+      Jackings jackings(options);
+      for (const Case* tried : groups[g])
+        for (Outcome& outcome : try_case(options, *tried, jackings)) found[g].push_back(std::move(outcome));
+      const std::lock_guard<std::mutex> lock(guard);
+      without_truth += jackings.without_truth();
+      for (done.insert(g); done.count(printed) > 0; ++printed)
+        for (Outcome& outcome : found[printed]) {
+          options.by_phase ? print_phases(outcome) : print_row(outcome);
+          std::fflush(stdout);
+          outcomes.push_back(std::move(outcome));
+        }
+    }
+  };
+  std::vector<std::thread> workers;
+  for (int i = 1; i < options.threads; ++i) workers.emplace_back(work);
+  work();
+  for (auto& worker : workers) worker.join();
+  if (options.alarms) print_alarms(outcomes);
+  if (without_truth > 0) std::printf("\n%ld jackings drawn again, without a truth.\n", without_truth);
+  return outcomes;
+}
+
+/// The lines of a file that are no comments.
+std::set<std::string> lines_of(const std::string& name) {
+  std::set<std::string> lines;
+  std::ifstream file(name);
+  for (std::string line; std::getline(file, line);)
+    if (!line.empty() && line[0] != '#') lines.insert(line);
+  return lines;
+}
+
+/// Prints which demands are missed; returns whether they are those that are known to be.
+bool check_demands(const Options& options, const std::vector<Outcome>& outcomes) {
+  Demands demands;
+  for (const Outcome& outcome : outcomes) demands.check(outcome);
+  const auto known = lines_of(options.missed);
+  long missed = 0, met = 0;
+  std::string text;
+  for (const Judged& each : demands.judged()) {
+    const bool is_known = known.count(each.demand) > 0;
+    if (!each.is_met) text += "- " + each.demand + ": " + each.found + (is_known ? ", as before" : "") + "\n";
+    if (!each.is_met && !is_known) ++missed;
+    if (each.is_met && is_known) {
+      ++met;
+      text += "- met by now: " + each.demand + ": " + each.found + "\n";
+    }
+  }
+  std::printf("\n%ld demands missed%s.\n%s", missed, options.missed.empty() ? "" : " that were met before",
+              text.c_str());
+  if (met > 0) std::printf("\nTake what is met by now out of %s.\n", options.missed.c_str());
+  return missed + met == 0;
 }
 
 int run(const Options& options) {
@@ -501,28 +592,14 @@ int run(const Options& options) {
     return good ? 0 : 1;
   }
   print_heading(options.by_phase);
-  std::vector<Outcome> outcomes;
-  Jackings jackings(options);
-  for (const Case* tried : chosen)
-    for (Outcome& outcome : try_case(options, *tried, jackings)) {
-      options.by_phase ? print_phases(outcome) : print_row(outcome);
-      std::fflush(stdout);
-      outcomes.push_back(std::move(outcome));
-    }
-  if (options.alarms) print_alarms(outcomes);
-  if (jackings.without_truth() > 0)
-    std::printf("\n%ld jackings drawn again, without a truth.\n", jackings.without_truth());
+  const std::vector<Outcome> outcomes = try_all(options, chosen);
   bool good = true;
   for (const Outcome& outcome : outcomes)
     for (const Tally* tally : {&outcome.far, &outcome.alone})
       if (tally->broken > 0 || !tally->refusal.empty()) good = false;
   if (!good) std::printf("\nFAILED: runs without a usable result, or refused.\n");
-  if (!options.check) return good ? 0 : 1;
-  Demands demands;
-  for (const Outcome& outcome : outcomes) demands.check(outcome);
-  std::printf("\n%zu demands missed.\n", demands.missed().size());
-  for (const std::string& miss : demands.missed()) std::printf("- %s\n", miss.c_str());
-  return demands.missed().empty() ? 0 : 1;
+  const bool is_met = !options.check || check_demands(options, outcomes);
+  return good && is_met ? 0 : 1;
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "taut/estimation/consistency.hpp"
 #include "taut/estimation/lone_outliers.hpp"
 #include "taut/estimation/noise_level.hpp"
-#include "taut/estimation/since_lock_off.hpp"
 #include "taut/numerics/larger.hpp"
 
 namespace taut {
@@ -25,7 +24,6 @@ struct CellWatch {
   Scalar lasts = 0;  ///< what they are off by together, NoiseLevel::Found::lasting [N]
   Consistency<Scalar> fit;
   LoneOutliers<Scalar> outliers;
-  SinceLockOff<Scalar> since_lock_off;
   Scalar last = 0;         ///< reading [N]
   Scalar expected = 0;     ///< of the force when it was first read [N]
   std::uint8_t same = 0;   ///< readings in a row that were no other
@@ -55,9 +53,6 @@ struct CellWatch {
     fit.take(outliers.confirmed(reading - force, std::sqrt(of_model + of_noise)), of_model, of_noise);
     follow(reading, force, std::sqrt(of_model));
   }
-  /// By how much its readings are off the model, or what they were at lock-off, where that is more than
-  /// chance allows [N]; else zero.
-  Scalar misfit() const { return larger(fit.misfit(), since_lock_off.misfit()); }
   /// `deviation` is that of the force: what may not have gone on is no sign that the cell does not live.
   void follow(Scalar reading, Scalar force, Scalar deviation) {
     if (reading != last || same == 0) {

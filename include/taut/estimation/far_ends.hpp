@@ -11,6 +11,7 @@
 #include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/friction_filter.hpp"
 #include "taut/estimation/gathered.hpp"
+#include "taut/estimation/since_lock_off.hpp"
 #include "taut/numerics/fixed_list.hpp"
 #include "taut/scene/scene.hpp"
 
@@ -35,6 +36,7 @@ class FarEnds {
     FixedArray<CellWatch<Scalar>, 2 * Cap::cables> watch;  ///< over the cells in the order of ends()
     FixedArray<Scalar, 2 * Cap::cables> bent;  ///< variance that forces there have beside a line [N^2]
     FixedArray<BetweenReadings<Scalar>, 2 * Cap::cables> between;
+    FixedArray<SinceLockOff<Scalar>, 2 * Cap::cables> since_lock_off;
   };
 
   /// Finds the ends; after FilterType::start() and Jacks::start().
@@ -50,6 +52,7 @@ class FarEnds {
     state_.learned = 0;
     state_.bent.fill(Scalar(0));
     state_.between.fill({});
+    state_.since_lock_off.fill({});
   }
   const State& save() const { return state_; }
   void restore(const State& state) { state_ = state; }
@@ -90,17 +93,27 @@ class FarEnds {
   BetweenReadings<Scalar>& between(int e) { return state_.between[e]; }
   CellWatch<Scalar>& watch(int e) { return state_.watch[e]; }
   const CellWatch<Scalar>& watch(int e) const { return state_.watch[e]; }
+  SinceLockOff<Scalar>& since_lock_off(int e) { return state_.since_lock_off[e]; }
+  /// By how much cell `e` is off the model, or what it was at lock-off, where that is more than chance allows
+  /// [N]; else zero.
+  Scalar misfit_of(int e) const {
+    return larger(state_.watch[e].fit.misfit(), state_.since_lock_off[e].misfit());
+  }
+  bool misfits(int e) const {
+    const auto& since = state_.since_lock_off[e];
+    return state_.watch[e].fit.misfit() > 0 || (since.has_begun() && since.misfit() > 0);
+  }
   /// Whether some cell is off the model by more than chance allows.
   bool misfits() const {
     for (int e = 0; e < ends_.size(); ++e)
-      if (state_.watch[e].misfit() > 0) return true;
+      if (misfits(e)) return true;
     return false;
   }
   /// By how much the cells of a cable are off the model, where that is more than chance allows [N].
   Scalar misfit(int cable) const {
     Scalar largest = 0;
     for (int e = 0; e < ends_.size(); ++e)
-      if (ends_[e].cable() == cable) largest = larger(largest, state_.watch[e].misfit());
+      if (ends_[e].cable() == cable) largest = larger(largest, misfit_of(e));
     return largest;
   }
   /// Takes a reading [N] of cell `e` into account at once, if FilterType::is_informative() with slides(c).

@@ -107,7 +107,8 @@ class HeldCells {
         cell.is_held = again == Again::yes ||
                        (cables[c].ends[end] == End::anchored && cables[c].ends[other] == End::jacked &&
                         !readings.sample.jack[c][other].locked);
-        cell.may_be_old = !cell.is_held;
+        // A jack that has no load shows none in every row.
+        cell.may_be_old = !cell.is_held && given.force != 0;
         may_be_old_ |= cell.may_be_old;
         any |= cell.is_held;
       }
@@ -118,8 +119,9 @@ class HeldCells {
       for (std::size_t end = 0; end < 2; ++end)
         if (cells_[c][end].is_held) readings.ends[c][end].has_force = false;
   }
-  /// Whether what the last row has of an end counts, but may have been read before.
-  bool may_be_old(int cable, std::size_t end) const { return may_be_old_ && cells_[cable][end].may_be_old; }
+  /// Whether what the last row has of an end counts, but may have been read before; of any end.
+  bool may_be_old(int cable, std::size_t end) const { return cells_[cable][end].may_be_old; }
+  bool any_may_be_old() const { return may_be_old_; }
 
  private:
   struct Cell {
@@ -128,7 +130,7 @@ class HeldCells {
   };
 
   FixedArray<std::array<Cell, 2>, Cap::cables> cells_;
-  bool may_be_old_ = false;  // of any end
+  bool may_be_old_ = false;
 };
 
 }  // namespace taut

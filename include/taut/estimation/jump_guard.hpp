@@ -39,13 +39,9 @@ class JumpGuard {
   /// been shown for the time `stood` [s]. No load goes faster than `most` [N/s].
   [[nodiscard]] bool holds(Scalar reading, Scalar dt, Scalar stood, Scalar sd, Scalar most) {
     age_ += dt;
-    // A peak does not tell how loads go.
-    const bool was_peak = std::fabs(reading - left_) < std::fabs(last_ - left_) / 2;
     const Scalar off = std::fabs(reading - last_), from_shown = std::fabs(reading - shown_),
-                 scatter = at_most * sd, change = off - scatter, took = age_ - stood,
-                 in = -larger(-took, -far_apart), fastest = was_peak ? fastest_ : larger(fastest_, went_),
-                 jump = larger(far * (larger(farthest_, gone_) + scatter),
-                               scatter + Scalar(1.25) * fastest * in),
+                 scatter = at_most * sd, change = off - scatter,
+                 jump = far * (larger(farthest_, gone_) + scatter),
                  steps = step_ > 0 && dt > step_ ? dt / step_ : Scalar(1),
                  possible = held_ == 0 ? jump : scatter + (passed_ + steps) * farthest_;
     const bool stays = held_ > 0 && from_shown < jump && from_shown < off;
@@ -55,12 +51,12 @@ class JumpGuard {
                goes_on = held_ >= line && is_line;
     const bool lasts = held_ == most_held;
     if (seen_ == enough && !is_pause && !lasts && !goes_on && (stays || change > possible) &&
-        !comes_back(reading, stays)) {
+        !(held_ == 0 && goes_as_before(reading, change, stood)) && !comes_back(reading, stays)) {
       pace_ = pace;
       is_line_ = is_line;
       has_moved_ = false;
-      may_move_ = (held_ == 0 || may_move_) &&
-                  (held_ == 0 ? off <= most * in + scatter : from_shown <= most * dt + scatter);
+      may_move_ = (held_ == 0 || may_move_) && (held_ == 0 ? off <= most * time_to_go(stood) + scatter
+                                                           : from_shown <= most * dt + scatter);
       ++held_;
       passed_ += steps;
       shown_ = reading;
@@ -71,14 +67,7 @@ class JumpGuard {
     // Only what went on from one row to the next says how far loads go.
     if (goes_on && pace > farthest_) farthest_ = pace;
     if (reading != last_) {
-      if (!was_peak) {
-        farthest_ = larger(farthest_, gone_);
-        fastest_ = fastest;
-      }
-      const bool tells = seen_ > 0 && !was_peak;
-      gone_ = tells && held_ == 0 && !is_pause && change > farthest_ ? change : Scalar(0);
-      went_ = tells && took > 0 && change > fastest_ * took ? change / took : Scalar(0);
-      left_ = last_;
+      if (change > 0 || gone_ > 0 || went_ > 0) learn(reading, change, stood, is_pause);
       age_ = stood;
     }
     if (seen_ < enough) ++seen_;
@@ -111,6 +100,29 @@ class JumpGuard {
     last_ = load;
     held_ = stayed_ = 0;
     passed_ = 0;
+  }
+  /// Whether this reading shows that the last one was a peak, which does not tell how loads go.
+  bool was_peak(Scalar reading) const { return std::fabs(reading - left_) < std::fabs(last_ - left_) / 2; }
+  /// How far, and how fast, loads go, from a change that is believed.
+  [[gnu::noinline]] void learn(Scalar reading, Scalar change, Scalar stood, bool is_pause) {
+    const bool is_peak = (gone_ > 0 || went_ > 0) && was_peak(reading);
+    if (!is_peak) {
+      farthest_ = larger(farthest_, gone_);
+      fastest_ = larger(fastest_, went_);
+    }
+    gone_ = went_ = 0;
+    if (is_peak || seen_ == 0) return;
+    const Scalar took = age_ - stood;
+    if (held_ == 0 && !is_pause && change > farthest_) gone_ = change;
+    if (took > 0 && change > fastest_ * took) went_ = change / took;
+    left_ = last_;
+  }
+  /// The time in which the load can have gone to what has been shown for the time `stood` [s].
+  Scalar time_to_go(Scalar stood) const { return -larger(stood - age_, -far_apart); }
+  /// Whether a change to this reading is that of a load which is hardly faster than it has been.
+  [[gnu::noinline]] bool goes_as_before(Scalar reading, Scalar change, Scalar stood) const {
+    const Scalar fastest = went_ > fastest_ && !was_peak(reading) ? went_ : fastest_;
+    return change <= Scalar(1.25) * fastest * time_to_go(stood);
   }
   /// How far a reading has gone on a step from the one before, away from where the load was [N].
   Scalar on_by(Scalar reading, Scalar steps) const {

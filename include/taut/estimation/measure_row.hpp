@@ -35,8 +35,12 @@ Update correct_held(Parts& parts, int e, typename Parts::Scalar reading) {
   while (parts.jacks.end(k).cable() != c) ++k;
   Update update = Update::no_information;
   if constexpr (Parts::has_seating)
-    if (parts.lock_off.is_known && parts.jacks[k].seating >= 0 && is_of_lock_off(parts, k))
+    if (parts.lock_off.is_known && parts.jacks[k].seating >= 0 && is_of_lock_off(parts, k)) {
+      const auto force = [&] { return parts.tracker.tension(far_ends.ends()[e].segment(parts.model())); };
+      const auto before = force();
       update = learn_draw_in(parts, k, e, reading);
+      far_ends.since_lock_off(e).correct(force() - before);
+    }
   if (drift < 0) {
     static_cast<void>(far_ends.compare(e, reading, parts.tracker, parts.filter, parts.jacks));
     return update;
@@ -81,26 +85,24 @@ bool measure_far_end(Parts& parts, int e, typename Parts::Scalar reading, bool g
 }
 
 /// What a reading that measure_far_end() has taken says of a cable that wedges hold, where nothing takes up
-/// what strains it. `before` is the force there before that. Cost: a few operations.
+/// what strains it. Cost: a few operations.
 template <class Parts>
 [[gnu::noinline]] void follow_since_lock_off(Parts& parts, int e,
                                              const typename Parts::ReadingsType& readings,
-                                             typename Parts::Scalar reading, typename Parts::Scalar before) {
+                                             typename Parts::Scalar reading) {
   const auto& end = parts.far_ends.ends()[e];
   const int c = end.cable();
-  auto& watch = parts.far_ends.watch(e);
+  const auto& watch = parts.far_ends.watch(e);
+  auto& since = parts.far_ends.since_lock_off(e);
   if (watch.is_frozen) return;
   if (parts.drift[c] >= 0 || !parts.is_held(c)) {
-    watch.since_lock_off = {};
+    since = {};
     return;
   }
   const std::size_t other = 1 - end.end;
   const auto& jack = readings.ends[c][other];
-  if (parts.can_be(jack, c))
-    watch.since_lock_off.follow_jack(jack.force, parts.filter.prior().cell[c][other].noise());
-  const auto force = parts.tracker.tension(end.segment(parts.model()));
-  watch.since_lock_off.correct(force - before);
-  watch.since_lock_off.take(reading, force, watch.sd, watch.lasts);
+  if (parts.can_be(jack, c)) since.follow_jack(jack.force, parts.filter.prior().cell[c][other].noise());
+  since.take(reading, parts.tracker.tension(end.segment(parts.model())), watch.sd, watch.lasts);
 }
 
 /// A reading of the cell at anchored end `e` that waits, see sees_unread(): what the cell would read in this
@@ -151,14 +153,13 @@ bool measure_far_ends(Parts& parts, const typename Parts::ReadingsType& readings
     if (in_doubt && is_reading && parts.loads_are_read(end.cable()))
       far_ends.compare_in_doubt(e, given.force, parts.tracker, parts.filter, parts.jacks);
     if (!in_doubt && is_reading) {
-      const auto before = parts.tracker.tension(end.segment(parts.model()));
       learns |= measure_far_end(parts, e, given.force, gathers);
-      if (parts.is_held(end.cable()) || far_ends.watch(e).since_lock_off.has_begun())
-        follow_since_lock_off(parts, e, readings, given.force, before);
+      if (parts.is_held(end.cable()) || far_ends.since_lock_off(e).has_begun())
+        follow_since_lock_off(parts, e, readings, given.force);
     }
     if (far_ends.corrects_memory()) correct_turned(parts);
     if (in_doubt) continue;
-    if (!(far_ends.watch(e).misfit() > 0)) continue;
+    if (!far_ends.misfits(e)) continue;
     parts.misfits = true;
     if (given.has_force) parts.alarms.add(Parts::alarm_at(Alarm::Kind::misfit, end));
   }
