@@ -99,6 +99,7 @@ class FarEnds {
   Scalar misfit_of(int e) const {
     return larger(state_.watch[e].fit.misfit(), state_.since_lock_off[e].misfit());
   }
+  /// Whether it is; asked in every row.
   bool misfits(int e) const {
     const auto& since = state_.since_lock_off[e];
     return state_.watch[e].fit.misfit() > 0 || (since.has_begun() && since.misfit() > 0);

@@ -9,8 +9,8 @@
 namespace taut {
 
 /// Tells a jump of the readings from a load that moves: a reading four times as far away as any has gone from
-/// one row to the next, peaks of one row aside, and farther than twice the fastest that any has gone from one
-/// that was another, is held back, and those after it until they come back to where the load can have gone
+/// one row to the next, and farther than a load goes in that time which is a quarter as fast again as any has
+/// been, peaks aside, is held back, and those after it until they come back to where the load can have gone
 /// meanwhile, or at least jump back towards it from where they had stayed. Where they go on for two rows
 /// more, by a third of the step before at least, the load does: it has begun to move, or moves faster. What
 /// lasts for more than `most_held` readings is believed. Readings more than 5 s apart, a row a load stage,
@@ -122,7 +122,7 @@ class JumpGuard {
   /// Whether a change to this reading is that of a load which is hardly faster than it has been.
   [[gnu::noinline]] bool goes_as_before(Scalar reading, Scalar change, Scalar stood) const {
     const Scalar fastest = went_ > fastest_ && !was_peak(reading) ? went_ : fastest_;
-    return change <= Scalar(1.25) * fastest * time_to_go(stood);
+    return change <= faster * fastest * time_to_go(stood);
   }
   /// How far a reading has gone on a step from the one before, away from where the load was [N].
   Scalar on_by(Scalar reading, Scalar steps) const {
@@ -142,7 +142,7 @@ class JumpGuard {
   /// A load that slows down, as where a valve is opened, goes on by no less than one in so many of the step
   /// before.
   static constexpr Scalar slower = 3;
-  static constexpr Scalar far = 4, at_most = 3, pause = 4;
+  static constexpr Scalar far = 4, faster = Scalar(1.25), at_most = 3, pause = 4;
 
   Scalar last_ = 0, step_ = 0;  // the last reading that was believed; its time after the one before [s]
   Scalar passed_ = 0;           // since then, in such steps
