@@ -1,9 +1,8 @@
 // An adversary of the estimator: sites with a known truth, through the files of the program alone.
 //
 //     estimation_site [--count N] [--seed S] [--first I] [--case NAME,..] [--far yes|no|both]
-//                     [--plain] [--declared] [--asked] [--phase] [--alarms] [--check] [--missed FILE]
-//                     [--verify]
-//                     [--threads T]
+//                     [--plain] [--declared] [--asked] [--phase] [--alarms] [--check]
+//                     [--missed FILE] [--verify] [--threads T]
 //                     [--keep DIR] [--keep-all DIR] [--program PATH] [--year-rows N] [--fineness N]
 //
 // README.md here says what each is.
@@ -28,9 +27,8 @@ namespace {
 
 constexpr char usage[] =
     "usage: estimation_site [--count N] [--seed S] [--first I] [--case NAME,..] [--far yes|no|both]\n"
-    "                       [--plain] [--declared] [--asked] [--phase] [--alarms] [--check] [--missed FILE] "
-    "[--verify]\n"
-    "                       [--threads T]\n"
+    "                       [--plain] [--declared] [--asked] [--phase] [--alarms] [--check]\n"
+    "                       [--missed FILE] [--verify] [--threads T]\n"
     "                       [--keep DIR] [--keep-all DIR] [--program PATH] [--year-rows N] [--fineness N]\n"
     "host_tests/estimation_site/README.md says what each is.\n";
 
@@ -579,6 +577,11 @@ int run(const Options& options) {
     std::fprintf(stderr, "no such case: %s; there are", options.only.c_str());
     for (const Case& each : cases) std::fprintf(stderr, " %s", each.name.c_str());
     std::fprintf(stderr, "\n");
+    return 2;
+  }
+  if (!options.missed.empty() && !std::ifstream(options.missed)) {
+    std::fprintf(stderr, "%s: cannot be read; --missed needs the demands that are missed, a line each\n",
+                 options.missed.c_str());
     return 2;
   }
   std::printf("Seed %llu, %ld jackings a case.\n", static_cast<unsigned long long>(options.seed),

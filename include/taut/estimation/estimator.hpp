@@ -240,7 +240,7 @@ class Estimator {
                const Cells& gauges) {
     parts_.limits = limits;
     parts_.alarms.clear();
-    parts_.is_belief_fine = parts_.has_old = parts_.is_ahead = parts_.misfits = false;
+    parts_.is_belief_fine = parts_.is_ahead = parts_.misfits = false;
     parts_.is_beyond.fill(false);
     parts_.slides_ahead.fill(false);
     forget_leg(parts_);
@@ -323,7 +323,6 @@ auto Estimator<CondensedType, Parameters, Further>::advance(const ReadingsType& 
     if (!(std::fabs(readings.sample.factor[i]) <= parts_.model().most_factor[i]))
       return {Status::at(Code::bad_sample, Place::load, i), Scalar(0), 0};
   const bool has_held = parts_.tracker.is_started() && parts_.held.take(readings, parts_.model());
-  parts_.has_old = parts_.held.any_may_be_old();
   if (!Cap::lags && !has_held) return follow_row(readings, event_budget);
   ReadingsType counted = readings;
   if (has_held) parts_.held.drop(counted);

@@ -92,7 +92,6 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   // What every row needs comes first: instructions reach it directly.
   AlarmLimits<Scalar> limits = {0, 0, 0, 0, 0, 0, 0};  ///< all zeros until start(): no flash to copy from
   bool is_belief_fine = false;  ///< nothing is odd about what is believed of friction and gains
-  bool has_old = false;         ///< something that was read may be a reading of before
   FarEndsType far_ends;
   FixedArray<std::int16_t, Cap::cables> drift;  ///< unknown strains of cables, or -1
   JacksType jacks;
@@ -190,7 +189,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   /// Whether what is read of a cable cannot be compared with what its own jacks would make of it, for their
   /// loads may be others; any jack counts if `cable` is negative.
   bool loads_are_in_doubt(int cable = -1) const {
-    return jacks.are_in_doubt(cable) || (has_old && may_be_old(cable));
+    return jacks.are_in_doubt(cable) || (held.any_may_be_old() && may_be_old(cable));
   }
   /// Whether what was read of a jack may be its load of before; any jack that surely pulls counts if `cable`
   /// is negative.
@@ -204,7 +203,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   }
   /// Whether it is known of all its jacks that are not locked what they pull.
   bool loads_are_read(int c) const {
-    if (has_old && may_be_old(c)) return false;
+    if (held.any_may_be_old() && may_be_old(c)) return false;
     for (int k = 0; k < jacks.size(); ++k)
       if (jacks.end(k).cable() == c && !jacks[k].locked && !jacks[k].at.is_sure()) return false;
     return true;
