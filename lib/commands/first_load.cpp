@@ -6,6 +6,7 @@
 
 #include "lib/commands/usual_deviations.hpp"
 #include "lib/files/text.hpp"
+#include "taut/estimation/under_load.hpp"
 
 namespace taut::host {
 namespace {
@@ -54,15 +55,14 @@ FirstLoad::Held FirstLoad::held_by_wedges(const LogRow& row, std::size_t c) cons
 
 // As tells_load() of a device has it.
 bool FirstLoad::tells(const LogRow& row) const {
-  bool wedges = is_silent();
-  for (std::size_t c = 0; c < jacks_.size(); ++c)
-    for (std::size_t end = 0; end < 2; ++end) {
-      const auto& given = row.cables[c][end];
-      const bool is_jacked = scene_.cables[c].is_jacked(end), is_locked = is_jacked && given.locked;
-      wedges = wedges || is_locked;
-      if (!is_locked && (given.reading.has_value() || (is_jacked && !is_silent()))) return true;
-    }
-  return !wedges;
+  return tells_load(static_cast<int>(jacks_.size()), [&](int cable, std::size_t end) -> EndTells {
+    const auto c = static_cast<std::size_t>(cable);
+    const EndRow& given = row.cables[c][end];
+    const bool is_jacked = scene_.cables[c].is_jacked(end);
+    // The force of a jack without a column is zero.
+    return {is_jacked, given.locked, given.reading || (is_jacked && !given.has_column),
+            given.reading && *given.reading > jacks_[c][end].none};
+  });
 }
 
 void FirstLoad::take(const LogRow& row) {

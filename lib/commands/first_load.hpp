@@ -12,8 +12,8 @@
 
 namespace taut::host {
 
-/// The jacks from the first row on that tells of loads: in those before, wedges hold all that a jack can
-/// pull, and no load cell at an anchored end is read.
+/// The jacks from the first row on that tells of loads, see tells_load(): in those before, no load cell is
+/// read but those behind wedges. The force of a jack that has no column is zero.
 class FirstLoad {
  public:
   /// The scene has what fill_in_deviations() gives it.
@@ -28,7 +28,7 @@ class FirstLoad {
   bool is_under_load() const;
   /// Rows from the first one on that tells.
   std::size_t telling() const { return telling_; }
-  /// Whether no row tells anything so far: nobody knows what wedges hold.
+  /// Whether no row tells anything so far: nobody knows what jacks pull, and wedges hold.
   bool is_silent() const { return rows_ > 0 && telling_ == 0; }
   /// Whether further rows can say so.
   bool is_open() const;

@@ -45,7 +45,11 @@ Sentence taken_for_unloaded(const std::string& cables) {
       {cables});
 }
 
-Sentence held_unread(const std::string& cables) {
+Sentence unread(const std::string& cables) {
+  if (cables.empty())
+    return Sentence(
+        "no load cell is read that tells of the jacks: nothing is known of the forces until one is; --state "
+        "FILE goes on from the log before");
   return Sentence(
       "only wedges hold {1}, and no load cell reads what they hold: nothing is known of their forces until a "
       "jack pulls; --state FILE goes on from the log before",
@@ -219,7 +223,7 @@ void LogFollower::begin() {
   } else {
     const FirstLoad load = first_load_of(options_.log, rules_, scene_);
     if (!load.is_silent() && !load.is_under_load()) return remark_on_unloaded(load);
-    remark(load.is_silent() ? held_unread(load.unread()) : under_load());
+    remark(load.is_silent() ? unread(load.unread()) : under_load());
     model_->forget_past();
   }
 }
@@ -407,7 +411,7 @@ void LogFollower::warn_of_turn(const LogRow& row) {
 void LogFollower::take_first_load(const LogRow& row) {
   first_load_->take(row);
   if (first_load_->is_silent()) {
-    if (followed_ == 0) remark(held_unread(first_load_->unread()));
+    if (followed_ == 0) remark(unread(first_load_->unread()));
   } else if (!first_load_->is_under_load()) {
     remark_on_unloaded(*first_load_);
     model_->deny_past();

@@ -260,6 +260,8 @@ LogRow LogReader::first_row() const {
   LogRow row;
   row.factor.assign(scene_.loads.size(), 0);
   row.cables.assign(scene_.cables.size(), {});
+  for (const LogColumn& column : columns_)
+    if (column.quantity == Quantity::force) row.cables[column.index][column.end].has_column = true;
   return row;
 }
 

@@ -23,6 +23,7 @@ namespace taut::host {
 struct EndRow {
   double force = 0;               ///< last possible force given [N]
   bool locked = false;            ///< last word on the wedge
+  bool has_column = false;        ///< the log has one for the force
   std::optional<double> reading;  ///< force given in this row [N]
   std::optional<double> stroke;   ///< extension given in this row [m]
 };

@@ -8,6 +8,7 @@
 
 #include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/readings.hpp"
+#include "taut/estimation/under_load.hpp"
 #include "taut/numerics/fixed_list.hpp"
 #include "taut/numerics/larger.hpp"
 #include "taut/scene/path.hpp"
@@ -16,54 +17,6 @@
 #include "taut/tracking/tracker.hpp"
 
 namespace taut {
-
-/// Whether cables are under load in these readings: some jack pulls more than five standard deviations of the
-/// zero and the noise of its load cell, which it would not say without load, and not more than the cable can
-/// carry; a jack that is not read pulls nothing. Or only wedges hold some cable, and a load cell at its other
-/// end says that they do: where none is read they hold nothing, see tells_load(). For who has nothing but one
-/// row to tell whether cables were under load before.
-template <class CondensedType, class PriorType, class Readings>
-bool is_under_load(const CondensedType& condensed, const PriorType& prior, const Readings& readings) {
-  const auto& cables = linear_part(condensed).cables;
-  bool is_loaded = false;
-  for (int c = 0; c < cables.size(); ++c) {
-    bool wedges = false, jacks = false, far_end = false;
-    for (std::size_t end = 0; end < 2 && !cables[c].closed; ++end) {
-      const auto& given = readings.ends[c][end];
-      const auto& cell = prior.cell[c][end];
-      const auto least = 5 * std::sqrt(cell.zero_sd * cell.zero_sd + cell.sd * cell.sd);
-      const bool pulls =
-          given.has_force && given.force > least && given.force <= linear_part(condensed).most_force[c];
-      if (cables[c].ends[end] != End::jacked) {
-        far_end |= pulls;
-      } else if (readings.sample.jack[c][end].locked) {
-        wedges = true;
-      } else {
-        jacks = true;
-        is_loaded |= pulls;
-      }
-    }
-    is_loaded |= wedges && !jacks && far_end;
-  }
-  return is_loaded;
-}
-
-/// Whether these readings can tell that: some jack is not locked, or some load cell is read. If not, and
-/// wedges hold a cable, nobody knows. A jack that is not read pulls nothing, but one that `were_held` until
-/// now tells nothing before it is read.
-template <class CondensedType, class Readings>
-bool tells_load(const CondensedType& condensed, const Readings& readings, bool were_held) {
-  const auto& cables = linear_part(condensed).cables;
-  bool tells = false, wedges = were_held;
-  for (int c = 0; c < cables.size(); ++c)
-    for (std::size_t end = 0; end < 2 && !cables[c].closed; ++end) {
-      const bool is_jacked = cables[c].ends[end] == End::jacked,
-                 is_locked = is_jacked && readings.sample.jack[c][end].locked;
-      wedges |= is_locked;
-      tells |= !is_locked && (readings.ends[c][end].has_force || (is_jacked && !were_held));
-    }
-  return tells || !wedges;
-}
 
 /// Beside an Estimator whose loads came up from zero, a second one whose loads came down from so high that
 /// every joint slid back: between the two lie the forces of every past of the jacks, for a joint's clamp
@@ -101,7 +54,7 @@ class UnknownPast {
   template <class CondensedType, class PriorType>
   void look(const CondensedType& condensed, const PriorType& prior, const Readings& readings) {
     if (phase_ == Phase::known || has_above(phase_)) return;
-    if (!tells_load(condensed, readings, phase_ == Phase::silent))
+    if (!tells_load(condensed, prior, readings))
       phase_ = Phase::silent;
     else if (phase_ != Phase::begins)
       phase_ = is_under_load(condensed, prior, readings) ? Phase::begins : Phase::known;
