@@ -370,13 +370,25 @@ struct JackLoad {
   /// first reading of all. (What a cell without noise does not say has not changed.)
   void go_unread(const LoadCell<Scalar>& cell) {
     constexpr Scalar steps = 4;
-    if (!is_unread) read_sd = at.sd;
+    if (!is_unread) read_sd = filter.run_length() > 0 ? at.sd : cell.noise();
     is_unread = true;
-    const Scalar times = since < steps * stride ? since / stride : stride > 0 ? steps : Scalar(1);
-    const Scalar gone = larger(filter.gone(since) / branch(cell), times * step_by);
+    // A load stage is one, however soon it comes.
+    const bool is_stage = stride > JumpGuard<Scalar>::far_apart;
+    const Scalar times = since >= steps * stride ? steps : larger(since / stride, Scalar(is_stage ? 1 : 0)),
+                 on = larger(filter.gone(since) / branch(cell), stride > 0 ? times * step_by : step_by),
+                 begun = gone_from_rest(taken > 0 ? since : -larger(-since, -stride), filter.lasted()),
+                 gone = std::sqrt(on * on + begun * begun);
     at.come = at.load;
     at.come_sd = at.sd = std::sqrt(read_sd * read_sd + gone * gone);
     at.refused |= gone > filter.sd() / branch(cell) || !filter.knows_pace();
+  }
+  /// How far the load may have gone in a time in which nobody saw it [s], after it had rested for so long: as
+  /// a standard deviation [N], Eq. (79).
+  Scalar gone_from_rest(Scalar time, Scalar rested) const {
+    if (!(time > 0)) return 0;
+    const Scalar pace = fastest_seen > 0 ? fastest_seen : guard.fastest(),
+                 most = -larger(-pace * time, -farthest);
+    return most * std::sqrt(time / (3 * (rested + time)));
   }
   /// Whether it rested when it was read last, and has not been read for so long that the pump may well have
   /// been worked meanwhile: of a load that was on its way bars have that.
@@ -388,6 +400,13 @@ struct JackLoad {
     at.sd = larger(at.sd, by);
     at.come_sd = larger(at.come_sd, by);
     at.refused = true;
+  }
+  /// The same: and so it will, as long as nobody reads it.
+  void go_on_unread(Scalar by) {
+    leave_unread(by);
+    if (went_on) return;
+    step_by = by;
+    stride = since;
   }
   /// It lies between these [N], by what another cell reads.
   void come_between(Scalar least, Scalar most, const LoadCell<Scalar>& cell) {
@@ -440,6 +459,15 @@ struct JackLoad {
     since = dt;
   }
 
+  /// The same in a row in which its cell is not read: the load is what the wedge held, until it has gone on.
+  void take_over_unread(const HeldByWedge<Scalar>& held, const LoadCell<Scalar>& cell, Scalar dt) {
+    take_over(held, cell, dt);
+    at.load = at.come = held.load;
+    at.sd = at.come_sd = held.deviation;
+    at.confirmed = taken;
+    is_unread = went_on = false;
+  }
+
   /// Nobody else sees the load.
   struct Unseen {
     constexpr bool operator()() const { return false; }
@@ -465,16 +493,20 @@ struct JackLoad {
     const bool rests = step_by <= filter.sd() / 2;
     const bool is_frozen = given.has_force && cell.sd > 0 && !locked && standing.take(given.force, dt, rests);
     if (!given.has_force || is_frozen) {
-      if (!locked && cell.sd > 0) go_unread(cell);
-      // Two standard deviations are as far as it can have gone since.
-      if (is_frozen) leave_unread(-larger(-most, -fastest_seen * standing.stood()) / 2);
+      if (cell.sd > 0) {
+        if (locked) take_over_unread(held, cell, dt);
+        go_unread(cell);
+      }
+      if (is_frozen) {
+        const Scalar stood = standing.stood();
+        leave_unread(gone_from_rest(stood, larger(filter.lasted() - stood, Scalar(0))));
+      }
       return false;
     }
     was_unread = is_unread;
     is_unread = false;
-    // A released end keeps its wedge until a load is read.
-    const bool is_released = locked;
-    if (is_released) take_over(held, cell, dt);
+    const bool is_released = locked || (taken > 0 && was_unread && !filter.knows_pace());
+    if (locked) take_over(held, cell, dt);
     if (!at.refused) sd_before = at.sd;
     // Placed there, not on the heap: a copy would read back at once what was just written in parts, and wait.
     Scalar reading = possible(given.force, most);

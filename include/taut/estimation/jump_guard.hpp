@@ -81,6 +81,8 @@ class JumpGuard {
     has_moved_ = true;
     start(reading);
   }
+  /// How fast loads go [N/s], peaks aside; zero as long as none has.
+  Scalar fastest() const { return fastest_; }
   /// Whether the last reading is believed because the load has gone where others were held back.
   bool has_moved() const { return has_moved_; }
   /// Whether those that are held back go on as those of a load that moves: one more tells.

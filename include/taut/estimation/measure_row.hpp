@@ -153,6 +153,7 @@ bool measure_far_ends(Parts& parts, const typename Parts::ReadingsType& readings
     if (in_doubt && is_reading && parts.loads_are_read(end.cable()))
       far_ends.compare_in_doubt(e, given.force, parts.tracker, parts.filter, parts.jacks);
     if (!in_doubt && is_reading) {
+      bound_missed(parts, e, given.force);
       learns |= measure_far_end(parts, e, given.force, gathers);
       if (parts.is_held(end.cable()) || far_ends.since_lock_off(e).has_begun())
         follow_since_lock_off(parts, e, readings, given.force);

@@ -38,14 +38,15 @@ bool sees_rise(const Parts& parts, int k, typename Parts::Scalar reading,
 }
 
 /// In a row in which the jack of its cable is not read, the load cell at anchored end `e` reads [N] what it
-/// could not if the load were where it was. Then the load has gone on, by as much at least, if it can have
-/// meanwhile; else the cell is wrong, which raises an alarm. While the cable slides throughout, and the load
+/// hardly could if the load were where it was. Then the load may have gone on, by as much at least, if it can
+/// have meanwhile, and will until it is read; else the cell is wrong, which raises an alarm once it surely
+/// is. While the cable slides throughout, and the load
 /// may have gone on, the reading waits for the next one of the jack, see BetweenReadings. Returns whether
 /// either is so: nothing is learned then. Cost: that of FarEnds::expect().
 template <class Parts>
 bool sees_unread(Parts& parts, int e, typename Parts::Scalar reading) {
   using Scalar = typename Parts::Scalar;
-  constexpr Scalar surely = 5;
+  constexpr Scalar perhaps = 3, surely = 5;
   const auto& end = parts.far_ends.ends()[e];
   for (int k = 0; k < parts.jacks.size(); ++k) {
     auto& jack = parts.jacks[k];
@@ -54,15 +55,38 @@ bool sees_unread(Parts& parts, int e, typename Parts::Scalar reading) {
       parts.far_ends.between(e).wait(reading, jack.at.load, jack.since);
     const auto expected = parts.far_ends.expect(e, parts.tracker, parts.filter, parts.jacks);
     const Scalar off = std::fabs(reading - expected.value);
-    if (off * off <= surely * surely * expected.variance) return false;
+    if (off * off <= perhaps * perhaps * expected.variance) return false;
     const Scalar gone = off / held_over(parts.tracker, end.cable());
-    if (gone <= jack.fastest * parts.most_force(k) * jack.since)
-      jack.leave_unread(gone);
-    else
-      parts.alarms.add(Parts::alarm_at(Alarm::Kind::sensor, end));
-    return true;
+    const bool can_have_gone = gone <= jack.fastest * parts.most_force(k) * jack.since;
+    if (can_have_gone) jack.go_on_unread(gone);
+    const bool is_wrong = !can_have_gone && off * off > surely * surely * expected.variance;
+    if (is_wrong) parts.alarms.add(Parts::alarm_at(Alarm::Kind::sensor, end));
+    return can_have_gone || is_wrong;
   }
   return false;
+}
+
+/// Where the load of a jack may have gone farther while it was not read, and have come back, what the cell at
+/// anchored end `e` reads [N] says how far at most: that force has gone along, and has not come back, unless
+/// friction holds so little that it may have. Where joints stick nothing is said. Cost: that of
+/// FarEnds::expect() where there is such a load.
+template <class Parts>
+void bound_missed(Parts& parts, int e, typename Parts::Scalar reading) {
+  using Scalar = typename Parts::Scalar;
+  const auto& end = parts.far_ends.ends()[e];
+  const int k = parts.jacks.find(end.cable(), 1 - end.end);
+  if (k < 0 || !(parts.jacks[k].missed > 0)) return;
+  auto& jack = parts.jacks[k];
+  if (!parts.filter.slides_throughout(parts.tracker, end.cable())) return;
+  const Scalar missed = jack.missed;
+  jack.missed = 0;
+  const auto expected = parts.far_ends.expect(e, parts.tracker, parts.filter, parts.jacks);
+  // The least of several rows counts: twice two deviations.
+  const Scalar most = std::fabs(reading - expected.value) + 4 * std::sqrt(expected.variance),
+               held = held_over(parts.tracker, end.cable()),
+               back = jack.best() * (jack.rises ? 1 / held : held);
+  const bool may_be_back = jack.rises ? expected.value + most > back : expected.value - most < back;
+  jack.missed = may_be_back || most > held * missed ? missed : most / held;
 }
 
 /// Of two jacks on one cable one is read in this row and the other one is not: friction holds that one within
