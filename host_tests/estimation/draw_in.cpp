@@ -133,6 +133,12 @@ TEST_CASE("a far end that a wedge did not reach tells that its draw-in is less, 
   check_scores(lock_off(said(2e-3 * full, 0.5), 40, alike));
 }
 
+TEST_CASE("what a far end reads wrongly, now and then, tells nothing of a draw-in") {
+  Said wrong = said(2e-3 * full, 0.5);
+  wrong.wrong = 0.05;
+  check_scores(lock_off(wrong, 66, alike));
+}
+
 TEST_CASE("two wedges that are drawn in in the same row leave what each of them may leave") {
   Said both = said(0, 0.5);
   both.has_two_jacks = true;

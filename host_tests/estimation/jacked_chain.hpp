@@ -72,6 +72,7 @@ class Chain {
 struct Said {
   double mu_sd = likely, jack_sd = estimation::jack_sd, far_sd = 0, scatter = 0, gain_sd = 0, seating_sd = 0,
          lag = 0;
+  double wrong = 0;  ///< part of the readings of the far end while locked that are of anything
   bool has_two_jacks = false;
 
   /// What a wedge is really drawn in by [m].
@@ -121,6 +122,14 @@ class Jacked {
     readings.ends[0][1].force = force;
     readings.ends[0][0].has_force = far >= 0;
     readings.ends[0][0].force = far;
+    REQUIRE(estimator_.advance(readings).status.ok());
+  }
+  /// A row in which the wedge still holds the end, and the jack pulls so much.
+  void pull_locked(double force) {
+    taut::Readings<double, PlaneCapacity> readings;
+    readings.dt = 1;
+    readings.sample.jack[0][1].locked = readings.ends[0][1].has_force = true;
+    readings.ends[0][1].force = force;
     REQUIRE(estimator_.advance(readings).status.ok());
   }
   /// Goes on from what was saved, as after a power failure.
@@ -188,7 +197,10 @@ Locked lock_off(const Said& said, int rows, const Drawn& drawn) {
     }
     chain.lock(said.drawn_in(seating, random));
     const auto stay = [&](int steps) {
-      for (int i = 0; i < steps; ++i) jacked->row(0, true, 1, far_end());
+      for (int i = 0; i < steps; ++i) {
+        const bool is_wrong = said.wrong > 0 && random.between(0, 1) < said.wrong;
+        jacked->row(0, true, 1, is_wrong ? random.between(0, 1.5) * full : far_end());
+      }
     };
     stay(1);
     add_to(scores.at_once, *jacked, chain);

@@ -246,6 +246,39 @@ TEST_CASE("where readings come more seldom, a load that goes as fast as it did b
   CHECK(holds(other, load + 12e3, 3.5));
 }
 
+TEST_CASE(
+    "of the first readings a wrong one does not tell how far loads go, and no load is held back for it") {
+  // At commit e560b22 whatever came later was believed.
+  for (const int wrong : {0, 1, 2}) {
+    CAPTURE(wrong);
+    taut::JumpGuard<double> guard;
+    double load = 0;
+    for (int i = 0; i < 15; ++i) CHECK_FALSE(holds(guard, i == wrong ? 3e5 : load += 1e3, 1));
+    CHECK(holds(guard, load + 2e5, 1));
+    CHECK_FALSE(holds(guard, load + 1e3, 1));
+  }
+}
+
+TEST_CASE("where no load can have gone that far, three readings that hang together are enough to tell") {
+  taut::JumpGuard<double> guard;
+  double load = pull(guard, 4, 1e3, 1);
+  CHECK(holds(guard, 3e5, 1));
+  CHECK_FALSE(holds(guard, load + 2e3, 1));
+}
+
+TEST_CASE(
+    "a longer step, as that to the first row of a hold, is no pause in which a load goes four times as "
+    "fast") {
+  taut::JumpGuard<double> guard;
+  double load = pull(guard, 50, 1e3, 0.1);
+  CHECK(holds(guard, load - 4e4, 1));
+  CHECK_FALSE(holds(guard, load + 100, 1));
+  // As fast as it was, it has gone on.
+  taut::JumpGuard<double> other;
+  load = pull(other, 50, 1e3, 0.1);
+  CHECK_FALSE(holds(other, load + 1e4, 1));
+}
+
 TEST_CASE("peaks of one row do not teach how far a load goes in one, however often they come") {
   int far = 0, narrow = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {

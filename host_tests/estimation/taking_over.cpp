@@ -148,3 +148,32 @@ TEST_CASE("a jack that takes over and reads hardly anything in that row has not 
       }
     }
 }
+
+TEST_CASE(
+    "a jack that was read while the wedge still held does not take over at a multiple of what it pulled") {
+  Said said;
+  said.jack_sd = 1e-3 * full;
+  const auto jacked = std::make_unique<Jacked>(0.004, said);
+  jacked->go(0, 0.5 * full, 60);
+  jacked->go(0.5 * full, 0.5 * full, 20);
+  jacked->lock();
+  const double held = (*jacked)[segments - 1].force;
+  for (int i = 1; i <= 20; ++i) jacked->pull_locked(0.05 * i * held);
+  // At commit e560b22 it was believed, and what came then was not.
+  jacked->row(full, false, 1, -1);
+  CHECK(std::fabs((*jacked)[segments - 1].force - held) < 2 * (*jacked)[segments - 1].deviation);
+  for (int i = 1; i <= 5; ++i) {
+    CAPTURE(i);
+    jacked->row((1 + 0.02 * i) * held, false, 1, -1);
+    CHECK(std::fabs((*jacked)[segments - 1].force - (1 + 0.02 * i) * held) < 0.02 * held);
+  }
+  // One that takes over at what the wedge holds does, however far it had pulled in the row before.
+  const auto other = std::make_unique<Jacked>(0.004, said);
+  other->go(0, 0.5 * full, 60);
+  other->go(0.5 * full, 0.5 * full, 20);
+  other->lock();
+  other->pull_locked(0);
+  other->row(1.001 * held, false, 1, -1);
+  other->row(1.01 * held, false, 1, -1);
+  CHECK(std::fabs((*other)[segments - 1].force - 1.01 * held) < 0.01 * held);
+}

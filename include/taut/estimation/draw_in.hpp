@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "taut/estimation/lone_outliers.hpp"
 #include "taut/estimation/other_friction.hpp"
 #include "taut/numerics/decay.hpp"
 #include "taut/numerics/larger.hpp"
@@ -177,8 +178,25 @@ template <class Parts>
   constexpr int most = 64;
   const int p = parts.jacks[k].seating, c = parts.jacks.end(k).cable();
   auto& read = parts.lock_off.read[c];
+  if (read.readings == most) return Update::no_information;
+  // One reading far off may be wrong; two in a row are not, and what was read before is no more.
+  const Scalar far = LoneOutliers<Scalar>::outlier;
+  bool is_elsewhere = false;
+  if (read.readings > 0) {
+    const auto& watch = parts.far_ends.watch(e);
+    const Scalar off = reading - read.sum / static_cast<Scalar>(read.readings);
+    is_elsewhere = std::fabs(off) > far * (watch.sd + watch.lasts);
+  } else {
+    const auto expected = parts.far_ends.expect(e, parts.tracker, parts.filter, parts.jacks);
+    is_elsewhere = std::fabs(reading - expected.value) > far * std::sqrt(expected.variance);
+  }
+  if (is_elsewhere && !read.is_elsewhere) {
+    read.is_elsewhere = true;
+    return Update::no_information;
+  }
+  if (is_elsewhere) read = {};
+  read.is_elsewhere = false;
   const int n = read.readings + 1;
-  if (n > most) return Update::no_information;
   read.readings = static_cast<std::int16_t>(n);
   read.sum += reading;
   if ((n & (n - 1)) != 0) return Update::waits;

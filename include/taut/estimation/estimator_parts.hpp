@@ -77,6 +77,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
     struct Read {
       Scalar sum;  ///< [N]
       std::int16_t readings;
+      bool is_elsewhere;  ///< the last one was, and does not count
     };
     Values linearized_at;   ///< where the model was linearized there
     DrawnFurther still_in;  ///< how much of an earlier draw-in a jack's unknown has [-]

@@ -82,6 +82,7 @@ struct JackLoad {
   bool is_unread = false;                ///< its cell was not read in this row
   bool was_unread = false;               ///< until this row
   bool went_on = false;                  ///< surely, as it was read last
+  bool pulls_surely = false;             ///< at a locked end: its last reading is believed
   bool turned_unseen = false;            ///< once it has turned while it was not read
   Scalar missed_in = 0;                  ///< if it had not come as far as at its pace, in what time [s]
   Scalar missed = 0;   ///< by how much it may have gone farther while it was not read, and come back [N]
@@ -506,12 +507,16 @@ struct JackLoad {
     was_unread = is_unread;
     is_unread = false;
     const bool is_released = locked || (taken > 0 && was_unread && !filter.knows_pace());
+    const bool was_read = locked && pulls_surely && since <= gap * dt;
     if (locked) take_over(held, cell, dt);
     if (!at.refused) sd_before = at.sd;
     // Placed there, not on the heap: a copy would read back at once what was just written in parts, and wait.
     Scalar reading = possible(given.force, most);
     // How far the jack pulled while the wedge held is not known; but not that it hardly pulls any more.
-    if (is_released) guard.start(larger(cell.up * taken_least, reading), dt);
+    if (is_released) {
+      const bool is_above = was_read && reading > cell.up * (held.load + 4 * held.deviation);
+      guard.start(larger(cell.up * (is_above ? held.load : taken_least), is_above ? believed : reading), dt);
+    }
     bool is_held = cell.sd > 0 && std::isfinite(reading) &&
                    guard.holds(reading, since, standing.stood(), filter.sd(), fastest * most);
     // What both cells read in a single row may be a fault of their supply: the load is taken to be there, and
@@ -721,7 +726,9 @@ struct JackLoad {
   [[nodiscard]] bool lifts_off(Scalar reading, Scalar most, Scalar held, const Deviation& deviation) {
     const ConditionedLoad<Scalar> pull = filter.take(possible(reading, most), since);
     since = 0;
-    if (!pull.is_sure()) return false;
+    pulls_surely = pull.is_sure();
+    if (!pulls_surely) return false;
+    believed = reading;
     if (below == confirmed_below) {
       if (pull.load < held) return false;
       below = 0;

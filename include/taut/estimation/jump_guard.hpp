@@ -15,8 +15,10 @@ namespace taut {
 /// more, by a third of the step before at least, the load does: it has begun to move, or moves faster. What
 /// lasts for more than `most_held` readings is believed. Readings more than 5 s apart, a row a load stage,
 /// and those after a pause are not held back: what happened before them is not known. Only where rows merely
-/// come more slowly, as in a hold after a ramp, one that still shows what was held back is. A plain value.
-/// Cost: a few operations a reading.
+/// come more slowly, as in a hold after a ramp, one that still shows what was held back is, or that would be
+/// four times as fast as a load has ever been. The first eight tell how loads go: of them only what no load
+/// can have done is held back, after three that hang together. A plain value. Cost: a few operations a
+/// reading.
 template <class Scalar>
 class JumpGuard {
  public:
@@ -45,13 +47,16 @@ class JumpGuard {
                  steps = step_ > 0 && dt > step_ ? dt / step_ : Scalar(1),
                  possible = held_ == 0 ? jump : scatter + (passed_ + steps) * farthest_;
     const bool stays = held_ > 0 && from_shown < jump && from_shown < off;
-    const bool is_pause = dt > far_apart || (dt > pause * step_ && !stays);
+    const bool is_pause = dt > far_apart || (dt > pause * step_ && !stays &&
+                                             !(fastest_ > 0 && change > far * (fastest_ * dt + scatter)));
     const Scalar pace = held_ == 0 ? off / steps : on_by(reading, steps);
     const bool is_line = held_ == 0 || (is_line_ && pace_ <= slower * pace + 2 * scatter),
                goes_on = held_ >= line && is_line;
     const bool lasts = held_ == most_held;
-    if (seen_ == enough && !is_pause && !lasts && !goes_on && (stays || change > possible) &&
-        !(held_ == 0 && goes_as_before(reading, change, stood)) && !comes_back(reading, stays)) {
+    const bool is_young = seen_ < enough, is_impossible = is_young && change > possible && change > most * dt;
+    if ((!is_young || (is_impossible && seen_ >= few)) && !is_pause && !lasts && !goes_on &&
+        (stays || change > possible) && !(held_ == 0 && goes_as_before(reading, change, stood)) &&
+        !comes_back(reading, stays)) {
       pace_ = pace;
       is_line_ = is_line;
       has_moved_ = false;
@@ -66,6 +71,8 @@ class JumpGuard {
     step_ = dt;
     // Only what went on from one row to the next says how far loads go.
     if (goes_on && pace > farthest_) farthest_ = pace;
+    // One of the first may be the wrong one.
+    if (is_impossible && seen_ < few) seen_ = 0;
     if (reading != last_) {
       if (change > 0 || gone_ > 0 || went_ > 0) learn(reading, change, stood, is_pause);
       age_ = stood;
@@ -108,7 +115,7 @@ class JumpGuard {
   /// How far, and how fast, loads go, from a change that is believed.
   [[gnu::noinline]] void learn(Scalar reading, Scalar change, Scalar stood, bool is_pause) {
     const bool is_peak = (gone_ > 0 || went_ > 0) && was_peak(reading);
-    if (!is_peak) {
+    if (!is_peak && seen_ >= few) {
       farthest_ = larger(farthest_, gone_);
       fastest_ = larger(fastest_, went_);
     }
@@ -140,7 +147,7 @@ class JumpGuard {
     return false;
   }
 
-  static constexpr std::uint8_t enough = 8, steady = 3, line = 2;
+  static constexpr std::uint8_t enough = 8, few = 3, steady = 3, line = 2;
   /// A load that slows down, as where a valve is opened, goes on by no less than one in so many of the step
   /// before.
   static constexpr Scalar slower = 3;
