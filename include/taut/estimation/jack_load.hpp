@@ -374,10 +374,13 @@ struct JackLoad {
     if (!is_unread) read_sd = filter.run_length() > 0 ? at.sd : cell.noise();
     is_unread = true;
     // A load stage is one, however soon it comes.
-    const bool is_stage = stride > JumpGuard<Scalar>::far_apart;
+    const bool is_stage = stride > JumpGuard<Scalar>::far_apart, is_due = since > Scalar(0.75) * stride;
     const Scalar times = since >= steps * stride ? steps : larger(since / stride, Scalar(is_stage ? 1 : 0)),
                  on = larger(filter.gone(since) / branch(cell), stride > 0 ? times * step_by : step_by),
-                 begun = gone_from_rest(taken > 0 ? since : -larger(-since, -stride), filter.lasted()),
+                 begun = gone_from_rest(taken > 0 ? since
+                                        : is_due  ? -larger(-since, -stride)
+                                                  : Scalar(0),
+                                        filter.lasted()),
                  gone = std::sqrt(on * on + begun * begun);
     at.come = at.load;
     at.come_sd = at.sd = std::sqrt(read_sd * read_sd + gone * gone);
@@ -515,7 +518,7 @@ struct JackLoad {
     // How far the jack pulled while the wedge held is not known; but not that it hardly pulls any more.
     if (is_released) {
       const bool is_above = was_read && reading > cell.up * (held.load + 4 * held.deviation);
-      guard.start(larger(cell.up * (is_above ? held.load : taken_least), is_above ? believed : reading), dt);
+      guard.start(larger(cell.up * (is_above ? held.load : taken_least), is_above ? raw : reading), dt);
     }
     bool is_held = cell.sd > 0 && std::isfinite(reading) &&
                    guard.holds(reading, since, standing.stood(), filter.sd(), fastest * most);
@@ -728,7 +731,7 @@ struct JackLoad {
     since = 0;
     pulls_surely = pull.is_sure();
     if (!pulls_surely) return false;
-    believed = reading;
+    raw = reading;
     if (below == confirmed_below) {
       if (pull.load < held) return false;
       below = 0;

@@ -16,9 +16,9 @@ namespace taut {
 /// lasts for more than `most_held` readings is believed. Readings more than 5 s apart, a row a load stage,
 /// and those after a pause are not held back: what happened before them is not known. Only where rows merely
 /// come more slowly, as in a hold after a ramp, one that still shows what was held back is, or that would be
-/// four times as fast as a load has ever been. The first eight tell how loads go: of them only what no load
-/// can have done is held back, after three that hang together. A plain value. Cost: a few operations a
-/// reading.
+/// four times as fast as a load has ever been and faster than one can be. The first eight tell how loads go:
+/// of them only what no load can have done is held back, after three that hang together. A plain value. Cost:
+/// a few operations a reading.
 template <class Scalar>
 class JumpGuard {
  public:
@@ -48,7 +48,7 @@ class JumpGuard {
                  possible = held_ == 0 ? jump : scatter + (passed_ + steps) * farthest_;
     const bool stays = held_ > 0 && from_shown < jump && from_shown < off;
     const bool is_pause = dt > far_apart || (dt > pause * step_ && !stays &&
-                                             !(fastest_ > 0 && change > far * (fastest_ * dt + scatter)));
+                                             !(change > larger(far * fastest_, most) * dt + far * scatter));
     const Scalar pace = held_ == 0 ? off / steps : on_by(reading, steps);
     const bool is_line = held_ == 0 || (is_line_ && pace_ <= slower * pace + 2 * scatter),
                goes_on = held_ >= line && is_line;

@@ -55,7 +55,9 @@ bool sees_unread(Parts& parts, int e, typename Parts::Scalar reading) {
       parts.far_ends.between(e).wait(reading, jack.at.load, jack.since);
     const auto expected = parts.far_ends.expect(e, parts.tracker, parts.filter, parts.jacks);
     const Scalar off = std::fabs(reading - expected.value);
-    if (off * off <= perhaps * perhaps * expected.variance) return false;
+    // Bars of a load that was on its way have that it went on.
+    const Scalar least = jack.went_on ? surely : perhaps;
+    if (off * off <= least * least * expected.variance) return false;
     const Scalar gone = off / held_over(parts.tracker, end.cable());
     const bool can_have_gone = gone <= jack.fastest * parts.most_force(k) * jack.since;
     if (can_have_gone) jack.go_on_unread(gone);
