@@ -103,6 +103,16 @@ inline std::vector<Case> all_cases(int year_rows) {
   add("cells-in-turn", Demand::model).instruments.in_turn = true;
   add("held-cells").instruments.is_held = true;
   add("drop-outs", Demand::model).instruments.drops_out = true;
+  {
+    Case& c = add("drop-outs-of-both");
+    c.instruments.both_drop_out = true;
+    c.jacking.visit = true;
+  }
+  {
+    Case& c = add("wrong-readings");
+    c.instruments.wrong = 0.02;
+    c.jacking.visit = true;
+  }
   add("any-pace", Demand::model).jacking.any_pace = true;
   {
     Case& c = add("cables-in-turns", Demand::model);

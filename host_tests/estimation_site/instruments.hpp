@@ -17,13 +17,15 @@ struct InstrumentRules {
   double noise = 1;                          ///< times what is stated
   double least_sd = 0.001, most_sd = 0.005;  ///< what is stated, part
   double memory = 0;                         ///< of the noise [s]
-  bool filtered = false;     ///< both cells by the same low-pass filter, with a tenth of its lag unknown
-  double step = 0;           ///< of the display, part
-  bool loose_plug = false;   ///< the jack's, for 5 to 15 rows
-  bool in_turn = false;      ///< each row has the reading of one end only
-  bool drops_out = false;    ///< the jack's is not read for 3 to 20 rows, now and then
-  bool is_held = false;      ///< each is read at its own pace, and written again in between
-  bool far_freezes = false;  ///< the far cell keeps its value from the first ramp on
+  bool filtered = false;       ///< both cells by the same low-pass filter, with a tenth of its lag unknown
+  double step = 0;             ///< of the display, part
+  bool loose_plug = false;     ///< the jack's, for 5 to 15 rows
+  bool in_turn = false;        ///< each row has the reading of one end only
+  bool drops_out = false;      ///< the jack's is not read for 3 to 20 rows, now and then
+  bool both_drop_out = false;  ///< so is each of them, at other times
+  double wrong = 0;            ///< so often a reading of either is of anything
+  bool is_held = false;        ///< each is read at its own pace, and written again in between
+  bool far_freezes = false;    ///< the far cell keeps its value from the first ramp on
   double gauge_gain_sd = 0, gauge_zero_sd = 0;  ///< of gauges on segments and struts: relative, part
   bool gauges_freeze = false;  ///< those of the first joint or segment keep a value of the first ramp
   double gauge_creep = 0;      ///< by so much the zero of the first has gone off at the end, up or down, part
@@ -82,6 +84,12 @@ inline void drop_out(support::Random& random, std::vector<double>& readings) {
     for (; i < end; ++i) readings[i] = std::nan("");
     i += 20 + std::size_t(random.below(80));
   }
+}
+
+/// Some readings are of anything.
+inline void misread(support::Random& random, double part, double full, std::vector<double>& readings) {
+  for (double& reading : readings)
+    if (random.between(0, 1) < part) reading = full * random.between(0, 1.5);
 }
 
 /// A cell is read at an even pace of its own, once in 0.3 to 3 s and in two rows at most; rows in between

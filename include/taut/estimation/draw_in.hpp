@@ -170,8 +170,8 @@ template <class Parts>
 }
 
 /// Readings of the cell at the far end of a cable that jack `k` has locked, in the last lock-off, which is
-/// known: once there are one, two, four and so on, they tell how far its wedge was drawn in. Cost: a few
-/// operations, or those of weigh_draw_in() and try_other_friction().
+/// known: once there are one, two, four and so on, they tell how far its wedge was drawn in. One that is far
+/// off alone is left out. Cost: a few operations, or those of weigh_draw_in() and try_other_friction().
 template <class Parts>
 [[gnu::noinline]] Update learn_draw_in(Parts& parts, int k, int e, typename Parts::Scalar reading) {
   using Scalar = typename Parts::Scalar;

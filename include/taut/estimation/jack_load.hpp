@@ -405,7 +405,7 @@ struct JackLoad {
     at.come_sd = larger(at.come_sd, by);
     at.refused = true;
   }
-  /// The same: and so it will, as long as nobody reads it.
+  /// The same; a load that rested goes on so, as long as nobody reads it.
   void go_on_unread(Scalar by) {
     leave_unread(by);
     if (went_on) return;
@@ -509,6 +509,7 @@ struct JackLoad {
     }
     was_unread = is_unread;
     is_unread = false;
+    // This is the first reading since its end was released.
     const bool is_released = locked || (taken > 0 && was_unread && !filter.knows_pace());
     const bool was_read = locked && pulls_surely && since <= gap * dt;
     if (locked) take_over(held, cell, dt);
