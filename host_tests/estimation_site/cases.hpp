@@ -104,7 +104,7 @@ inline std::vector<Case> all_cases(int year_rows) {
   add("held-cells").instruments.is_held = true;
   add("drop-outs", Demand::model).instruments.drops_out = true;
   {
-    Case& c = add("drop-outs-of-both");
+    Case& c = add("drop-outs-of-both", Demand::model);
     c.instruments.both_drop_out = true;
     c.jacking.visit = true;
   }
