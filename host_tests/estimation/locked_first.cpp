@@ -60,6 +60,10 @@ class SecondVisit {
     return (found.force - site.force[static_cast<std::size_t>(segment)]) / found.deviation;
   }
 
+  void add_to(Score& score) const {
+    for (int s = 0; s <= site.joints; ++s) score.add(off(s));
+  }
+
   SaddleSite site;
 
  private:
@@ -72,6 +76,21 @@ class SecondVisit {
   taut::UnknownPast<Estimator> past_;
 };
 
+/// A site that was pulled, and drawn in.
+std::unique_ptr<SecondVisit> pulled_before(std::uint64_t seed) {
+  SaddleSite given;
+  given.has_far = seed % 2 == 0;
+  auto visit = std::make_unique<SecondVisit>(given, seed);
+  visit->site.pull(full);
+  visit->site.pull(0.85 * full);
+  return visit;
+}
+/// Bars hold all that may be.
+void check_unknown(const SecondVisit& visit) {
+  CHECK(visit.is_unknown());
+  for (int s = 0; s <= visit.site.joints; ++s) CHECK(std::fabs(visit.off(s)) < 1.96);
+}
+
 }  // namespace
 
 TEST_CASE("a cable that wedges hold in the first row is under load, and its forces are those of any past") {
@@ -79,24 +98,19 @@ TEST_CASE("a cable that wedges hold in the first row is under load, and its forc
   Score score;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     CAPTURE(seed);
-    SaddleSite given;
-    given.has_far = seed % 2 == 0;
-    const auto visit = std::make_unique<SecondVisit>(given, seed);
-    // Pulled, drawn in; then far enough that all joints slide whatever had been.
-    visit->site.pull(full);
-    visit->site.pull(0.85 * full);
+    const auto visit = pulled_before(seed);
     for (int i = 0; i < 10; ++i) {
       visit->row(0, true);
-      CHECK(visit->is_unknown());
-      for (int s = 0; s <= given.joints; ++s) CHECK(std::fabs(visit->off(s)) < 1.96);
+      check_unknown(*visit);
     }
+    // Far enough that all joints slide, whatever had been.
     for (int i = 1; i <= 120; ++i) {
       visit->row((0.85 + 1.65 * i / 120) * full, false);
-      for (int s = 0; s <= given.joints; ++s) score.add(visit->off(s));
+      visit->add_to(score);
     }
     for (int i = 0; i < 20; ++i) visit->row(2.5 * full, false);
     CHECK_FALSE(visit->is_unknown());
-    for (int s = 0; s <= given.joints; ++s) CHECK(std::fabs(visit->off(s)) < 4);
+    for (int s = 0; s <= visit->site.joints; ++s) CHECK(std::fabs(visit->off(s)) < 4);
   }
   MESSAGE("seeds 1 to 60: ", 100 * score.share(), " % held as it is jacked again");
   CHECK(score.share() > 0.92);
@@ -123,22 +137,17 @@ TEST_CASE("before a jack is read nobody knows of its load, and forces are those 
   Score score;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     CAPTURE(seed);
-    SaddleSite given;
-    given.has_far = seed % 2 == 0;
-    const auto visit = std::make_unique<SecondVisit>(given, seed);
-    visit->site.pull(full);
-    visit->site.pull(0.85 * full);
+    const auto visit = pulled_before(seed);
     for (int i = 0; i < 5; ++i) {
-      if (i < 3 || !given.has_far)
+      if (i < 3 || !visit->site.has_far)
         visit->row_unread();
       else
         visit->row_of_far_end();
-      CHECK(visit->is_unknown());
-      for (int s = 0; s <= given.joints; ++s) CHECK(std::fabs(visit->off(s)) < 1.96);
+      check_unknown(*visit);
     }
     for (int i = 1; i <= 60; ++i) {
       visit->row((0.85 + 0.6 * i / 60) * full, false);
-      for (int s = 0; s <= given.joints; ++s) score.add(visit->off(s));
+      visit->add_to(score);
     }
   }
   MESSAGE("seeds 1 to 60: ", 100 * score.share(), " % held as it is jacked on");

@@ -40,6 +40,12 @@ Outcome estimate(const Scratch& scratch, const std::string& options = "") {
   return run_taut(scratch,
                   "estimate " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv") + options);
 }
+/// The log as a file, or as a stream.
+Outcome estimate_from(const Scratch& scratch, bool stream) {
+  return stream ? run_taut(scratch,
+                           "estimate " + scratch.quoted("scene.json") + " - < " + scratch.quoted("log.csv"))
+                : estimate(scratch);
+}
 /// Closed form: a joint holds (1 - mu c) / (1 + mu c), c = cot(alpha).
 double far_end(double force, double mu) {
   const double turns[] = {std::atan2(0.3, 2) - std::atan2(0.1, 2), 2 * std::atan2(0.1, 2),
@@ -1047,9 +1053,7 @@ TEST_CASE(
       const Scratch scratch;
       write(scratch, "scene.json", scene(friction, both_cells));
       write(scratch, "log.csv", begin.log);
-      const Outcome outcome = stream ? run_taut(scratch, "estimate " + scratch.quoted("scene.json") +
-                                                             " - < " + scratch.quoted("log.csv"))
-                                     : estimate(scratch);
+      const Outcome outcome = estimate_from(scratch, stream);
       REQUIRE(outcome.status == 0);
       const Table table(outcome.out);
       CHECK((table.at(1, "alarms") == "unknown-past:C") == (begin.told != Told::none));
@@ -1090,9 +1094,7 @@ TEST_CASE(
       for (int i = 0; i < 30; ++i)
         log += std::to_string(4 + i) + ',' + std::to_string(was_pulled ? 80000 + 50 * i : 2000 * i) + ",0\n";
       write(scratch, "log.csv", log);
-      const Outcome outcome = stream ? run_taut(scratch, "estimate " + scratch.quoted("scene.json") +
-                                                             " - < " + scratch.quoted("log.csv"))
-                                     : estimate(scratch);
+      const Outcome outcome = estimate_from(scratch, stream);
       REQUIRE(outcome.status == 0);
       const Table table(outcome.out);
       REQUIRE(table.rows.size() == 33);
@@ -1124,9 +1126,7 @@ TEST_CASE(
         for (int i = 0; i < 30; ++i)
           log += std::to_string(4 + i) + ',' + std::to_string(was_pulled ? 80000 + 50 * i : 2000 * i) + ",\n";
         write(scratch, "log.csv", log);
-        const Outcome outcome = stream ? run_taut(scratch, "estimate " + scratch.quoted("scene.json") +
-                                                               " - < " + scratch.quoted("log.csv"))
-                                       : estimate(scratch);
+        const Outcome outcome = estimate_from(scratch, stream);
         REQUIRE(outcome.status == 0);
         const Table table(outcome.out);
         REQUIRE(table.rows.size() == 33);
@@ -1151,9 +1151,7 @@ TEST_CASE("a jack whose force is no column pulls nothing, and nothing is doubted
     const Scratch scratch;
     write(scratch, "scene.json", scene(R"("mu": 0.2, "mu_sd": 0.02, "shared": true)", both_cells));
     write(scratch, "log.csv", "time,C.start\n1,0\n2,\n");
-    const Outcome outcome = stream ? run_taut(scratch, "estimate " + scratch.quoted("scene.json") + " - < " +
-                                                           scratch.quoted("log.csv"))
-                                   : estimate(scratch);
+    const Outcome outcome = estimate_from(scratch, stream);
     REQUIRE(outcome.status == 0);
     CHECK(Table(outcome.out).at(1, "alarms").empty());
   }
@@ -1173,9 +1171,7 @@ TEST_CASE(
     const Scratch scratch;
     write(scratch, "scene.json", one.substr(0, at) + second + one.substr(at + end.size()));
     write(scratch, "log.csv", "time,C.end,D.end,D.end.locked\n1,0,,1\n2,1000,,1\n");
-    const Outcome outcome = stream ? run_taut(scratch, "estimate " + scratch.quoted("scene.json") + " - < " +
-                                                           scratch.quoted("log.csv"))
-                                   : estimate(scratch);
+    const Outcome outcome = estimate_from(scratch, stream);
     CAPTURE(outcome.err);
     REQUIRE(outcome.status == 0);
     CHECK(Table(outcome.out).at(1, "alarms").find("unknown-past") == std::string::npos);

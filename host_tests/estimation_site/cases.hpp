@@ -105,7 +105,7 @@ inline std::vector<Case> all_cases(int year_rows) {
   add("drop-outs", Demand::model).instruments.drops_out = true;
   {
     Case& c = add("drop-outs-of-both", Demand::model);
-    c.instruments.both_drop_out = true;
+    c.instruments.drops_out = c.instruments.far_drops_out = true;
     c.jacking.visit = true;
   }
   {

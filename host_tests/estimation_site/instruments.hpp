@@ -22,7 +22,7 @@ struct InstrumentRules {
   bool loose_plug = false;     ///< the jack's, for 5 to 15 rows
   bool in_turn = false;        ///< each row has the reading of one end only
   bool drops_out = false;      ///< the jack's is not read for 3 to 20 rows, now and then
-  bool both_drop_out = false;  ///< so is each of them, at other times
+  bool far_drops_out = false;  ///< nor the one at the other end, at other times
   double wrong = 0;            ///< so often a reading of either is of anything
   bool is_held = false;        ///< each is read at its own pace, and written again in between
   bool far_freezes = false;    ///< the far cell keeps its value from the first ramp on

@@ -87,8 +87,8 @@ Readings read_cable(Random& random, const InstrumentRules& rules, const Jacked& 
     for (const Deed& deed : jacked.rows)
       readings.stroke[0].push_back(deed.pulls[c].extension[0] + 0.001 * gaussian(random));
   if (rules.in_turn) read_in_turn(readings.end, readings.start);
-  if (rules.drops_out || rules.both_drop_out) drop_out(random, readings.end);
-  if (rules.both_drop_out) drop_out(random, readings.start);
+  if (rules.drops_out) drop_out(random, readings.end);
+  if (rules.far_drops_out) drop_out(random, readings.start);
   if (rules.wrong > 0) {
     misread(random, rules.wrong, full, readings.end);
     misread(random, rules.wrong, full, readings.start);

@@ -553,9 +553,8 @@ constexpr Translation translations[] = {
      "记录开始时已有荷载：在索滑过所有节点之前，其力可为任何经过所致；--state FILE 可接续上一份记录",
      "das Protokoll beginnt unter Last: bis die Seile über alle Umlenkungen geglitten sind, gelten ihre "
      "Kräfte für jede Vergangenheit; --state FILE setzt das vorige Protokoll fort"},
-    {"no load cell is read that tells of the jacks: nothing is known of the forces until one is; --state "
-     "FILE "
-     "goes on from the log before",
+    {"no load cell is read that tells of the jacks: nothing is known of the forces until one is; "
+     "--state FILE goes on from the log before",
      "没有能说明千斤顶力的测力计读数：在读到之前力为未知；--state FILE 可接续上一份记录",
      "kein Messwert sagt, was die Pressen ziehen: die Kräfte sind unbekannt, bis einer gelesen wird; --state "
      "FILE setzt das vorige Protokoll fort"},

@@ -169,6 +169,28 @@ template <class Parts>
   return update;
 }
 
+/// Whether a reading of cell `e` counts beside those since the last lock-off, `read`: one that is far off
+/// them, or the first off what is expected, may be wrong; two in a row are not, and what was read before is
+/// no more. Cost: that of FarEnds::expect() for the first, else a few operations.
+template <class Parts>
+bool counts_as_read(Parts& parts, typename Parts::LockOff::Read& read, int e,
+                    typename Parts::Scalar reading) {
+  using Scalar = typename Parts::Scalar;
+  constexpr Scalar far = LoneOutliers<Scalar>::outlier;
+  const bool was_elsewhere = read.is_elsewhere;
+  if (read.readings > 0) {
+    const auto& watch = parts.far_ends.watch(e);
+    const Scalar off = reading - read.sum / static_cast<Scalar>(read.readings);
+    read.is_elsewhere = std::fabs(off) > far * (watch.sd + watch.lasts);
+  } else {
+    const auto expected = parts.far_ends.expect(e, parts.tracker, parts.filter, parts.jacks);
+    read.is_elsewhere = std::fabs(reading - expected.value) > far * std::sqrt(expected.variance);
+  }
+  if (!read.is_elsewhere) return true;
+  if (was_elsewhere) read = {};
+  return was_elsewhere;
+}
+
 /// Readings of the cell at the far end of a cable that jack `k` has locked, in the last lock-off, which is
 /// known: once there are one, two, four and so on, they tell how far its wedge was drawn in. One that is far
 /// off alone is left out. Cost: a few operations, or those of weigh_draw_in() and try_other_friction().
@@ -178,24 +200,7 @@ template <class Parts>
   constexpr int most = 64;
   const int p = parts.jacks[k].seating, c = parts.jacks.end(k).cable();
   auto& read = parts.lock_off.read[c];
-  if (read.readings == most) return Update::no_information;
-  // One reading far off may be wrong; two in a row are not, and what was read before is no more.
-  const Scalar far = LoneOutliers<Scalar>::outlier;
-  bool is_elsewhere = false;
-  if (read.readings > 0) {
-    const auto& watch = parts.far_ends.watch(e);
-    const Scalar off = reading - read.sum / static_cast<Scalar>(read.readings);
-    is_elsewhere = std::fabs(off) > far * (watch.sd + watch.lasts);
-  } else {
-    const auto expected = parts.far_ends.expect(e, parts.tracker, parts.filter, parts.jacks);
-    is_elsewhere = std::fabs(reading - expected.value) > far * std::sqrt(expected.variance);
-  }
-  if (is_elsewhere && !read.is_elsewhere) {
-    read.is_elsewhere = true;
-    return Update::no_information;
-  }
-  if (is_elsewhere) read = {};
-  read.is_elsewhere = false;
+  if (read.readings == most || !counts_as_read(parts, read, e, reading)) return Update::no_information;
   const int n = read.readings + 1;
   read.readings = static_cast<std::int16_t>(n);
   read.sum += reading;

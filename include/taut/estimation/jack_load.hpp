@@ -367,20 +367,19 @@ struct JackLoad {
   // Rows in which its cell is not read.
 
   /// The load stays where it was read last, and may have gone on as it went there: along its line, or by as
-  /// much as from the reading before. By more than a reading scatters, it is in doubt; so it is after the
-  /// first reading of all. (What a cell without noise does not say has not changed.)
+  /// much as from the reading before; or a pump may have begun to work, Eq. (79). By more than a reading
+  /// scatters, it is in doubt; so it is after the first reading of all. (What a cell without noise does not
+  /// say has not changed.)
   void go_unread(const LoadCell<Scalar>& cell) {
     constexpr Scalar steps = 4;
     if (!is_unread) read_sd = filter.run_length() > 0 ? at.sd : cell.noise();
     is_unread = true;
-    // A load stage is one, however soon it comes.
+    // A load stage is one, however soon it comes; and what is not due yet is not lost.
     const bool is_stage = stride > JumpGuard<Scalar>::far_apart, is_due = since > Scalar(0.75) * stride;
-    const Scalar times = since >= steps * stride ? steps : larger(since / stride, Scalar(is_stage ? 1 : 0)),
+    const Scalar lost = is_due ? -larger(-since, -stride) : Scalar(0),
+                 times = since >= steps * stride ? steps : larger(since / stride, Scalar(is_stage ? 1 : 0)),
                  on = larger(filter.gone(since) / branch(cell), stride > 0 ? times * step_by : step_by),
-                 begun = gone_from_rest(taken > 0 ? since
-                                        : is_due  ? -larger(-since, -stride)
-                                                  : Scalar(0),
-                                        filter.lasted()),
+                 begun = gone_from_rest(taken > 0 ? since : lost, filter.lasted()),
                  gone = std::sqrt(on * on + begun * begun);
     at.come = at.load;
     at.come_sd = at.sd = std::sqrt(read_sd * read_sd + gone * gone);

@@ -125,7 +125,7 @@ class LoadFilter : LoadFilterTuning {
   bool knows_pace() const { return usual_ > 0 || !(sd_ > 0); }
   /// Readings since the likeliest line began, but those that wait.
   int run_length() const { return sd_ > 0 && hypotheses_.size > 0 ? at(hypotheses_.run_length, best_) : 0; }
-  /// For how long it has been the likeliest [s].
+  /// For how long that line has lasted [s].
   Scalar lasted() const { return hypotheses_.size > 0 ? static_cast<Scalar>(lasts()) : Scalar(0); }
   /// Something else will remember the load as it is now: it is taken to have come as far as this best
   /// estimate of it [N], which is further than what is confirmed. Until it is confirmed to have turned.

@@ -40,9 +40,9 @@ bool sees_rise(const Parts& parts, int k, typename Parts::Scalar reading,
 /// In a row in which the jack of its cable is not read, the load cell at anchored end `e` reads [N] what it
 /// hardly could if the load were where it was. Then the load may have gone on, by as much at least, if it can
 /// have meanwhile, and will until it is read; else the cell is wrong, which raises an alarm once it surely
-/// is. While the cable slides throughout, and the load
-/// may have gone on, the reading waits for the next one of the jack, see BetweenReadings. Returns whether
-/// either is so: nothing is learned then. Cost: that of FarEnds::expect().
+/// is. While the cable slides throughout, and the load may have gone on, the reading waits for the next one
+/// of the jack, see BetweenReadings. Returns whether either is so: nothing is learned then. Cost: that of
+/// FarEnds::expect().
 template <class Parts>
 bool sees_unread(Parts& parts, int e, typename Parts::Scalar reading) {
   using Scalar = typename Parts::Scalar;
@@ -59,11 +59,13 @@ bool sees_unread(Parts& parts, int e, typename Parts::Scalar reading) {
     const Scalar least = jack.went_on ? surely : perhaps;
     if (off * off <= least * least * expected.variance) return false;
     const Scalar gone = off / held_over(parts.tracker, end.cable());
-    const bool can_have_gone = gone <= jack.fastest * parts.most_force(k) * jack.since;
-    if (can_have_gone) jack.go_on_unread(gone);
-    const bool is_wrong = !can_have_gone && off * off > surely * surely * expected.variance;
-    if (is_wrong) parts.alarms.add(Parts::alarm_at(Alarm::Kind::sensor, end));
-    return can_have_gone || is_wrong;
+    if (gone <= jack.fastest * parts.most_force(k) * jack.since)
+      jack.go_on_unread(gone);
+    else if (off * off > surely * surely * expected.variance)
+      parts.alarms.add(Parts::alarm_at(Alarm::Kind::sensor, end));
+    else
+      return false;
+    return true;
   }
   return false;
 }
