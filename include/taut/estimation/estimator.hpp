@@ -9,6 +9,7 @@
 #include "taut/estimation/estimator_parts.hpp"
 #include "taut/estimation/estimator_unknowns.hpp"
 #include "taut/estimation/jack_checks.hpp"
+#include "taut/estimation/measure_following.hpp"
 #include "taut/estimation/measure_row.hpp"
 #include "taut/estimation/monitoring.hpp"
 #include "taut/estimation/take_gauge.hpp"
@@ -76,6 +77,7 @@ class Estimator {
     typename Parts::TurnedForcesType turned;
     typename Parts::HeldCellsType held;
     typename Parts::LaggingCellsType lagging;
+    typename Parts::FollowingJacks following;
   };
 
   // Beginning.
@@ -117,7 +119,8 @@ class Estimator {
             parts_.forces.save(),
             parts_.turned,
             parts_.held,
-            parts_.lagging};
+            parts_.lagging,
+            parts_.following};
   }
   /// Goes on where save() was called on an estimator of the same scene. Fails with `capacity_exceeded` if and
   /// only if start() would, and with `bad_sample` if the state was saved before start(), or is seen to be
@@ -146,6 +149,7 @@ class Estimator {
     parts_.lock_off = state.lock_off;
     parts_.held = state.held;
     parts_.lagging = state.lagging;
+    parts_.following = state.following;
     const Status restored = parts_.tracker.restore(condensed, parts_.filter.friction(linear_part(condensed)),
                                                    state.tracker, load_errors(parts_));
     return restored ? restored : forget(restored);
@@ -250,6 +254,7 @@ class Estimator {
     parts_.sliding_way = {};
     parts_.held = {};
     parts_.lagging = {};
+    parts_.following = {};
     return number_unknowns(parts_, condensed, prior, gauges);
   }
   /// As before start(). Returns why.
@@ -273,6 +278,8 @@ class Estimator {
     for (int c = 0; c < parts_.model().cables.size(); ++c)
       if (parts_.drifts(c)) parts_.filter.diffuse(parts_.drift[c], c, readings.dt);
     measure_far_ends(parts_, readings);
+    if constexpr (JacksType::capacity > 1)
+      for (int c = 0; c < parts_.model().cables.size(); ++c) measure_following(parts_, c);
   }
   /// What is odd about what is known now: friction and gains if they have changed, forces beyond limits.
   [[gnu::always_inline]] void check_answers() {

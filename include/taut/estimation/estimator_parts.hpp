@@ -9,6 +9,7 @@
 #include "taut/estimation/between_jacks.hpp"
 #include "taut/estimation/beyond_friction.hpp"
 #include "taut/estimation/far_ends.hpp"
+#include "taut/estimation/following_jack.hpp"
 #include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/force_watch.hpp"
 #include "taut/estimation/friction_filter.hpp"
@@ -49,6 +50,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   using SlidingWayType = SlidingWay<Scalar, Cap::cables>;
   using ForceWatchType = ForceWatch<Scalar, Cap::segments>;
   using Strokes = RowStrokes<Scalar, JacksType::capacity == 1 ? 0 : Cap::cables>;
+  using FollowingJacks = FixedArray<FollowingJack<Scalar>, JacksType::capacity == 1 ? 0 : Cap::cables>;
   using TurnedForcesType = TurnedForces<Scalar, Cap, Parameters>;
   using Alarms = FixedList<Alarm, 8 + 5 * Cap::cables + Cap::joints + Cap::segments>;
   using EndType = CableEnd<Cap>;
@@ -105,6 +107,7 @@ struct EstimatorParts : CondensedType::Capacity::Account {
   SlidingWayType sliding_way;
   ForceWatchType forces;
   TurnedForcesType turned;
+  FollowingJacks following;
   Alarms alarms;
   Confirmed confirmed;
   FixedArray<Leg, legs> leg;

@@ -25,13 +25,15 @@ typename TrackerType::Scalar held_over(const TrackerType& tracker, int c) {
   return held_between(tracker, cable.first_joint, cable.joints());
 }
 
-/// The same for two jacks that pull at both ends and surely do not pull the cable through: well inside what
-/// friction holds; but where that is next to nothing, or the cable is one segment, they pull alike.
+/// The same for two jacks that pull at both ends and surely do not pull the cable through: larger by this
+/// part, which is inside of what friction holds; but where that is next to nothing, or the cable is one
+/// segment, they pull alike.
 template <class TrackerType>
-typename TrackerType::Scalar surely_held_over(const TrackerType& tracker, int c) {
+typename TrackerType::Scalar surely_held_over(const TrackerType& tracker, int c,
+                                              typename TrackerType::Scalar inside) {
   using Scalar = typename TrackerType::Scalar;
   const Scalar held = held_over(tracker, c);
-  return -larger(-Scalar(1.02) * held, -std::sqrt(held));
+  return -larger(-(1 + inside) * held, -std::sqrt(held));
 }
 
 }  // namespace taut

@@ -27,6 +27,13 @@ struct UnequalJacks {
   }
 };
 
+/// The logarithm of a / b, but for the fifth power of u: with the same bits wherever it is computed.
+template <class Scalar>
+Scalar log_quotient(Scalar a, Scalar b) {
+  const Scalar u = (a - b) / (a + b);
+  return 2 * u + 2 * u * u * u / 3;
+}
+
 /// Calls visit(unknown, derivative) for what the load of jack `k` varies by with the constants of its load
 /// cell [N].
 template <class Parts, class Visit>
@@ -72,12 +79,10 @@ bool raise_friction(Parts& parts, int c) {
   const Scalar left = (of_more - 3 * jacks[more].filter.sd()) * held_over(parts.tracker, c),
                read = of_less + 3 * jacks[less].filter.sd();
   if (!(left > read)) return false;
-  // The logarithm of their quotient, but for the fifth power of u.
-  const Scalar u = (left - read) / (left + read), sd_of_less = jacks[less].at.sd / of_less,
-               sd_of_more = jacks[more].at.sd / of_more;
+  const Scalar sd_of_less = jacks[less].at.sd / of_less, sd_of_more = jacks[more].at.sd / of_more;
   // Of two jacks of a cable, the first has an even half of its own.
   const int bound = jacks.find(c, 0) / 2;
-  if (!filter.bring_below_zero(bound, 2 * u + 2 * u * u * u / 3, H,
+  if (!filter.bring_below_zero(bound, log_quotient(left, read), H,
                                sd_of_less * sd_of_less + sd_of_more * sd_of_more))
     return false;
   note(parts, Update::updated, Parts::alarm_at(Alarm::Kind::sensor, jacks.end(less)));
@@ -107,7 +112,8 @@ template <class Parts, class SampleType>
   const Scalar mu_sd = parts.filter.relative_deviation(parts.tracker, c), held = held_over(parts.tracker, c),
                least = larger(held - 5 * mu_sd * (1 - held), Scalar(0));
   if (at_best(less, 1) < least * at_best(more, -1)) return false;
-  const Scalar most = jack[less].force / surely_held_over(parts.tracker, c);
+  // Next to where all joints slide: farther inside some would come to rest, and remember it.
+  const Scalar most = jack[less].force / surely_held_over(parts.tracker, c, Scalar(0.002));
   jack[more].force = -larger(-jack[more].force, -most);
   return true;
 }

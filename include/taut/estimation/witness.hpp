@@ -103,7 +103,8 @@ void follow_other_jack(Parts& parts) {
     const auto& end = jacks.end(k);
     const int other = jacks.find(end.cable(), 1 - end.end);
     if (other < 0 || !jacks[k].is_unread || jacks[k].locked || !jacks[other].is_new) continue;
-    const Scalar load = jacks[other].at.load, carried = surely_held_over(parts.tracker, end.cable());
+    const Scalar load = jacks[other].at.load,
+                 carried = surely_held_over(parts.tracker, end.cable(), Scalar(0.02));
     jacks[k].come_between(carried * load, load / carried, parts.cell(k));
   }
 }
