@@ -147,6 +147,7 @@ class Jacked {
     REQUIRE(estimator_.advance(readings).status.ok());
   }
   taut::ForceEstimate<double> operator[](int segment) const { return estimator_.estimate(segment); }
+  bool raises(taut::Alarm::Kind kind) const { return raised(estimator_.alarms(), kind) > 0; }
 
  private:
   void row(double force, bool locked, double dt = 1) { row(force, locked, dt, -1); }

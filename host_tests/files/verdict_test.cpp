@@ -50,7 +50,7 @@ SceneDescription two_cables() {
 }
 
 // Kinds are no more than these.
-constexpr int kinds = static_cast<int>(Alarm::Kind::unread) + 1;
+constexpr int kinds = static_cast<int>(Alarm::Kind::late_lock) + 1;
 
 }  // namespace
 
@@ -185,7 +185,8 @@ TEST_CASE("the kinds of alarms that make numbers doubtful do so as they are writ
     const auto kind = static_cast<Kind>(i);
     const bool is_doubtful = kind == Kind::unknown_past || kind == Kind::misfit || kind == Kind::sensor ||
                              kind == Kind::strut || kind == Kind::segment || kind == Kind::elongation ||
-                             kind == Kind::frozen || kind == Kind::outlier || kind == Kind::unread;
+                             kind == Kind::frozen || kind == Kind::outlier || kind == Kind::unread ||
+                             kind == Kind::late_lock;
     Verdict verdict;
     const std::string word = alarm_word(Alarm::of(kind, 0, 0), two_cables());
     CAPTURE(word);

@@ -464,7 +464,7 @@ TEST_CASE("every text that a report says has its words in every language, with t
   CHECK(texts["Sentence"] > 50);
   for (const char* kind : {"outlier", "sensor", "mu", "stuck", "elongation", "force-high", "force-low",
                            "no-information", "gauge", "model-misfit", "frozen", "gain", "unknown-past",
-                           "lift-off", "unread", "silent", "unreadable", "no such alarm"}) {
+                           "lift-off", "unread", "late-lock", "silent", "unreadable", "no such alarm"}) {
     const AlarmMeaning meaning = alarm_meaning(kind);
     CHECK(known.count(meaning.means) == 1);
     CHECK(known.count(meaning.to_do) == 1);
@@ -476,7 +476,7 @@ TEST_CASE("verdicts are said in other languages with the names that they have") 
   CHECK(german(Verdict().take("")) == "vertrauen");
   for (const char* word :
        {"unknown-past:Seil", "frozen:Seil.start", "model-misfit:Seil.start", "sensor:Seil.start",
-        "unread:Seil.end", "elongation:Seil.end", "gauge:strut2", "outlier:Seil.end"}) {
+        "unread:Seil.end", "late-lock:Seil.end", "elongation:Seil.end", "gauge:strut2", "outlier:Seil.end"}) {
     Verdict verdict;
     Sentence sentence;
     for (int i = 0; i < 10; ++i) sentence = verdict.take(word);

@@ -21,8 +21,9 @@ struct Rule {
   const char* reason;  // {1} is the place
 };
 // The worst first: what explains the others stands before them.
-constexpr std::array<Rule, 8> rules = {{
+constexpr std::array<Rule, 9> rules = {{
     {"unknown-past", 1, 1, "nobody knows how {1} came under load (pull on or use --state)"},
+    {"late-lock", 1, 1, "the wedge at {1} may have held before the log says so"},
     {"unread", 1, 1, "the load cell at {1} is not read"},
     {"frozen", 1, Verdict::rows, "the load cell at {1} keeps one value although the load moves"},
     {"model-misfit", 1, Verdict::rows, "{1} does not fit the model"},

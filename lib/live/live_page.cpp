@@ -290,7 +290,7 @@ class LivePage {
     }
     for (const char* kind : {"outlier", "sensor", "mu", "stuck", "elongation", "force-high", "force-low",
                              "no-information", "gauge", "model-misfit", "frozen", "gain", "unknown-past",
-                             "lift-off", "unread", "silent", "unreadable", "plan-limit"}) {
+                             "lift-off", "unread", "late-lock", "silent", "unreadable", "plan-limit"}) {
       const AlarmMeaning meaning = meaning_of(kind);
       data["meanings"][kind] = {meaning.means, meaning.to_do};
     }

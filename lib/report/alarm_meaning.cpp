@@ -6,7 +6,7 @@
 namespace taut::host {
 namespace {
 
-constexpr std::array<std::pair<const char*, AlarmMeaning>, 17> meanings = {{
+constexpr std::array<std::pair<const char*, AlarmMeaning>, 18> meanings = {{
     {"outlier",
      {"A reading of the load cell at this jack does not belong to the others. It was left out.",
       "Nothing, if it is rare. If it comes again and again, check the cell, its cable and its sd in the "
@@ -54,6 +54,11 @@ constexpr std::array<std::pair<const char*, AlarmMeaning>, 17> meanings = {{
      {"The load cell of this jack has not been read for long, while rows went on. Its load is taken to be "
       "where it was.",
       "Check the cell, its plug and the logger. If the pump was worked meanwhile, forces are others."}},
+    {"late-lock",
+     {"This end was locked while the load of its jack fell, or when next to none was left. If its wedge held "
+      "before the log says so, the forces are those from before the load fell; the intervals reach that far.",
+      "In the log mark the end as locked from the row on in which its load began to fall, and read it again. "
+      "On the device: lock an end before its jack is let out."}},
     {"gain",
      {"The load cell at this anchored end and that of the jack surely differ by more than 1 % of the force. "
       "The intervals hold for it; the forces would be known better if they did not.",

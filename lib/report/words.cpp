@@ -179,6 +179,8 @@ constexpr Translation translations[] = {
     {"nobody knows how {1} came under load (pull on or use --state)",
      "{1} 如何受力不得而知（继续张拉或使用 --state）",
      "niemand weiß, wie {1} unter Last kam (weiter ziehen oder --state)"},
+    {"the wedge at {1} may have held before the log says so", "{1} 的夹片可能早于记录所示锚固",
+     "der Keil an {1} hielt vielleicht, bevor das Protokoll es sagt"},
     {"the load cell at {1} is not read", "{1} 的测力计没有读数", "die Messdose an {1} wird nicht gelesen"},
     {"the load cell at {1} keeps one value although the load moves", "{1} 的测力计读数不变而荷载在变",
      "die Messdose bei {1} zeigt einen festen Wert, obwohl die Last sich ändert"},
@@ -368,6 +370,18 @@ constexpr Translation translations[] = {
     {"Check the cell, its plug and the logger. If the pump was worked meanwhile, forces are others.",
      "检查测力计、插头和采集仪。若其间油泵曾工作，则力已不同。",
      "Messdose, Stecker und Messgerät prüfen. Wurde inzwischen gepumpt, sind die Kräfte andere."},
+    {"This end was locked while the load of its jack fell, or when next to none was left. If its wedge held "
+     "before the log says so, the forces are those from before the load fell; the intervals reach that far.",
+     "该端锚固时千斤顶荷载正在下降，或已所剩无几。若夹片早于记录所示锚固，则力为下降之前的力；区间已延伸至该"
+     "力。",
+     "Dieses Ende wurde verankert, während die Last seiner Presse fiel oder kaum noch eine da war. Hielt der "
+     "Keil, bevor das Protokoll es sagt, so gelten die Kräfte von vor dem Fallen der Last; so weit reichen "
+     "die Bänder."},
+    {"In the log mark the end as locked from the row on in which its load began to fall, and read it again. "
+     "On the device: lock an end before its jack is let out.",
+     "在记录中自荷载开始下降的那一行起将该端标为锚固，再重新读取。在设备上：千斤顶回油之前先标记锚固。",
+     "Das Ende im Protokoll von der Zeile an als verankert kennzeichnen, in der seine Last zu fallen begann, "
+     "und es neu lesen. Am Gerät: ein Ende verankern, bevor seine Presse abgelassen wird."},
     {"The load cell at this anchored end and that of the jack surely differ by more than 1 % of the force. "
      "The intervals hold for it; the forces would be known better if they did not.",
      "该锚固端测力计与千斤顶测力计之差确已超过力的 1 %。区间已计入；若无此差，力会更准。",

@@ -20,10 +20,11 @@ struct Alarm {
     lift_off,        ///< the jack pulls what a locked end holds: the wedge is free, the end can be unlocked
     segment,         ///< the measured force of a segment contradicts the model by more than five sigma
     unknown_past,    ///< the cable was under load before the first reading, and has not slid enough since
-    misfit,  ///< readings at an anchored end are off what the model says for longer than chance allows
-    frozen,  ///< a load cell keeps one value although the load moves, or it had noise: see StandingCell
-    gain,    ///< the load cells at the anchored end and at the jack of a cable surely differ in gain
-    unread,  ///< the load cell of a jack has not been read for long: its load is taken to be where it was
+    misfit,     ///< readings at an anchored end are off what the model says for longer than chance allows
+    frozen,     ///< a load cell keeps one value although the load moves, or it had noise: see StandingCell
+    gain,       ///< the load cells at the anchored end and at the jack of a cable surely differ in gain
+    unread,     ///< the load cell of a jack has not been read for long: its load is taken to be where it was
+    late_lock,  ///< an end was locked while its load fell: the wedge may have held before
   } kind = Kind::outlier;
   std::int16_t cable = 0;  ///< -1: `place` is a strut
   std::int16_t place = 0;  ///< joint or segment of the cable; end 0 or 1

@@ -6,6 +6,7 @@
 
 #include "taut/estimation/draw_in.hpp"
 #include "taut/estimation/drive.hpp"
+#include "taut/estimation/late_lock.hpp"
 #include "taut/estimation/learning.hpp"
 #include "taut/estimation/leg.hpp"
 #include "taut/estimation/load_memory.hpp"
@@ -81,6 +82,7 @@ template <class Parts>
       parts.alarms.add(Parts::alarm_at(Alarm::Kind::frozen, jacks.end(k)));
     else if (jacks[k].is_silent())
       parts.alarms.add(Parts::alarm_at(Alarm::Kind::unread, jacks.end(k)));
+    if (jacks[k].locked_late) parts.alarms.add(Parts::alarm_at(Alarm::Kind::late_lock, jacks.end(k)));
     if (jacks[k].is_new) jacks[k].beside = beside.force;
     has_more |= given.has_stroke | (jacks[k].locked & given.has_force);
   }
@@ -136,6 +138,7 @@ template <class Parts>
   if (remember_seating(parts)) progress = join(progress, tracker.advance(jacks.target(sample), event_budget));
   if (progress.status) progress.status = remember_drift(parts);
   if (progress.status && parts.lock_off.is_known) try_others(parts);
+  widen_late_locks(parts);
   return progress.status.ok();
 }
 

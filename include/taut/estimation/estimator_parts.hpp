@@ -174,6 +174,12 @@ struct EstimatorParts : CondensedType::Capacity::Account {
       if (jacks.end(k).cable() == c && !jacks[k].locked) return false;
     return true;
   }
+  /// Whether a wedge that holds it may have held before the log says so, see may_have_held_before().
+  bool is_locked_late(int c) const {
+    for (int k = 0; k < jacks.size(); ++k)
+      if (jacks.end(k).cable() == c && jacks[k].locked_late) return true;
+    return false;
+  }
   /// Whether it drifts: its strain does where wedges hold it.
   bool drifts(int c) const { return drift[c] >= 0 && is_held(c); }
   /// Whether a cell at its far end tells how far wedges were drawn in that hold it, or how it drifts.
@@ -257,7 +263,8 @@ struct EstimatorParts : CondensedType::Capacity::Account {
     const Scalar reached = deviation_by_reach(*this, segment, estimate.force);
     Scalar kept = 0;
     // While it sticks, what a far end has taught of it since counts, too.
-    if (far_ends.ends().size() == 0 || turned.has_gone_on(segment, estimate.force))
+    if (far_ends.ends().size() == 0 || turned.has_gone_on(segment, estimate.force) ||
+        is_locked_late(model().cable_of(segment)))
       kept = turned.deviation_by_loads(segment, estimate.force);
     estimate.deviation = larger(estimate.deviation, larger(reached, kept));
     if (may_be_beyond_friction(*this))

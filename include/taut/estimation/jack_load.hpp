@@ -83,6 +83,7 @@ struct JackLoad {
   bool was_unread = false;               ///< until this row
   bool went_on = false;                  ///< surely, as it was read last
   bool pulls_surely = false;             ///< at a locked end: its last reading is believed
+  bool locked_late = false;              ///< its wedge may have held before, see may_have_held_before()
   bool turned_unseen = false;            ///< once it has turned while it was not read
   Scalar missed_in = 0;                  ///< if it had not come as far as at its pace, in what time [s]
   Scalar missed = 0;   ///< by how much it may have gone farther while it was not read, and come back [N]
@@ -458,7 +459,7 @@ struct JackLoad {
     missed = 0;
     turned = 0;
     pulls = true;
-    locked = false;
+    locked = locked_late = false;
     since = dt;
   }
 
