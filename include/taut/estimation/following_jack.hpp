@@ -25,19 +25,19 @@ class FollowingJack {
 
   /// What both were read to pull in a row.
   struct Row {
-    int less;            ///< the end whose jack pulls less
-    Scalar quotient;     ///< of what is read of them [-]
-    Scalar variance;     ///< of that, relative to its square [-]
-    Scalar load;         ///< what the other one pulls, conditioned [N]
-    bool rises;          ///< that surely goes up
-    bool has_come_back;  ///< it has surely come down
+    int less;         ///< the end whose jack pulls less
+    Scalar quotient;  ///< of what is read of them [-]
+    Scalar variance;  ///< of that, relative to its square [-]
+    Scalar load;      ///< what the other one pulls, conditioned [N]
+    bool rises;       ///< that surely goes up
+    bool has_turned;  ///< it has surely turned
   };
 
   /// Takes a row. Returns whether quotients are a measurement now, see measured().
   bool take(const Row& row) {
     const bool counts = rises_;
     rises_ = row.rises;
-    if (row.less != less_ || row.has_come_back || n_ == 0) {
+    if (row.less != less_ || row.has_turned || n_ == 0) {
       if (is_level_) level_at_[less_] = mean();
       fallen_ = 0;
       begin(row);
@@ -48,7 +48,7 @@ class FollowingJack {
     if (!counts) return follows_ && rows_ >= few;
     const Scalar further = row.load / load_ - 1, fell = 1 - row.quotient / quotient_;
     add(further, fell);
-    if (rows_ == together) sum_ = 0, rows_ = 0;
+    if (rows_ == together) static_cast<void>(measured());
     sum_ += row.quotient;
     ++rows_;
     const Scalar spread = further_further_ - further_ * further_ / n_;
@@ -57,7 +57,10 @@ class FollowingJack {
     if (std::fabs(slope) > surely * sd && (std::fabs(slope) > level || is_level_)) {
       // Where it begins to follow one line has a part of both.
       const bool rests = slope > Scalar(0.5), is_between = slope > 0 && !rests;
-      fallen_ = rests ? fallen_ + slope * further : is_between && !is_bent_ ? fallen_ : Scalar(0);
+      if (rests)
+        fallen_ += slope * further;
+      else if (!is_between || is_bent_)
+        fallen_ = 0;
       is_bent_ = is_between;
       begin(row);
       return false;
@@ -79,7 +82,7 @@ class FollowingJack {
     rows_ = 0;
     return mean;
   }
-  /// What it tells cannot be so, or it is locked: it does not follow.
+  /// It does not follow: what it tells cannot be, or a wedge holds an end.
   void reject() { *this = {}; }
 
  private:

@@ -46,7 +46,7 @@ void measure_following(Parts& parts, int c) {
   const auto& less = jacks[unequal.less];
   const auto& more = jacks[unequal.more];
   if (parts.cell(unequal.less).has_branches() || parts.cell(unequal.more).has_branches()) return;
-  if (!less.is_new || !more.is_new || !(less.raw > 0) || !(more.raw > 0)) return;
+  if (!less.is_new || !more.is_new || !(less.raw > 0) || !(more.raw > 0) || !(less.at.load > 0)) return;
   const auto part = [](Scalar sd, Scalar of) { return sd * sd / (of * of); };
   const Scalar variance = part(less.filter.sd(), less.at.load) + part(more.filter.sd(), more.at.load);
   auto& following = parts.following[c];
