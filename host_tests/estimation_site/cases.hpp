@@ -25,6 +25,7 @@ struct Case {
   InstrumentRules instruments;
   bool with_far = true, without_far = true;  ///< far-end cell
   bool logs_dead = false, logs_sun = false, logs_stroke = false;
+  std::size_t locks_late = 0;    ///< so many rows after an end was locked the log says so
   bool gauges_segments = false;  ///< one a cable, at neither end
   bool gauges_struts = false;    ///< both at one joint of each cable (trusses)
   bool silent = false;           ///< the scene has no sensors
@@ -112,6 +113,12 @@ inline std::vector<Case> all_cases(int year_rows) {
     Case& c = add("wrong-readings");
     c.instruments.wrong = 0.02;
     c.jacking.visit = true;
+  }
+  for (const bool in_stages : {false, true}) {
+    Case& c = add(in_stages ? "late-locks-in-stages" : "late-locks", Demand::alarm);
+    c.locks_late = in_stages ? 2 : 3;
+    c.jacking.lock = true;
+    c.jacking.stages = in_stages;
   }
   add("any-pace", Demand::model).jacking.any_pace = true;
   {

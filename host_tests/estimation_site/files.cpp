@@ -1,5 +1,6 @@
 #include "estimation_site/files.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -153,6 +154,18 @@ std::string scene_text(const Jacked& jacked, const Case& tried, bool far, bool d
   return scene_with(jacked.ground, particulars);
 }
 
+namespace {
+
+/// Whether the log says in row `i` that an end is locked: so many rows `late`, and at once that it is no
+/// more.
+bool says_locked(const Jacked& jacked, std::size_t c, std::size_t end, std::size_t i, std::size_t late) {
+  for (std::size_t back = 0; back <= std::min(late, i); ++back)
+    if (!jacked.rows[i - back].pulls[c].locked[end]) return false;
+  return true;
+}
+
+}  // namespace
+
 std::string log_text(const Jacked& jacked, const Case& tried, bool far) {
   const auto& cables = jacked.ground.cables;
   std::string text = "time";
@@ -175,10 +188,12 @@ std::string log_text(const Jacked& jacked, const Case& tried, bool far) {
     const Deed& deed = jacked.rows[i];
     text += rounded(deed.time, 3);
     for (std::size_t c = 0; c < cables.size(); ++c) {
-      const auto& locked = deed.pulls[c].locked;
-      text += ',' + rounded(jacked.readings[c].end[i], 1) + (locked[1] ? ",1" : ",0");
+      const auto locked = [&](std::size_t end) {
+        return says_locked(jacked, c, end, i, tried.locks_late) ? ",1" : ",0";
+      };
+      text += ',' + rounded(jacked.readings[c].end[i], 1) + locked(1);
       if (far || cables[c].two_jacks) text += ',' + rounded(jacked.readings[c].start[i], 1);
-      if (cables[c].two_jacks) text += locked[0] ? ",1" : ",0";
+      if (cables[c].two_jacks) text += locked(0);
     }
     if (tried.logs_dead) text += ',' + number(deed.factor[dead]);
     if (tried.logs_sun) text += ',' + number(deed.logged_sun);

@@ -11,16 +11,19 @@ namespace taut {
 
 /// Whether jack `k`, which is locked in this row, may have been let out with its wedge in place already:
 /// nobody locks an end while its load falls, or once there is next to none left. That is so if its load
-/// surely went down in the last row in which it was read, but for load stages, which are rests, and is
-/// less than half of where it turned, for a jack may be released to what it is locked at; or if it is less
-/// than a tenth of that. Cost: a few operations.
+/// surely went down in the last row in which it was read, but for load stages, which are rests, by more than
+/// a twentieth of where it turned, or to less than half of that, for a jack may be released to what it is
+/// locked at; or if it is less than a tenth of that. Cost: a few operations.
 template <class Parts>
 bool may_have_held_before(const Parts& parts, int k) {
   using Scalar = typename Parts::Scalar;
   const auto& jack = parts.jacks[k];
   const Scalar from = parts.turned.force(parts.end_segment(k));
   const bool falls = jack.went_on && jack.stride <= JumpGuard<Scalar>::far_apart;
-  return jack.locks_now && !jack.locks_rising() && jack.at.load < (falls ? Scalar(0.5) : Scalar(0.1)) * from;
+  // A release to lock-off is slower.
+  const bool is_let_out = falls && jack.step_by > Scalar(0.05) * from;
+  return jack.locks_now && !jack.locks_rising() &&
+         (is_let_out || jack.at.load < (falls ? Scalar(0.5) : Scalar(0.1)) * from);
 }
 
 /// Of such jacks: where the wedge held before, forces are between those that there are now and those from
