@@ -128,6 +128,14 @@ std::string sensors_text(const Jacked& jacked, const Case& tried, bool far, bool
   return joined(cells, [](const std::string& cell) { return cell; });
 }
 
+/// Whether the log says in row `i` that an end is locked: so many rows `late`, and at once that it is no
+/// more.
+bool says_locked(const Jacked& jacked, std::size_t c, std::size_t end, std::size_t i, std::size_t late) {
+  for (std::size_t back = 0; back <= std::min(late, i); ++back)
+    if (!jacked.rows[i - back].pulls[c].locked[end]) return false;
+  return true;
+}
+
 }  // namespace
 
 std::string cable_name(std::size_t cable) { return {static_cast<char>('C' + cable)}; }
@@ -153,18 +161,6 @@ std::string scene_text(const Jacked& jacked, const Case& tried, bool far, bool d
   if (!tried.silent) particulars.sensors = sensors_text(jacked, tried, far, declared);
   return scene_with(jacked.ground, particulars);
 }
-
-namespace {
-
-/// Whether the log says in row `i` that an end is locked: so many rows `late`, and at once that it is no
-/// more.
-bool says_locked(const Jacked& jacked, std::size_t c, std::size_t end, std::size_t i, std::size_t late) {
-  for (std::size_t back = 0; back <= std::min(late, i); ++back)
-    if (!jacked.rows[i - back].pulls[c].locked[end]) return false;
-  return true;
-}
-
-}  // namespace
 
 std::string log_text(const Jacked& jacked, const Case& tried, bool far) {
   const auto& cables = jacked.ground.cables;

@@ -14,8 +14,8 @@ namespace taut {
 /// The standard deviation that a segment between two jacks has at least [N]. With friction that is lower by
 /// two deviations, but holds what the jacks differ by, a jack leaves so much more of its load in it, and can
 /// hold so much less of it, whichever of the two jacks the cable slides to by now, Eq. (69). Zero before the
-/// start, and where no two jacks pull the cable. Cost: a pass over its joints, and three times the square of
-/// the unknowns.
+/// start, at a jack, and where no two jacks pull the cable. Cost: a pass over its joints, and three times the
+/// square of the unknowns.
 template <class Parts>
 typename Parts::Scalar deviation_between_jacks(const Parts& parts, int segment,
                                                typename Parts::Scalar force) {

@@ -15,8 +15,8 @@ namespace taut {
 ///
 /// The quotient falls in proportion while one rests, and is level from where it follows: that is told by the
 /// slope of a straight line through it over the load of the one that goes on, begun anew wherever it is
-/// surely not level. A second pump can make it level, too, but hardly twice at the same quotient, nor for
-/// long. A plain value. Cost: a few operations a row.
+/// surely not level. A second pump can make it level, too, but hardly twice at the same quotient. A plain
+/// value. Cost: a few operations a row.
 template <class Scalar>
 class FollowingJack {
  public:

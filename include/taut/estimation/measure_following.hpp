@@ -59,17 +59,14 @@ void measure_following(Parts& parts, int c) {
   const auto read = following.measured();
   const Scalar lasting = part(less.lasts, less.at.load) + part(more.lasts, more.at.load),
                sd = std::sqrt(variance / static_cast<Scalar>(read.rows) + lasting);
-  const auto& cable = parts.model().cables[c];
   typename Parts::Values H;
   // What is left of the larger load, over what is read: one. An error of either is a part of it.
   const auto predict = [&](auto& prediction) {
     clear_further(filter.belief(), prediction);
     prediction.value = 1 + log_quotient(held_over(parts.tracker, c), read.quotient);
     H.fill(Scalar(0));
-    filter.add_log_slopes(parts.tracker, cable.first_joint, cable.joints(), H);
+    add_slopes_between(parts, c, unequal, H);
     prediction.H = H;
-    for_each_constant(parts, unequal.more, [&](int p, Scalar by) { prediction.H[p] += by / more.at.load; });
-    for_each_constant(parts, unequal.less, [&](int p, Scalar by) { prediction.H[p] -= by / less.at.load; });
     prediction.by_jack.fill(Scalar(0));
   };
   const auto comes_closer = [&] {

@@ -43,6 +43,18 @@ void for_each_constant(const Parts& parts, int k, const Visit& visit) {
   });
 }
 
+/// Adds to `H` the derivatives of Eq. (68): by the unknowns, of the logarithm of what friction leaves of the
+/// load of one jack of cable `c`, over that of the other. Cost: a pass over its joints.
+template <class Parts>
+void add_slopes_between(const Parts& parts, int c, const UnequalJacks& unequal, typename Parts::Values& H) {
+  using Scalar = typename Parts::Scalar;
+  const auto& cable = parts.model().cables[c];
+  parts.filter.add_log_slopes(parts.tracker, cable.first_joint, cable.joints(), H);
+  const auto load = [&](int k) { return parts.jacks[k].at.load; };
+  for_each_constant(parts, unequal.more, [&](int p, Scalar by) { H[p] += by / load(unequal.more); });
+  for_each_constant(parts, unequal.less, [&](int p, Scalar by) { H[p] -= by / load(unequal.less); });
+}
+
 /// The standard deviation of the load of jack `k` by these [N].
 template <class Parts>
 typename Parts::Scalar deviation_by_cell(const Parts& parts, int k) {
@@ -69,12 +81,9 @@ bool raise_friction(Parts& parts, int c) {
   if (less < 0 || !jacks[less].is_new || !jacks[more].is_new || parts.loads_are_in_doubt(c) ||
       !(jacks[less].at.load > 0))
     return false;
-  const auto& cable = parts.model().cables[c];
   const Scalar of_less = jacks[less].at.load, of_more = jacks[more].at.load;
   typename Parts::Values H;
-  filter.add_log_slopes(parts.tracker, cable.first_joint, cable.joints(), H);
-  for_each_constant(parts, more, [&](int p, Scalar by) { H[p] += by / of_more; });
-  for_each_constant(parts, less, [&](int p, Scalar by) { H[p] -= by / of_less; });
+  add_slopes_between(parts, c, unequal, H);
   // A ramp that has been noticed of one and not yet of the other is no friction.
   const Scalar left = (of_more - 3 * jacks[more].filter.sd()) * held_over(parts.tracker, c),
                read = of_less + 3 * jacks[less].filter.sd();
