@@ -142,6 +142,42 @@ SOLVER_TEST_CASE("two different jacks on a cable of one segment pull it through"
   CHECK(bench.jack(0, 0, 1e5).jack(0, 1, 1.1e5).go().code == Code::pulled_through);
 }
 
+SOLVER_TEST_CASE(
+    "jacks that differ on both sides of a node which nothing else holds are no equilibrium, in any row",
+    solver) {
+  // Stays on both sides of a pinned mast, and one cable that sticks on the strut between its jacks.
+  for (const bool over_strut : {false, true}) {
+    CAPTURE(over_strut);
+    scene = {};
+    const int left = scene.add_node({-10, 0}, taut::held_xy);
+    const int right = scene.add_node({10, 0}, taut::held_xy);
+    const int foot = scene.add_node({0, over_strut ? 2.0 : 0.0}, taut::held_xy);
+    const int top = scene.add_node({0, over_strut ? -1.0 : 10.0});
+    scene.add_strut(foot, top, steel, 5e-3);
+    if (over_strut) {
+      scene.add_cable(steel_cable(0.3, two_jacks), {left, top, right});
+    } else {
+      scene.add_cable(steel_cable(0, jacked_end), {top, left});
+      scene.add_cable(steel_cable(0, jacked_end), {top, right});
+    }
+    const int other = over_strut ? 0 : 1;
+    PlaneBench bench(scene, solver);
+    const taut::Status equal = bench.started().ok()
+                                   ? bench.jack(0, 1, 1e5).jack(other, over_strut ? 0 : 1, 1e5).go()
+                                   : bench.started();
+    // Stepwise has no answer where jacks alone hold a node.
+    if (solver == Solver::stepwise) {
+      CHECK(equal.code == Code::mechanism);
+      continue;
+    }
+    REQUIRE(equal.ok());
+    const taut::Status status = bench.jack(0, 1, 1.1e5).go();
+    CHECK(status.code == Code::mechanism);
+    // From an equilibrium on which it stands again.
+    CHECK(bench.T(0) == doctest::Approx(1e5));
+  }
+}
+
 SOLVER_TEST_CASE("a self-locking joint between two jacks holds any difference", solver) {
   rigid_saddles(scene, steel_cable(0.1, two_jacks), chain_points(3));
   scene.mu[1] = 100;
