@@ -108,6 +108,21 @@ SOLVER_TEST_CASE("a draw-in longer than the elongation leaves the cable slack", 
   for (int j = 0; j < 3; ++j) CHECK(bench.response().state[j] == taut::JointState::open);
 }
 
+SOLVER_TEST_CASE(
+    "an end that is locked before there is any load leaves the cable slack, and is pulled from the other",
+    solver) {
+  const Chain chain{4, 0.2};
+  auto cable = steel_cable(chain.mu, two_jacks);
+  cable.seating = 5e-3;
+  rigid_saddles(scene, cable, chain_points(chain.segments));
+  PlaneBench bench(scene, solver);
+  REQUIRE(bench.lock(0, 0).jack(0, 1, 0).go().ok());
+  check_tensions(bench, [](int) { return 0.0; });
+  REQUIRE(bench.go().ok());
+  REQUIRE(bench.jack(0, 1, F).go().ok());
+  check_tensions(bench, [&](int i) { return F * chain.reach(i); });
+}
+
 SOLVER_TEST_CASE("a draw-in in many steps is the draw-in in one", solver) {
   make({7, 0.25}, 4e-3);
   PlaneBench at_once(scene, solver), in_steps(scene, solver);

@@ -342,6 +342,10 @@ class System {
     for (int node = 0; node < scene_->nodes.size(); ++node)
       for (int axis = 0; axis < per_node; ++axis)
         most = std::fmax(most, std::fabs(displacement(node, axis).hi));
+    // A slack cable moves along its path, without a load that could be a measure.
+    for (int joint = 0; joint < joints(); ++joint)
+      for (int axis = 0; axis < dimension; ++axis)
+        most = std::fmax(most, std::fabs(x_[numbering_.cable_point(joint, axis)].hi));
     return most;
   }
   void push(int unknown, Scalar force) {
