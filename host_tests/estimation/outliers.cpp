@@ -498,3 +498,13 @@ TEST_CASE(
       CHECK(read.sd() < 1500);
     }
 }
+
+TEST_CASE("how a jack that has only rested goes is learned once it takes over from a wedge") {
+  taut::JumpGuard<double> guard;
+  guard.start(0);
+  for (int i = 0; i < 40; ++i) CHECK_FALSE(holds(guard, i % 2 == 0 ? 100 : -100, 1));
+  // A guard that has seen it rest only would hold back all of a ramp.
+  double load = 1e5;
+  guard.start(load, 1);
+  for (int i = 0; i < 20; ++i) CHECK_FALSE(holds(guard, load += 4e3, 1));
+}

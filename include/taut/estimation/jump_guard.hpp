@@ -32,8 +32,10 @@ class JumpGuard {
     age_ = gone_ = went_ = 0;
   }
   /// The same of a jack that takes over from a wedge in a row `dt` [s] after the one before: it begins there.
+  /// Readings of a jack that has only rested do not tell how its load goes.
   void start(Scalar load, Scalar dt) {
     start(load);
+    if (!(fastest_ > 0)) seen_ = 0;
     step_ = dt;
     age_ = -dt;
   }
