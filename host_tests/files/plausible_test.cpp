@@ -368,6 +368,52 @@ TEST_CASE(
   CHECK(remark(slowly).empty());
 }
 
+TEST_CASE(
+    "a jack that is let out though its wedge never holds, or locked in the row of its load, is remarked on") {
+  const auto remarks = [](const std::string& wedge, const std::string& log) {
+    const Scratch scratch;
+    Site site;
+    site.wedge = wedge;
+    const Outcome outcome = run(scratch, site, "estimate", log);
+    CHECK_MESSAGE(outcome.status == 0, outcome.err);
+    return outcome.err;
+  };
+  const std::string wedge = R"(, "seating": 0.002)",
+                    let_out = "time,C.end\n0,0\n60,10000\n120,20000\n180,30000\n240,0\n300,0\n";
+  CHECK(remarks(wedge, let_out)
+            .find("remark: the load of \"C.end\" falls from 30000 N to next to nothing after line 5, and the "
+                  "end is "
+                  "never locked: if its wedge was drawn in there, \"C.end.locked\" is 1 from line 6 on; if "
+                  "it has "
+                  "none, leave out \"seating\"\n") != std::string::npos);
+  // Without a wedge it is let out, and one row is a slip.
+  CHECK(remarks("", let_out).find("never locked") == std::string::npos);
+  CHECK(remarks(wedge, "time,C.end\n0,0\n60,20000\n120,0\n180,30000\n").find("never locked") ==
+        std::string::npos);
+  const std::string stages = "time,C.end,C.end.locked\n0,0,0\n60,10000,0\n120,20000,0\n";
+  CHECK(
+      remarks(wedge, stages + "180,30000,1\n240,0,1\n")
+          .find("remark: the load 30000 N of \"C.end\" in line 5 is not used, for the end is locked in that "
+                "row, and 20000 N before: if the jack pulled it before the wedge was drawn in, give it a row "
+                "of its own before that\n") != std::string::npos);
+  for (const char* locked : {"180,20100,1\n", "180,0,1\n", "180,30000,0\n240,30000,1\n"})
+    CHECK(remarks(wedge, stages + locked).find("is not used") == std::string::npos);
+}
+
+TEST_CASE("an area in mm2 is refused by name") {
+  const Scratch scratch;
+  std::ofstream(scratch.path / "scene.json") <<
+      R"({ "taut": 1, "name": "n", "dimension": 2, "nodes": { "a": [0, 0], "b": [10, 0] }, "supports": { "a": "xy",
+      "b": "xy" }, "cables": [ { "name": "C", "path": ["a", "b"], "E": 2e11, "A": 140, "start": "anchored",
+      "end": "jacked" } ] })";
+  const Outcome refused = run_taut(scratch, "check " + scratch.quoted("scene.json"));
+  CHECK(refused.status == 2);
+  CHECK_MESSAGE(
+      refused.err.find("/cables/0/A: a cross-section of 140 m2 is that of no cable; write it in m2, as "
+                       "in 1.4e-3") != std::string::npos,
+      refused.err);
+}
+
 TEST_CASE("plausible is true or false") {
   const Scratch scratch;
   std::ofstream(scratch.path / "scene.json")

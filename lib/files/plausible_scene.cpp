@@ -11,9 +11,9 @@
 namespace taut::host {
 namespace {
 
-constexpr double least_E = 1e9, most_E = 1e12, least_E_of_strut = 1e6, most_A_of_strut = 1, longest = 1e4,
-                 most_on_node = 1e10, most_kelvin = 1000, most_alpha = 1e-3, most_seating = 0.1,
-                 most_mu_of_capstan = 2, most_part = 1;
+constexpr double least_E = 1e9, most_E = 1e12, least_E_of_strut = 1e6, most_A = 100, most_A_of_strut = 1,
+                 longest = 1e4, most_on_node = 1e10, most_kelvin = 1000, most_alpha = 1e-3,
+                 most_seating = 0.1, most_mu_of_capstan = 2, most_part = 1;
 constexpr const char* no_per_cent = "write a part and not per cent";
 
 [[noreturn]] void refuse(const SceneDescription& scene, const std::string& place, const std::string& problem,
@@ -31,6 +31,9 @@ void check_cable(std::size_t c, const SceneDescription& scene) {
   if (cable.E < least_E || cable.E > most_E)
     refuse(scene, place + "/E", "a modulus of " + plain(cable.E) + " N/m2 is that of no cable",
            "write it in N/m2, as in 2e11 for steel");
+  if (cable.A > most_A)
+    refuse(scene, place + "/A", "a cross-section of " + plain(cable.A) + " m2 is that of no cable",
+           "write it in m2, as in 1.4e-3");
   for (std::size_t i = 0; i < cable.prestrain.size(); ++i)
     if (cable.prestrain[i] > largest_plausible_strain)
       refuse(scene,

@@ -370,6 +370,12 @@ constexpr Translation translations[] = {
     {"Check the cell, its plug and the logger. If the pump was worked meanwhile, forces are others.",
      "检查测力计、插头和采集仪。若其间油泵曾工作，则力已不同。",
      "Messdose, Stecker und Messgerät prüfen. Wurde inzwischen gepumpt, sind die Kräfte andere."},
+    {"This end was marked as unlocked before its jack pulls what the wedge holds. A wedge cannot come free "
+     "before that: it is taken to hold until then.",
+     "该端在千斤顶尚未达到夹片所持之力时就被标为解锁。夹片在此之前不会松开：在那之前视为仍然锚固。",
+     "Dieses Ende wurde als gelöst gekennzeichnet, bevor seine Presse zieht, was der Keil hält. Vorher kann "
+     "ein "
+     "Keil nicht frei werden: bis dahin gilt er als verankert."},
     {"This end was locked while the load of its jack fell, or when next to none was left. If its wedge held "
      "before the log says so, the forces are those from before the load fell; the intervals reach that far.",
      "该端锚固时千斤顶荷载正在下降，或已所剩无几。若夹片早于记录所示锚固，则力为下降之前的力；区间已延伸至该"
@@ -623,6 +629,22 @@ constexpr Translation translations[] = {
      "{7} 行起为 1",
      "die Last von {1} fällt nach Zeile {4} von {2} auf {3} N, und das Ende ist erst in Zeile {5} verankert: "
      "wenn sein Keil vorher eingezogen wurde, ist {6} ab Zeile {7} gleich 1"},
+    {"the load of {1} falls from {2} N to next to nothing after line {3}, and the end is never locked: if "
+     "its wedge was drawn in there, {4} is 1 from line {5} on; if it has none, leave out \"seating\"",
+     "{1} 的荷载在第 {3} 行之后从 {2} N 降到几乎为零，而该端从未锚固：如果夹片在那里回缩，则 {4} 应从第 {5} "
+     "行起为 1；如果没有夹片，请删去 \"seating\"",
+     "die Last von {1} fällt nach Zeile {3} von {2} N auf so gut wie nichts, und das Ende ist nie verankert: "
+     "wenn sein Keil dort eingezogen wurde, ist {4} ab Zeile {5} gleich 1; hat es keinen, \"seating\" "
+     "weglassen"},
+    {"the load {2} N of {1} in line {3} is not used, for the end is locked in that row, and {4} N before: "
+     "if the jack pulled it before the wedge was drawn in, give it a row of its own before that",
+     "{1} 在第 {3} 行的荷载 {2} N 未被使用，因为该端在此行已锚固，之前为 {4} "
+     "N：如果千斤顶在夹片回缩前达到该荷载，"
+     "请在此之前为它单独写一行",
+     "die Last {2} N von {1} in Zeile {3} wird nicht benutzt, denn das Ende ist in dieser Zeile verankert, "
+     "und "
+     "{4} N davor: wenn die Presse sie zog, bevor der Keil eingezogen wurde, ihr davor eine eigene Zeile "
+     "geben"},
     {"column {1} is a measurement: simulate does not use it", "列 {1} 是测量值：simulate 不使用",
      "Spalte {1} ist eine Messung: simulate benutzt sie nicht"},
     {"column {1} is a measurement at an anchored end: simulate does not use it",
