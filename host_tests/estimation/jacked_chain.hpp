@@ -124,26 +124,31 @@ class Jacked {
     readings.ends[0][0].force = far;
     REQUIRE(estimator_.advance(readings).status.ok());
   }
-  /// A row in which the wedge still holds the end, and the jack pulls so much.
-  void pull_locked(double force) {
+  /// A row in which the jack's cell is read, locked or not.
+  void row_of_jack(double force, bool locked, double dt) {
     taut::Readings<double, PlaneCapacity> readings;
-    readings.dt = 1;
-    readings.sample.jack[0][1].locked = readings.ends[0][1].has_force = true;
+    readings.dt = dt;
+    readings.sample.jack[0][1].locked = locked;
+    readings.ends[0][1].has_force = true;
     readings.ends[0][1].force = force;
     REQUIRE(estimator_.advance(readings).status.ok());
   }
+  /// A row in which the wedge still holds the end, and the jack pulls so much.
+  void pull_locked(double force) { row_of_jack(force, true, 1); }
   /// Goes on from what was saved, as after a power failure.
   void reload() {
     const auto saved = std::make_unique<Estimator::State>(estimator_.save());
     REQUIRE(estimator_.restore(model_, prior_, *saved).ok());
   }
   /// A row of two jacks.
-  void row_of_both(double start, double end, bool locked) {
+  void row_of_both(double start, double end, bool locked) { row_of_both(start, locked, end, locked); }
+  void row_of_both(double start, bool start_locked, double end, bool end_locked) {
     taut::Readings<double, PlaneCapacity> readings;
     readings.dt = 1;
-    readings.sample.jack[0][0].locked = readings.sample.jack[0][1].locked = locked;
-    readings.ends[0][0] = {!locked, false, start, 0};
-    readings.ends[0][1] = {!locked, false, end, 0};
+    readings.sample.jack[0][0].locked = start_locked;
+    readings.sample.jack[0][1].locked = end_locked;
+    readings.ends[0][0] = {!start_locked, false, start, 0};
+    readings.ends[0][1] = {!end_locked, false, end, 0};
     REQUIRE(estimator_.advance(readings).status.ok());
   }
   taut::ForceEstimate<double> operator[](int segment) const { return estimator_.estimate(segment); }

@@ -3,9 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 
+#include "estimation/jacked_chain.hpp"
 #include "support/random.hpp"
 #include "taut/estimation/jack_load.hpp"
 
@@ -124,4 +127,31 @@ TEST_CASE(
 TEST_CASE("readings of nobody who has seen noise are no sign") {
   taut::StandingCell<float> standing;
   for (int i = 0; i < 1000; ++i) CHECK_FALSE(standing.take(0, 1, true));
+}
+
+TEST_CASE("a jack's cell that stands still in a ramp, without any rest before, is told by the far end") {
+  for (const int rows : {3, 25})
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      CAPTURE(rows);
+      CAPTURE(seed);
+      support::Random random(seed);
+      estimation::Said said;
+      said.jack_sd = said.far_sd = 1e-3 * estimation::full;
+      const auto jacked = std::make_unique<estimation::Jacked>(4e-3, said);
+      estimation::Chain chain(estimation::mu);
+      const auto noise = [&] { return said.jack_sd * support::gaussian(random); };
+      double shown = 0;
+      bool is_told = false;
+      estimation::Score score;
+      for (int i = 1; i <= 60; ++i) {
+        chain.pull(estimation::full * i / 60);
+        if (i < 20 || i >= 20 + rows) shown = estimation::full * i / 60 + noise();
+        jacked->row(shown, false, 1, chain[0] + noise());
+        is_told |= jacked->raises(taut::Alarm::Kind::frozen);
+        // Of a row that may be one in which the load rests bars do not know yet.
+        if (i > 20) add_to(score, *jacked, chain);
+      }
+      CHECK(score.worst < 5);
+      CHECK(is_told == (rows > 10));
+    }
 }

@@ -177,3 +177,40 @@ TEST_CASE(
   other->row(1.01 * held, false, 1, -1);
   CHECK(std::fabs((*other)[segments - 1].force - 1.01 * held) < 0.01 * held);
 }
+
+TEST_CASE(
+    "an end that is let out once its wedge is free is followed down, though what it held was not known "
+    "well") {
+  for (const double mu_sd : {0.02, 0.08, 0.5 * mu})
+    for (const int rows : {4, 8, 40})
+      for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        CAPTURE(mu_sd);
+        CAPTURE(rows);
+        CAPTURE(seed);
+        support::Random random(seed);
+        Said said;
+        said.mu_sd = mu_sd;
+        said.jack_sd = 1e-3 * full;
+        said.has_two_jacks = true;
+        const auto jacked = std::make_unique<Jacked>(1e-3, said);
+        Chain chain(mu);
+        const auto noise = [&] { return said.jack_sd * support::gaussian(random); };
+        for (int i = 1; i <= 50; ++i) {
+          chain.pull(full * i / 50);
+          jacked->row_of_both(0, true, full * i / 50 + noise(), false);
+        }
+        chain.lock(1e-3);
+        for (int i = 0; i < 5; ++i) jacked->row_of_both(0, true, 0, true);
+        // The wedge comes free where the jack pulls what it held.
+        const double held = chain[0];
+        for (int i = 0; i < 5; ++i) jacked->row_of_both(held + noise(), false, 0, true);
+        for (int i = 1; i <= rows; ++i) {
+          const double load = held * (1 - 0.95 * i / rows);
+          chain.pull(load, Side::start);
+          jacked->row_of_both(load + noise(), false, 0, true);
+        }
+        Score score;
+        add_to(score, *jacked, chain);
+        CHECK(score.worst < 4);
+      }
+}

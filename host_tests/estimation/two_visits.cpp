@@ -53,6 +53,15 @@ class Visits {
  public:
   Visits(Site<Scalar>& site, std::array<Tally, stages>& tallies) : site_(site), tallies_(tallies) {}
 
+  /// The jack comes to pull what the wedge holds, which goes on holding it.
+  void put_on_again(int samples) {
+    const double held = site_.true_force(site_.segments() - 1);
+    for (int i = 1; i <= samples; ++i) {
+      deed_.force[1] = held * i / samples;
+      site_.advance(deed_);
+      REQUIRE(site_.good());
+    }
+  }
   void go(Stage stage, double force, double factor, bool is_locked, int samples) {
     const Deed from = deed_;
     for (int i = 1; i <= samples; ++i) {
@@ -102,6 +111,8 @@ TEST_CASE_TEMPLATE("the error bars hold before, during and after a change of tem
         visits.go(at_other_temperature, 0.8, warmer, true, 40);
         if (!elastic) CHECK(std::fabs(site->true_force(0) / before - 1) > 0.2);
         visits.go(left_alone, 0, warmer, true, 20);
+        // The wedge holds until the jack pulls as much.
+        visits.put_on_again(50);
         visits.go(jacking_again, 1, warmer, false, 100);
         visits.go(holding_again, 1, warmer, false, 40);
       }

@@ -462,9 +462,10 @@ TEST_CASE("every text that a report says has its words in every language, with t
   }
   CHECK(texts["say"] > 100);
   CHECK(texts["Sentence"] > 50);
-  for (const char* kind : {"outlier", "sensor", "mu", "stuck", "elongation", "force-high", "force-low",
-                           "no-information", "gauge", "model-misfit", "frozen", "gain", "unknown-past",
-                           "lift-off", "unread", "late-lock", "silent", "unreadable", "no such alarm"}) {
+  for (const char* kind :
+       {"outlier",        "sensor",    "mu",           "stuck",  "elongation", "force-high",   "force-low",
+        "no-information", "gauge",     "model-misfit", "frozen", "gain",       "unknown-past", "lift-off",
+        "unread",         "late-lock", "early-unlock", "silent", "unreadable", "no such alarm"}) {
     const AlarmMeaning meaning = alarm_meaning(kind);
     CHECK(known.count(meaning.means) == 1);
     CHECK(known.count(meaning.to_do) == 1);

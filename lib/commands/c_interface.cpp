@@ -315,9 +315,9 @@ const char* @name@_alarm_name(int kind) {
   static constexpr const char* names[] = {"outlier",    "sensor",    "mu",             "stuck",   "elongation",
                                           "force-high", "force-low", "no-information", "gauge",   "lift-off",
                                           "gauge",      "unknown-past", "model-misfit", "frozen", "gain",
-                                          "unread",     "late-lock"};
+                                          "unread",     "late-lock",  "early-unlock"};
   constexpr int count = static_cast<int>(sizeof names / sizeof names[0]);
-  static_assert(count == static_cast<int>(taut::Alarm::Kind::late_lock) + 1, "every kind has a name");
+  static_assert(count == static_cast<int>(taut::Alarm::Kind::early_unlock) + 1, "every kind has a name");
   return kind >= 0 && kind < count ? names[kind] : "?";
 }
 

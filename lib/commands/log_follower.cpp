@@ -22,6 +22,7 @@
 #include "lib/files/text.hpp"
 #include "lib/kinds/capacities.hpp"
 #include "lib/kinds/condensed_arrays.hpp"
+#include "taut/estimation/jump_guard.hpp"
 
 namespace taut::host {
 namespace {
@@ -332,7 +333,8 @@ Sentence LogFollower::follow_row(const LogRow& row, Answer& answer, const RowVis
     return Sentence("{1}: {2}; {3}", {place(row), number, Sentence(remedy_of_impossible_numbers)});
   warn_of_bend(row, answer);
   warn_of_turn(row);
-  if (options_.method == Method::estimate) answer.verdict = verdict_.take(answer.alarms);
+  const bool is_stage = followed_ > 0 && row.time - last_.time > JumpGuard<double>::far_apart;
+  if (options_.method == Method::estimate) answer.verdict = verdict_.take(answer.alarms, is_stage);
   ++followed_;
   last_ = row;
   visit(row, answer);

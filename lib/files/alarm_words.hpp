@@ -12,8 +12,9 @@ namespace taut::host {
 
 /// `outlier:C.end`, `sensor:C.start`, `mu:C`, `mu:C.3`, `stuck:C.3`, `elongation:C.end`, `force-high:C.T3`,
 /// `force-low:C.T3`, `no-information:C.start`, `gauge:strut3`, `gauge:C.T3`, `lift-off:C.end`,
-/// `model-misfit:C.start`, `frozen:C.start`, `gain:C.start`, `unread:C.end`, `late-lock:C.end` or
-/// `unknown-past:C`; joints, segments and struts are counted from 1, blanks in a name are `_`.
+/// `model-misfit:C.start`, `frozen:C.start`, `gain:C.start`, `unread:C.end`, `late-lock:C.end`,
+/// `early-unlock:C.end` or `unknown-past:C`; joints, segments and struts are counted from 1, blanks in a name
+/// are `_`.
 inline std::string alarm_word(const Alarm& alarm, const SceneDescription& scene) {
   const std::string number = std::to_string(alarm.place + 1);
   const bool is_at_strut = alarm.cable < 0;
@@ -53,6 +54,8 @@ inline std::string alarm_word(const Alarm& alarm, const SceneDescription& scene)
       return "unread:" + end;
     case Alarm::Kind::late_lock:
       return "late-lock:" + end;
+    case Alarm::Kind::early_unlock:
+      return "early-unlock:" + end;
     case Alarm::Kind::frozen:
       return "frozen:" + end;
     case Alarm::Kind::lift_off:

@@ -19,6 +19,8 @@ struct Rule {
   std::size_t raised;
   int of_rows;
   const char* reason;  // {1} is the place
+  // A load stage is all that there is of its load: there it does, raised once in the last three rows.
+  bool once_in_stages = false;
 };
 // The worst first: what explains the others stands before them.
 constexpr std::array<Rule, 9> rules = {{
@@ -27,9 +29,9 @@ constexpr std::array<Rule, 9> rules = {{
     {"unread", 1, 1, "the load cell at {1} is not read"},
     {"frozen", 1, Verdict::rows, "the load cell at {1} keeps one value although the load moves"},
     {"model-misfit", 1, Verdict::rows, "{1} does not fit the model"},
-    {"sensor", 3, Verdict::rows, "the load cell at {1} contradicts the model"},
-    {"elongation", 3, Verdict::rows, "the stroke at {1} contradicts the model"},
-    {"gauge", 3, Verdict::rows, "the measured force of {1} contradicts the model"},
+    {"sensor", 3, Verdict::rows, "the load cell at {1} contradicts the model", true},
+    {"elongation", 3, Verdict::rows, "the stroke at {1} contradicts the model", true},
+    {"gauge", 3, Verdict::rows, "the measured force of {1} contradicts the model", true},
     {"outlier", 6, Verdict::rows, "the load cell at {1} gives readings that do not belong together"},
 }};
 
@@ -42,11 +44,15 @@ std::size_t times(const Rule& rule, std::uint32_t raised) {
   return (Bits(raised) << static_cast<std::size_t>(Verdict::rows - rule.of_rows)).count();
 }
 
+bool is_doubtful(const Rule& rule, std::uint32_t raised, bool is_stage) {
+  return times(rule, raised) >= rule.raised || (is_stage && rule.once_in_stages && (raised & 0b111U) != 0);
+}
+
 }  // namespace
 
 bool is_trust(const Sentence& verdict) { return verdict.words() == trust; }
 
-Sentence Verdict::take(const std::string& words) {
+Sentence Verdict::take(const std::string& words, bool is_stage) {
   for (auto word = raised_.begin(); word != raised_.end();) {
     word->second = static_cast<std::uint32_t>((Bits(word->second) << 1).to_ulong());
     word = word->second == 0 ? raised_.erase(word) : std::next(word);
@@ -59,7 +65,7 @@ Sentence Verdict::take(const std::string& words) {
   std::size_t count = 0;
   for (const Rule& rule : rules)
     for (const auto& [word, raised] : raised_) {
-      if (count == most_reasons || !is_of(rule, word) || times(rule, raised) < rule.raised) continue;
+      if (count == most_reasons || !is_of(rule, word) || !is_doubtful(rule, raised, is_stage)) continue;
       const Sentence reason(rule.reason, {word.substr(word.find(':') + 1)});
       reasons = count++ == 0 ? reason : Sentence("{1}; {2}", {reasons, reason});
     }

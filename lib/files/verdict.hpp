@@ -29,8 +29,9 @@ class Verdict {
 
   /// The next row, with the words of its alarms as alarm_word() writes them, separated by blanks. Returns its
   /// verdict: `trust`, or `do not trust: ` and the one or two worst reasons, joined by `; `. There is no
-  /// comma in its English. A word of no kind that makes numbers doubtful changes nothing.
-  Sentence take(const std::string& words);
+  /// comma in its English. A word of no kind that makes numbers doubtful changes nothing. In a load stage
+  /// what contradicts the model makes them doubtful if it was raised once in the last three rows.
+  Sentence take(const std::string& words, bool is_stage = false);
 
   const Memory& memory() const { return raised_; }
 

@@ -288,9 +288,10 @@ class LivePage {
       const auto state = static_cast<JointState>(s);
       data["outlines"][state_word(state)] = joint_outline(state);
     }
-    for (const char* kind : {"outlier", "sensor", "mu", "stuck", "elongation", "force-high", "force-low",
-                             "no-information", "gauge", "model-misfit", "frozen", "gain", "unknown-past",
-                             "lift-off", "unread", "late-lock", "silent", "unreadable", "plan-limit"}) {
+    for (const char* kind :
+         {"outlier",        "sensor",    "mu",           "stuck",  "elongation", "force-high",   "force-low",
+          "no-information", "gauge",     "model-misfit", "frozen", "gain",       "unknown-past", "lift-off",
+          "unread",         "late-lock", "early-unlock", "silent", "unreadable", "plan-limit"}) {
       const AlarmMeaning meaning = meaning_of(kind);
       data["meanings"][kind] = {meaning.means, meaning.to_do};
     }

@@ -6,7 +6,7 @@
 namespace taut::host {
 namespace {
 
-constexpr std::array<std::pair<const char*, AlarmMeaning>, 18> meanings = {{
+constexpr std::array<std::pair<const char*, AlarmMeaning>, 19> meanings = {{
     {"outlier",
      {"A reading of the load cell at this jack does not belong to the others. It was left out.",
       "Nothing, if it is rare. If it comes again and again, check the cell, its cable and its sd in the "
@@ -59,6 +59,10 @@ constexpr std::array<std::pair<const char*, AlarmMeaning>, 18> meanings = {{
       "before the log says so, the forces are those from before the load fell; the intervals reach that far.",
       "In the log mark the end as locked from the row on in which its load began to fall, and read it again. "
       "On the device: lock an end before its jack is let out."}},
+    {"early-unlock",
+     {"This end was marked as unlocked before its jack pulls what the wedge holds. A wedge cannot come free "
+      "before that: it is taken to hold until then.",
+      "Nothing."}},
     {"gain",
      {"The load cell at this anchored end and that of the jack surely differ by more than 1 % of the force. "
       "The intervals hold for it; the forces would be known better if they did not.",

@@ -25,12 +25,13 @@ struct Alarm {
     gain,       ///< the load cells at the anchored end and at the jack of a cable surely differ in gain
     unread,     ///< the load cell of a jack has not been read for long: its load is taken to be where it was
     late_lock,  ///< an end was locked while its load fell: the wedge may have held before
+    early_unlock,  ///< an end was unlocked before its jack pulls what the wedge holds: it holds until then
   } kind = Kind::outlier;
   std::int16_t cable = 0;  ///< -1: `place` is a strut
   std::int16_t place = 0;  ///< joint or segment of the cable; end 0 or 1
 
   /// Whether it needs no action: it is raised once where it begins.
-  constexpr bool is_notice() const { return kind == Kind::no_information; }
+  constexpr bool is_notice() const { return kind == Kind::no_information || kind == Kind::early_unlock; }
 
   static constexpr Alarm of(Kind kind, int cable, int place) {
     return {kind, static_cast<std::int16_t>(cable), static_cast<std::int16_t>(place)};

@@ -6,6 +6,7 @@
 
 #include "taut/estimation/draw_in.hpp"
 #include "taut/estimation/drive.hpp"
+#include "taut/estimation/early_unlock.hpp"
 #include "taut/estimation/late_lock.hpp"
 #include "taut/estimation/learning.hpp"
 #include "taut/estimation/leg.hpp"
@@ -66,11 +67,25 @@ template <class Parts>
   auto& jacks = parts.jacks;
   bool has_more = false;
   for (int k = 0; k < jacks.size(); ++k) {
-    const EndReading<Scalar>& given = jacks.in(readings.ends, k);
-    const bool locked = jacks.in(readings.sample.jack, k).locked;
-    HeldByWedge<Scalar> held;
-    if (jacks[k].locked && !locked) held = held_by_wedge(parts, k);
+    EndReading<Scalar> given = jacks.in(readings.ends, k);
+    bool locked = jacks.in(readings.sample.jack, k).locked;
     const auto beside = read_beside(parts, readings, jacks.end(k).cable());
+    HeldByWedge<Scalar> held;
+    if (jacks[k].locked && !locked) {
+      held = held_by_wedge(parts, k);
+      const bool held_yet = jacks[k].unlocked_early;
+      locked = wedge_holds_yet(jacks[k], given, held, parts.cell(k), readings.dt, beside.force);
+      if (locked && !held_yet) parts.alarms.add(Parts::alarm_at(Alarm::Kind::early_unlock, jacks.end(k)));
+    } else {
+      jacks[k].unlocked_early = false;
+    }
+    if (given.has_force && !locked && contradicts_stage(parts, k, given.force, readings.dt, beside)) {
+      given.has_force = false;
+      parts.alarms.add(Parts::alarm_at(Alarm::Kind::outlier, jacks.end(k)));
+    }
+    const bool is_same = given.force == jacks[k].believed,
+               stands = given.has_force && !locked && stands_beside_rise(parts, k, given.force, beside);
+    given.has_force &= !stands;
     if (jacks[k].take(locked, given, readings.dt, parts.cell(k), parts.most_force(k), held, corners,
                       [&] { return sees_rise(parts, k, given.force, beside); }))
       parts.alarms.add(Parts::alarm_at(Alarm::Kind::outlier, jacks.end(k)));
@@ -78,12 +93,12 @@ template <class Parts>
       const Scalar late = parts.lagging.late(jacks.end(k).cable(), jacks.end(k).end);
       if (jacks[k].is_new && late > 0) jacks[k].come_late(late);
     }
-    if (jacks[k].standing.is_frozen())
+    if (jacks[k].standing.is_frozen() || (stands && jacks[k].since > Parts::JacksType::Load::too_old))
       parts.alarms.add(Parts::alarm_at(Alarm::Kind::frozen, jacks.end(k)));
     else if (jacks[k].is_silent())
       parts.alarms.add(Parts::alarm_at(Alarm::Kind::unread, jacks.end(k)));
     if (jacks[k].locked_late) parts.alarms.add(Parts::alarm_at(Alarm::Kind::late_lock, jacks.end(k)));
-    if (jacks[k].is_new) jacks[k].beside = beside.force;
+    if (jacks[k].is_new && !is_same) jacks[k].beside = beside.force;
     has_more |= given.has_stroke | (jacks[k].locked & given.has_force);
   }
   if constexpr (Parts::JacksType::capacity > 1) {
@@ -173,6 +188,7 @@ Progress<typename Parts::Scalar> come_down_to(Parts& parts, const typename Parts
     const int c = end.cable(), other = jacks.find(c, 1 - end.end);
     auto& highest = jacks.in(above.jack, k);
     jacks[k].lie_locked();
+    jacks[k].found_locked = true;
     // A wedge holds no more than the jack at the other end, once all has slid back to that.
     if (other >= 0 && !jacks.in(to.jack, other).locked) {
       highest = {jacks.in(above.jack, other).force, false};

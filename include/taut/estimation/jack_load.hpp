@@ -50,6 +50,12 @@ struct JackLoad {
   static constexpr Scalar fastest = Scalar(0.014);
   /// Readings in a row that show that the jack of a locked end pulls less than its wedge holds.
   static constexpr std::uint8_t confirmed_below = 3;
+  /// A load that has come down to so much of the most that it was is let out: more than between two strokes
+  /// of a hand pump.
+  static constexpr Scalar let_out = Scalar(0.95);
+  /// A reading that is still shown after that time, while the load goes on, is no old one: its cell does not
+  /// live [s].
+  static constexpr Scalar too_old = 10;
   /// A time without readings is so many times as long as the step before, or longer.
   static constexpr Scalar gap = 3;
 
@@ -84,13 +90,17 @@ struct JackLoad {
   bool went_on = false;                  ///< surely, as it was read last
   bool pulls_surely = false;             ///< at a locked end: its last reading is believed
   bool locked_late = false;              ///< its wedge may have held before, see may_have_held_before()
-  bool turned_unseen = false;            ///< once it has turned while it was not read
-  Scalar missed_in = 0;                  ///< if it had not come as far as at its pace, in what time [s]
+  bool found_locked = false;             ///< in the first row: what its wedge holds is not known
+  bool unlocked_early = false;  ///< its wedge holds, though rows have it unlocked: see wedge_holds_yet()
+  Scalar most_pulled = 0;       ///< since then, by its readings [N]
+  bool turned_unseen = false;   ///< once it has turned while it was not read
+  Scalar missed_in = 0;         ///< if it had not come as far as at its pace, in what time [s]
   Scalar missed = 0;   ///< by how much it may have gone farther while it was not read, and come back [N]
   Scalar read_sd = 0;  ///< then the standard deviation of the load where it was last [N]
   Scalar step_by = 0, stride = 0;    ///< how far it had come since the reading before [N], in that time
   Scalar believed = 0, refused = 0;  ///< the last reading that was believed, and that was not [N]
-  Scalar beside = 0;  ///< what the cell at the other end of the cable read with the one that was believed [N]
+  /// What the cell at the other end of the cable read with it, or with the first that was the same [N].
+  Scalar beside = 0;
   std::int32_t taught = 0;    ///< readings of the line that it is on with which unknowns were learned
   bool teaches = false;       ///< those of this row were counted
   std::uint8_t refusals = 0;  ///< in a row
@@ -305,14 +315,30 @@ struct JackLoad {
     return left > 5 * filter.sd() && left < come && come < far;
   }
 
+  /// Whether a load that has left the line of those before is believed at once: rows are load stages, where
+  /// every load is a decision, the last one was another than before, and it is between half and twice that.
+  /// What is farther off, or off a hold, may have been misread.
+  bool is_next_stage(Scalar load) const {
+    constexpr Scalar surely = 5;
+    return since > JumpGuard<Scalar>::far_apart && step_by > surely * filter.sd() &&
+           2 * load >= load_before && load <= 2 * load_before;
+  }
+  /// Whether a load that is more than three times as high as any is left for the next row to tell: rows are
+  /// load stages, of which there have been two, and a digit may have been misplaced.
+  bool is_far_stage(Scalar load) const {
+    constexpr Scalar far = 3, begun = Scalar(0.9);
+    return filter.sd() > 0 && since > JumpGuard<Scalar>::far_apart && at.is_sure() &&
+           step_by < begun * load_before && load > far * larger(farthest, load_before);
+  }
   /// The jack took over from a wedge and does not surely pull more yet: nothing has slid, so that the tracker
   /// stays. Readings that are below what the wedge was taken to hold, by no more than may be, say no more
-  /// than that it held less.
+  /// than that it held less; but a load that has come down from there by a twentieth is let out.
   void stay_taken(Scalar up) {
     if (at.load < up * taken_least) {
       taken = 0;
       return;
     }
+    if (at.is_sure()) taken_least = larger(taken_least, let_out * at.load / up);
     if (at.reversed) filter.start_at(filter.sd(), at.load, at.sd);
     at.reversed = at.behind = false;
     if (at.confirmed > up * taken && at.load > up * taken)
@@ -459,7 +485,7 @@ struct JackLoad {
     missed = 0;
     turned = 0;
     pulls = true;
-    locked = locked_late = false;
+    locked = locked_late = unlocked_early = found_locked = false;
     since = dt;
   }
 
@@ -521,15 +547,17 @@ struct JackLoad {
       const bool is_above = was_read && reading > cell.up * (held.load + 4 * held.deviation);
       guard.start(larger(cell.up * (is_above ? held.load : taken_least), is_above ? raw : reading), dt);
     }
-    bool is_held = cell.sd > 0 && std::isfinite(reading) &&
-                   guard.holds(reading, since, standing.stood(), filter.sd(), fastest * most);
+    const bool is_guarded = cell.sd > 0 && std::isfinite(reading) &&
+                            guard.holds(reading, since, standing.stood(), filter.sd(), fastest * most),
+               is_far = is_far_stage(reading / branch(cell));
+    bool is_held = is_guarded || is_far;
     // What both cells read in a single row may be a fault of their supply: the load is taken to be there, and
     // friction to follow in the next row.
     const bool is_first = at.is_sure() && since <= JumpGuard<Scalar>::far_apart;
     const Scalar shown = reading;
     bool is_shown = is_held && is_seen();
     if (is_shown && !is_first) {
-      guard.believe(reading);
+      if (is_guarded) guard.believe(reading);
       is_held = is_shown = false;
     }
     if (is_held) reading = std::numeric_limits<Scalar>::quiet_NaN();
@@ -538,9 +566,10 @@ struct JackLoad {
     const int run_length = filter.run_length();
     const bool was_alone = at.alone && refusals == 1;
     new (&at) ConditionedLoad<Scalar>(filter.take(reading, since));
-    if (at.refused && std::isfinite(reading) && is_seen()) {
-      is_shown = is_first;
-      if (!is_first) {
+    const bool goes_there = is_next_stage(reading / branch(cell));
+    if (std::isfinite(reading) && ((at.refused && is_seen()) || (goes_there && !at.is_sure()))) {
+      is_shown = is_first && !goes_there;
+      if (!is_shown) {
         filter.lose();
         at = filter.take(reading, since);
       }
@@ -559,7 +588,8 @@ struct JackLoad {
     at.sd = larger(at.sd, lasts);
     at.come_sd = larger(at.come_sd, lasts);
     // Two standard deviations are as far as the load can have gone.
-    if (is_held) at.sd = larger(at.sd, guard.reach() / 2);
+    if (is_held)
+      at.sd = larger(at.sd, is_far ? std::fabs(shown / branch(cell) - load_before) : guard.reach() / 2);
     if (at.is_sure()) {
       // The load has gone where one reading alone had left its line; else it is back on that.
       if (was_alone && filter.run_length() <= 2) turning.add(refused, 0, filter.sd());

@@ -23,6 +23,7 @@ class StandingCell {
     }
     const bool goes_up = reading > last_;
     if (!is_frozen() && same_ > 0) count(repeats_, same_ - 1);
+    if (changes_ < few) ++changes_;
     if (rests && rested_ && goes_up != goes_up_) count(turns_, 1);
     goes_up_ = goes_up;
     rested_ = rests;
@@ -33,6 +34,8 @@ class StandingCell {
   }
   /// For how long the reading has been the same [s].
   Scalar stood() const { return stood_; }
+  /// Whether no reading was the one before until the present one: its value is read anew in every row.
+  bool has_always_changed() const { return changes_ == few && repeats_ == 0; }
   bool is_frozen() const { return same_ >= many && turns_ >= few && turns_ >= 4 * repeats_; }
 
  private:
@@ -51,7 +54,7 @@ class StandingCell {
   Scalar stood_ = 0;
   std::uint8_t same_ = 0;   // in a row
   std::uint8_t turns_ = 0;  // at rest: readings that went the other way than the one before
-  std::uint8_t repeats_ = 0;
+  std::uint8_t repeats_ = 0, changes_ = 0;
   bool goes_up_ = false, rested_ = false;
 };
 

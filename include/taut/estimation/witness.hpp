@@ -7,6 +7,7 @@
 #include "taut/estimation/drive.hpp"
 #include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/held_over.hpp"
+#include "taut/estimation/jump_guard.hpp"
 
 namespace taut {
 
@@ -35,6 +36,44 @@ bool sees_rise(const Parts& parts, int k, typename Parts::Scalar reading,
   const Scalar rise = beside.force - jack.beside, of_jack = reading - jack.believed;
   return of_jack > 0 && rise > surely * beside.deviation &&
          rise > half * held_over(parts.tracker, parts.jacks.end(k).cable()) * of_jack;
+}
+
+/// Whether a reading of jack `k` [N], `dt` [s] after the row before, cannot be its load by what the cell
+/// beside it has read since the last one that was believed: in load stages, where no pace tells. Where the
+/// cable slid over all joints as it was pulled, a load that has gone on farther than twice as far as in the
+/// stage before has taken the far end at least half as far as that of all joints; of several such rows the
+/// first is held to be wrong. A load below half of what lets all joints slide back takes the far end down: as
+/// long as that does not go down, and does not stand still either, the jack was misread, or its wedge holds.
+/// Cost: two products a joint.
+template <class Parts>
+bool contradicts_stage(const Parts& parts, int k, typename Parts::Scalar reading, typename Parts::Scalar dt,
+                       const ForceEstimate<typename Parts::Scalar>& beside) {
+  using Scalar = typename Parts::Scalar;
+  constexpr Scalar surely = 10, half = Scalar(0.5);
+  const auto& jack = parts.jacks[k];
+  const int cable = parts.jacks.end(k).cable();
+  const Scalar scatter = surely * beside.deviation, gone = beside.force - jack.beside;
+  if (!(dt > JumpGuard<Scalar>::far_apart && jack.believed > 0 && jack.beside > scatter) || jack.locked ||
+      gone == 0 || !(gone > -scatter))
+    return false;
+  const Scalar of_jack = reading - jack.believed,
+               held = -larger(-held_over(parts.tracker, cable), -jack.beside / jack.believed);
+  const bool is_below = reading < half * held * beside.force && jack.believed >= held * jack.beside,
+             is_beyond = !jack.is_unread && jack.rises && of_jack > 2 * jack.step_by && gone > scatter &&
+                         gone < half * held * of_jack && parts.filter.slides_throughout(parts.tracker, cable);
+  return is_below || is_beyond;
+}
+
+/// Whether jack `k` reads the very same [N] as in the last row that was believed, and those before, while the
+/// cell beside it has surely gone up since the first of them, though its readings had always changed: then
+/// its cell does not live. Not of a jack whose readings are exact. Cost: a few operations.
+template <class Parts>
+bool stands_beside_rise(const Parts& parts, int k, typename Parts::Scalar reading,
+                        const ForceEstimate<typename Parts::Scalar>& beside) {
+  constexpr typename Parts::Scalar surely = 10;
+  const auto& jack = parts.jacks[k];
+  return reading == jack.believed && parts.cell(k).sd > 0 && jack.beside > 0 &&
+         jack.standing.has_always_changed() && beside.force - jack.beside > surely * beside.deviation;
 }
 
 /// In a row in which the jack of its cable is not read, the load cell at anchored end `e` reads [N] what it

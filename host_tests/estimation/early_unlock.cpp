@@ -1,0 +1,153 @@
+// An end that is marked as unlocked when its pump begins to work, and not once its wedge is free.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "estimation/jacked_chain.hpp"
+
+using namespace estimation;
+
+namespace {
+
+constexpr double seating = 4e-3;
+
+/// A visit that ends behind a wedge, its cell at nothing, and the next one, with its truth.
+class NextVisit {
+ public:
+  NextVisit(std::uint64_t seed, double pace)
+      : random_(seed), jacked_(seating, said()), chain_(mu), dt_(pace) {
+    for (int i = 1; i <= 50; ++i) {
+      chain_.pull(full * i / 50);
+      read(full * i / 50, false, 1);
+    }
+    chain_.lock(seating);
+    for (int i = 0; i < 10; ++i) read(0, true, 1);
+  }
+  double held() const { return chain_[segments - 1]; }
+  /// The jack goes there while the log has the end unlocked; the wedge holds until it has pulled as much.
+  void go(double to, int rows) {
+    const double from = at_;
+    for (int i = 1; i <= rows; ++i) {
+      at_ = from + (to - from) * i / rows;
+      is_free_ = is_free_ || at_ > held();
+      if (is_free_) chain_.pull(at_);
+      read(at_, false, dt_);
+      notices_ += jacked_.raises(taut::Alarm::Kind::early_unlock) ? 1 : 0;
+      add_to(score_, jacked_, chain_);
+    }
+  }
+  /// The jack is let out, the wedge as it was.
+  void lock_again() {
+    at_ = 0;
+    for (int i = 0; i < 5; ++i) {
+      read(0, true, dt_);
+      add_to(score_, jacked_, chain_);
+    }
+  }
+  int notices() const { return notices_; }
+  /// Of all rows.
+  const Score& score() const { return score_; }
+  double off() const {
+    double most = 0;
+    for (int i = 0; i < segments; ++i)
+      most = std::max(most, std::fabs(jacked_[i].force - chain_[i]) / chain_[i]);
+    return most;
+  }
+
+ private:
+  static Said said() {
+    Said said;
+    said.jack_sd = 2e-3 * full;
+    return said;
+  }
+  void read(double force, bool is_locked, double dt) {
+    jacked_.row_of_jack(force + said().jack_sd * support::gaussian(random_), is_locked, dt);
+  }
+
+  support::Random random_;
+  Jacked jacked_;
+  Chain chain_;
+  double dt_, at_ = 0;
+  bool is_free_ = false;
+  int notices_ = 0;
+  Score score_;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "a wedge holds until its jack pulls what it holds, whatever the log says: one notice, and true forces") {
+  for (const int rows : {10, 60})
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      CAPTURE(rows);
+      CAPTURE(seed);
+      const auto visit = std::make_unique<NextVisit>(seed, 1);
+      visit->go(0.9 * visit->held(), rows);
+      CHECK(visit->score().worst < 4);
+      CHECK(visit->notices() == 1);
+      visit->go(1.05 * full, 10);
+      CHECK(visit->score().worst < 4);
+      CHECK(visit->notices() == 1);
+    }
+}
+
+TEST_CASE("so it does in load stages, and where the jack is let out again before it has pulled as much") {
+  for (const double pace : {1.0, 60.0})
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      CAPTURE(pace);
+      CAPTURE(seed);
+      const auto visit = std::make_unique<NextVisit>(seed, pace);
+      visit->go(0.7 * visit->held(), pace > 1 ? 2 : 40);
+      visit->lock_again();
+      CHECK(visit->score().worst < 4);
+      visit->go(0.6 * visit->held(), pace > 1 ? 1 : 40);
+      CHECK(visit->notices() == 2);
+      visit->go(1.05 * full, pace > 1 ? 2 : 40);
+      CHECK(visit->score().worst < 4);
+      CHECK(visit->off() < 0.1);
+    }
+}
+
+TEST_CASE("an end that is unlocked where its jack pulls as much is let out with it, without a notice") {
+  for (const double pace : {1.0, 60.0})
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      CAPTURE(pace);
+      CAPTURE(seed);
+      const auto visit = std::make_unique<NextVisit>(seed, pace);
+      visit->go(1.005 * visit->held(), 1);
+      visit->go(0.5 * full, pace > 1 ? 2 : 40);
+      CHECK(visit->notices() == 0);
+      CHECK(visit->off() < 0.1);
+    }
+}
+
+TEST_CASE("a jack that jumps to a load below, or stands there in a load stage, has let the end out") {
+  for (const double pace : {1.0, 60.0})
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      CAPTURE(pace);
+      CAPTURE(seed);
+      support::Random random(seed);
+      Said said;
+      said.jack_sd = 2e-3 * full;
+      const auto jacked = std::make_unique<Jacked>(seating, said);
+      Chain chain(mu);
+      const auto read = [&](double force, bool locked, double dt) {
+        jacked->row_of_jack(force + said.jack_sd * support::gaussian(random), locked, dt);
+        CHECK_FALSE(jacked->raises(taut::Alarm::Kind::early_unlock));
+      };
+      for (int i = 1; i <= 50; ++i) {
+        chain.pull(full * i / 50);
+        read(full * i / 50, false, 1);
+      }
+      chain.lock(seating);
+      for (int i = 0; i < 10; ++i) read(0, true, 1);
+      const double left = 0.8 * chain[segments - 1];
+      chain.pull(left);
+      // It takes some rows to tell a jump from a loose plug.
+      for (int i = 0; i < 30; ++i) read(left, false, pace);
+      Score score;
+      add_to(score, *jacked, chain);
+      CHECK(score.held == segments);
+    }
+}
