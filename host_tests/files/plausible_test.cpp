@@ -390,6 +390,8 @@ TEST_CASE(
   CHECK(remarks("", let_out).find("never locked") == std::string::npos);
   CHECK(remarks(wedge, "time,C.end\n0,0\n60,20000\n120,0\n180,30000\n").find("never locked") ==
         std::string::npos);
+  CHECK(remarks(wedge, "time,C.end\n0,0\n60,9000\n120,300000\n180,10000\n240,12000\n300,14000\n")
+            .find("never locked") == std::string::npos);
   const std::string stages = "time,C.end,C.end.locked\n0,0,0\n60,10000,0\n120,20000,0\n";
   CHECK(
       remarks(wedge, stages + "180,30000,1\n240,0,1\n")

@@ -118,7 +118,7 @@ std::vector<Sentence> PlausibleLog::doubts() const {
             "locked: if "
             "its wedge was drawn in there, {4} is 1 from line {5} on; if it has none, leave out \"seating\"",
             std::vector<Sentence>{{quote(column)},
-                                  {plain(rounded(never.highest(), 4))},
+                                  {plain(rounded(never.held(), 4))},
                                   {std::to_string(never.held_line())},
                                   {quote(column + ".locked")},
                                   {std::to_string(never.held_line() + 1)}});
