@@ -266,6 +266,68 @@ TEST_CASE("a scene without a jack, and one whose joints lock, are refused") {
   CHECK(has(stuck.outcome.err, "goal.json: /target/C: no jack reaches segment 1 of cable \"C\": joint 1"));
 }
 
+TEST_CASE("jacks that balance what nothing else holds get no plan, and the node and what helps are named") {
+  const auto mast = [](const std::string& left) {
+    return R"({ "taut": 1, "name": "mast", "dimension": 2,
+      "nodes": { "base": [0, 0], "top": [0, 20], "l": [-15, 0], "r": [15, 0] },
+      "supports": { "base": "xy", "l": "xy", "r": "xy" },
+      "struts": [ { "nodes": ["base", "top"], "E": 2.06e11, "A": 5e-3 } ],
+      "cables": [ { "name": "L", "path": ["top", "l"], "E": 1.6e11, "A": 1e-3, "start": "anchored", "end": ")" +
+           left + R"(" },
+                  { "name": "R", "path": ["top", "r"], "E": 1.6e11, "A": 1e-3, "start": "anchored", "end": "jacked" } ] })";
+  };
+  const std::string free =
+      "at once: node \"top\": mechanism: nothing holds this node; add a strut, a support or a substructure "
+      "that holds it, or make all but one of the jacked ends that pull at it \"anchored\": a jack gives a "
+      "force, and holds nothing\n";
+  for (const std::string rest :
+       {R"("L": 2e5, "R": 2.5e5 }, "limits": { "L.end": 4e5, "R.end": 4e5 }, "stages": 3)",
+        R"("L": 2e5, "R": 2e5 }, "stages": 1)", R"("L": 2e5, "R": 2e5 }, "stages": 4, "lock": true)"}) {
+    CAPTURE(rest);
+    const Run run = plan(mast("jacked"), R"({ "taut": 1, "target": { )" + rest + " }");
+    CHECK(run.outcome.status == 1);
+    CHECK_MESSAGE(has(run.outcome.err, "scene.json: no jack can be moved; on the way to L.end "),
+                  run.outcome.err);
+    CHECK_MESSAGE(has(run.outcome.err, free), run.outcome.err);
+    CHECK(run.outcome.out.empty());
+    CHECK_FALSE(run.has_log);
+    CHECK(run.sheet.empty());
+  }
+  const Run anchored =
+      plan(mast("anchored"), R"({ "taut": 1, "target": { "L": 2e5, "R": 2e5 }, "stages": 1 })");
+  CHECK(anchored.outcome.status == 0);
+  CHECK(has(anchored.outcome.out, "with 1 move the forces come within 0.000 % of their targets"));
+}
+
+TEST_CASE("two jacks that push a girder on rollers get no plan, and the roller that is free is named") {
+  const Run run = plan(R"({ "taut": 1, "name": "girder", "dimension": 2,
+    "nodes": { "l": [-10, 0], "a": [0, 0], "b": [8, 0], "r": [20, 0] },
+    "supports": { "l": "xy", "r": "xy", "a": "y", "b": "y" },
+    "struts": [ { "nodes": ["a", "b"], "E": 2.06e11, "A": 5e-3 } ],
+    "cables": [ { "name": "L", "path": ["l", "a"], "E": 1.6e11, "A": 1e-3, "start": "jacked", "end": "anchored" },
+                { "name": "R", "path": ["b", "r"], "E": 1.6e11, "A": 1e-3, "start": "anchored", "end": "jacked" } ] })",
+                       R"({ "taut": 1, "target": { "L": 2e5, "R": 1.9e5 } })");
+  CHECK(run.outcome.status == 1);
+  CHECK_MESSAGE(has(run.outcome.err, ": node \"b\": mechanism: nothing holds this node; "), run.outcome.err);
+  CHECK_FALSE(run.has_log);
+}
+
+TEST_CASE("a way under both jacks of a cable over a pinned strut is refused with the joint that is free") {
+  const Run run = plan(R"({ "taut": 1, "name": "tower", "dimension": 2,
+    "nodes": { "base": [0, 0], "top": [0, 20], "l": [-15, 0], "r": [18, 0] },
+    "supports": { "base": "xy", "l": "xy", "r": "xy" },
+    "struts": [ { "nodes": ["base", "top"], "E": 2.06e11, "A": 5e-3 } ],
+    "cables": [ { "name": "C", "path": ["l", "top", "r"], "E": 1.6e11, "A": 1e-3, "start": "jacked", "end": "jacked",
+                  "friction": { "law": "capstan", "mu": 0.15 } } ] })",
+                       R"({ "taut": 1, "target": { "C": 2e5 } })");
+  CHECK(run.outcome.status == 1);
+  CHECK_MESSAGE(has(run.outcome.err, ": joint 1 of cable \"C\" at node \"top\": mechanism: "),
+                run.outcome.err);
+  CHECK_MESSAGE(has(run.outcome.err, "make all but one of the jacked ends that pull at it \"anchored\""),
+                run.outcome.err);
+  CHECK_FALSE(run.has_log);
+}
+
 TEST_CASE("the example in the README is what the program prints") {
   const Scratch scratch;
   const std::string data = std::string(TAUT_ROOT) + "/firmware_example/data";

@@ -6,7 +6,6 @@
 #include "lib/files/input_error.hpp"
 #include "lib/files/output_file.hpp"
 #include "lib/files/scene_file.hpp"
-#include "lib/files/status_text.hpp"
 #include "lib/files/text.hpp"
 #include "lib/kinds/valid_scene.hpp"
 #include "lib/plan/find_plan.hpp"
@@ -48,7 +47,7 @@ int plan(const PlanOptions& options) {
   PlanResult result;
   result.plan = find_plan(scene, goal);
   if (!result.plan.status) {
-    std::cerr << options.scene << ": " << failure_text(result.plan.status, scene).english() << '\n';
+    std::cerr << options.scene << ": " << no_plan_text(scene, result.plan) << '\n';
     return 1;
   }
   if (options.is_robust) {

@@ -13,8 +13,9 @@ struct PlanOptions {
 };
 
 /// Prints the plan and writes its log and its sheet. Returns the exit status: 0; or 1 if the structure has no
-/// answer, with nothing written, or if limits of the goal leave the best plan further than far_off, which is
-/// written all the same. Throws InputError, with nothing written, for unusable input.
+/// answer, or none as soon as a jack moves, with nothing written, or if limits of the goal leave the best
+/// plan further than far_off, which is written all the same. Throws InputError, with nothing written, for
+/// unusable input.
 int plan(const PlanOptions& options);
 
 }  // namespace taut::host

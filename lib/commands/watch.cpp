@@ -20,7 +20,6 @@
 #include "lib/files/output_file.hpp"
 #include "lib/files/result_file.hpp"
 #include "lib/files/scene_file.hpp"
-#include "lib/files/status_text.hpp"
 #include "lib/files/text.hpp"
 #include "lib/kinds/valid_scene.hpp"
 #include "lib/live/answer_board.hpp"
@@ -252,8 +251,7 @@ class Watch {
       result.plan = find_plan(scene_, *goal_, give_up);
       if (!result.plan.status || !result.plan.outcome.whole) {
         std::cerr << options_.scene << ": "
-                  << (result.plan.status ? "the plan comes to no end"
-                                         : failure_text(result.plan.status, scene_).english())
+                  << (result.plan.status ? "the plan comes to no end" : no_plan_text(scene_, result.plan))
                   << '\n';
         return false;
       }

@@ -381,6 +381,13 @@ bool lacks_tension(const SceneDescription& scene, const Status& status) {
   return false;
 }
 
+template <class Members>
+bool touches(const Members& members, int node) {
+  return std::any_of(members.begin(), members.end(), [node](const auto& member) {
+    return std::any_of(member.nodes.begin(), member.nodes.end(), [node](int other) { return other == node; });
+  });
+}
+
 Sentence failure_remedy_alone(const Status& status, const SceneDescription& scene) {
   switch (status.code) {
     case Code::mechanism:
@@ -420,14 +427,6 @@ Sentence failure_remedy_alone(const Status& status, const SceneDescription& scen
   }
 }
 
-Sentence failure_remedy(const Status& status, const SceneDescription& scene) {
-  const Sentence remedy = failure_remedy_alone(status, scene);
-  const bool may_lack_tension = status.code == Code::mechanism || status.code == Code::gives_way ||
-                                status.code == Code::state_iterations;
-  if (!may_lack_tension || !lacks_tension(scene, status)) return remedy;
-  return Sentence("{1}, or {2}", {Sentence(tension_remedy), remedy});
-}
-
 // In second-order theory: what lets a strut run away that hangs on its cable alone; empty if nothing does.
 Sentence run_away_text(const Status& status, const SceneDescription& scene) {
   const bool has_no_answer = status.code == Code::mechanism || status.code == Code::gives_way ||
@@ -456,20 +455,21 @@ Sentence run_away_text(const Status& status, const SceneDescription& scene) {
   return {};
 }
 
-template <class Members>
-bool touches(const Members& members, int node) {
-  return std::any_of(members.begin(), members.end(), [node](const auto& member) {
-    return std::any_of(member.nodes.begin(), member.nodes.end(), [node](int other) { return other == node; });
-  });
-}
 // Nothing but cables and struts holds it: no support, and no beam or substructure ends there.
 bool hangs_on_bars(const SceneDescription& scene, int node) {
   return scene.nodes[static_cast<std::size_t>(node)].held == held_none && !touches(scene.beams, node) &&
          !touches(scene.substructures, node);
 }
 
+// Supports leave it a direction, and no beam and no substructure ends there.
+bool is_let_go(const SceneDescription& scene, int node) {
+  const unsigned all = scene.dimension == 2 ? held_x | held_y : held_x | held_y | held_z;
+  return (scene.nodes[static_cast<std::size_t>(node)].held & all) != all && !touches(scene.beams, node) &&
+         !touches(scene.substructures, node);
+}
+
 // A mechanism that the core places at a cable without joints is a node at an end of it: one that hangs on
-// cables alone, or else one with struts.
+// cables alone, or else one with struts, or else one on rollers.
 Status at_its_node(const Status& status, const SceneDescription& scene) {
   if (status.code != Code::mechanism || status.place != Place::cable || status.index < 0 ||
       status.index >= static_cast<int>(scene.cables.size()))
@@ -479,6 +479,8 @@ Status at_its_node(const Status& status, const SceneDescription& scene) {
     for (const int node : {path.front(), path.back()})
       if (hangs_on_bars(scene, node) && touches(scene.struts, node) == has_struts)
         return Status::at(Code::mechanism, Place::node, node);
+  for (const int node : {path.front(), path.back()})
+    if (is_let_go(scene, node)) return Status::at(Code::mechanism, Place::node, node);
   return status;
 }
 
@@ -492,6 +494,14 @@ InputError scene_error(const Status& status, const SceneDescription& scene) {
 
 Sentence joint_text(const SceneDescription& scene, int cable, int joint) {
   return subject(Status::along(Code::ok, Place::joint, cable, joint), scene);
+}
+
+Sentence failure_remedy(const Status& status, const SceneDescription& scene) {
+  const Sentence remedy = failure_remedy_alone(status, scene);
+  const bool may_lack_tension = status.code == Code::mechanism || status.code == Code::gives_way ||
+                                status.code == Code::state_iterations;
+  if (!may_lack_tension || !lacks_tension(scene, status)) return remedy;
+  return Sentence("{1}, or {2}", {Sentence(tension_remedy), remedy});
 }
 
 Sentence failure_text(const Status& found, const SceneDescription& scene, const Sentence& remedy) {

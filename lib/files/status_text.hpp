@@ -23,8 +23,11 @@ Sentence joint_text(const SceneDescription& scene, int cable, int joint);
 inline constexpr const char* tension_remedy =
     "\"second_order\" in the scene makes the cable's tension count, which may hold it";
 
+/// What may help where there is no answer, as far as the scene tells.
+Sentence failure_remedy(const Status& status, const SceneDescription& scene);
+
 /// Why there is no answer, as `joint 3 of cable "C": problem; remedy`. `remedy` is what the caller has found
-/// to help; without it, what is known to.
+/// to help; without it, failure_remedy() or what keeps a strut from running away.
 Sentence failure_text(const Status& status, const SceneDescription& scene, const Sentence& remedy = {});
 
 }  // namespace taut::host

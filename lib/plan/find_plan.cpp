@@ -153,6 +153,14 @@ class PlanSearch {
       if (!from_rest.shape.empty()) take_better(best, from_here(from_rest.shape, from_rest.plan.force));
     }
     search_all(best);
+    if (past_ == nullptr && !jacking_->has_moved() && best.merit() > far_off)
+      if (const FailedMove& failure = jacking_->first_failure(); !failure.status) {
+        plan.status = failure.status;
+        plan.failed = failure.to;
+        plan.failed_part = failure.part;
+        plan.loads_come_first = jacking_->loads_come_first();
+        return plan;
+      }
     if (past_ != nullptr && before.merit() <= best.merit() + worth_a_change)
       return finished(plan, before, true);
     be_gentle(best);
@@ -536,6 +544,8 @@ class PlanSearch {
     Found best;
     best.shape = shape;
     best.plan = starts[0];
+    // Where no jack could be moved at all there is no way down.
+    if (!jacking_->has_moved()) return best;
     // A move takes ten times as long in second-order theory.
     const std::size_t scale = scene_.second_order ? 5 : 1;
     const auto go_down = [&](const std::vector<double>& force, double from, std::size_t most_legs) {

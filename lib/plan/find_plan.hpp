@@ -22,7 +22,10 @@ enum class Certainty {
 
 /// A plan, and what it leads to by the model. Units: N, m.
 struct Plan {
-  Status status = Status::success();  ///< else the structure has no answer before any jack moves
+  Status status =
+      Status::success();   ///< else the structure has no answer before, or as soon as, a jack moves
+  PlanStage failed;        ///< where the first trial was to go if all had no answer; else no forces
+  double failed_part = 0;  ///< of the way there
   std::vector<PlanJack> jacks;
   CourseShape shape;
   std::vector<PlanStage> stages;  ///< one a step of the shape

@@ -12,6 +12,10 @@ namespace {
 constexpr int most_events = 100000;
 // Events in the same place.
 constexpr int most_stalls = 64;
+// Steps in a row that bring next to nothing, as where jacks balance what nothing else holds: such a path has
+// no rates, and every step is looked for anew.
+constexpr int most_crawls = 1024;
+constexpr double crawl = 1e-5;
 // Of a cable by what its structure hangs through without it, of its length: twice what a strand stretches.
 constexpr double most_slack = 0.01;
 
@@ -119,9 +123,11 @@ Leg Jacking::follow(const PlanStage& stage, std::vector<std::string>* seen) {
   leg.points.push_back(here());
   if (seen != nullptr) seen->push_back(state());
   double rest = 1;
-  for (int event = 0, stalls = 0; event < most_events && stalls < most_stalls; ++event) {
+  int stalls = 0, crawls = 0;
+  for (int event = 0; event < most_events && stalls < most_stalls && crawls < most_crawls; ++event) {
     const Followed step = model_->advance_to_event(row);
     stalls = step.fraction > 0 ? 0 : stalls + 1;
+    crawls = step.fraction > crawl ? 0 : crawls + 1;
     rest *= 1 - step.fraction;
     leg.whole = step.whole();
     if (step.fraction > 0 || leg.whole) {
@@ -129,8 +135,10 @@ Leg Jacking::follow(const PlanStage& stage, std::vector<std::string>* seen) {
       leg.points.back().part = leg.whole ? 1 : 1 - rest;
       if (seen != nullptr) seen->push_back(state());
     }
+    if (!step.status && failure_.status) failure_ = {step.status, stage, 1 - rest};
     if (leg.whole || !step.status) break;
   }
+  has_moved_ = has_moved_ || (leg.whole && stage.force != beginning_.force);
   return leg;
 }
 

@@ -61,6 +61,13 @@ struct Leg {
   const LegPoint& end() const { return points.back(); }
 };
 
+/// A move that the model had no answer to.
+struct FailedMove {
+  Status status = Status::success();  ///< success: there is none
+  PlanStage to;
+  double part = 0;  ///< of the move until there
+};
+
 /// A model that is jacked.
 class Jacking {
  public:
@@ -97,6 +104,10 @@ class Jacking {
   /// Moves until now, parts of moves counted as moves.
   std::size_t legs() const { return legs_; }
   LegPoint here() const;
+  /// Whether follow() has brought any jack to where it did not stand before the first stage.
+  bool has_moved() const { return has_moved_; }
+  /// Of the moves of follow(), the first one that failed.
+  const FailedMove& first_failure() const { return failure_; }
 
  private:
   bool hangs_too_low() const;
@@ -112,6 +123,8 @@ class Jacking {
   bool loads_come_first_ = true, loads_are_on_ = true;
   Status why_ = Status::success();
   std::size_t legs_ = 0;
+  bool has_moved_ = false;
+  FailedMove failure_;
 };
 
 }  // namespace taut::host

@@ -31,4 +31,7 @@ std::string part_text(double part);
 std::vector<std::string> plan_sentences(const SceneDescription& scene, const PlanGoal& goal,
                                         const PlanResult& result);
 
+/// Why there is no plan, where its status says so: what is free, on which way, and what helps.
+std::string no_plan_text(const SceneDescription& scene, const Plan& plan);
+
 }  // namespace taut::host
