@@ -95,6 +95,33 @@ void check_that_n_is_named(const std::string& scene) {
 
 }  // namespace
 
+TEST_CASE("check says which jacks hold one another alone, and not of those that something else holds") {
+  const auto mast = [](const std::string& struts) {
+    return R"({ "taut": 1, "name": "mast", "dimension": 2,
+      "nodes": { "base": [0, 0], "top": [0, 20], "l": [-15, 0], "r": [15, 0] },
+      "supports": { "base": "xy", "l": "xy", "r": "xy" },
+      "struts": [ )" +
+           struts + R"({ "nodes": ["base", "top"], "E": 2.06e11, "A": 5e-3 } ],
+      "cables": [ { "name": "L", "path": ["top", "l"], "E": 1.6e11, "A": 1e-3, "start": "anchored", "end": "jacked" },
+                  { "name": "R", "path": ["top", "r"], "E": 1.6e11, "A": 1e-3, "start": "anchored", "end": "jacked" } ] })";
+  };
+  const Scratch scratch;
+  const auto check = [&](const std::string& scene) {
+    std::ofstream(scratch.path / "scene.json") << scene;
+    const Outcome outcome = run_taut(scratch, "check " + scratch.quoted("scene.json"));
+    CHECK(outcome.status == 0);
+    return outcome.err;
+  };
+  CHECK(
+      check(mast("")) ==
+      "warning: while the forces of L.end and R.end are given, nothing holds what they pull at, and there is "
+      "an "
+      "answer "
+      "only where they balance; lock or anchor all but one of them, or hold it: add a strut, a support or a "
+      "substructure\n");
+  CHECK(check(mast(R"({ "nodes": ["l", "top"], "E": 2.06e11, "A": 5e-3 }, )")).empty());
+}
+
 TEST_CASE("a node that two cables alone hold is named where they are slack, though they have no joint") {
   check_that_n_is_named(R"({ "taut": 1, "name": "free", "dimension": 2,
     "nodes": { "a": [0, 0], "n": [5, -1], "c": [10, 0], "d": [5, 4] },
