@@ -95,6 +95,20 @@ void check_that_n_is_named(const std::string& scene) {
 
 }  // namespace
 
+TEST_CASE("a node that nothing uses is to be removed or connected") {
+  const Scratch scratch;
+  std::ofstream(scratch.path / "scene.json") << R"({ "taut": 1, "name": "spare", "dimension": 2,
+    "nodes": { "a": [0, 0], "b": [5, 0], "spare": [3, 3] }, "supports": { "a": "xy", "b": "xy" },
+    "cables": [ { "name": "C", "path": ["a", "b"], "E": 2e11, "A": 1e-4, "start": "anchored", "end": "jacked" } ] })";
+  const Outcome refused = run_taut(scratch, "check " + scratch.quoted("scene.json"));
+  CHECK(refused.status == 1);
+  CHECK_MESSAGE(
+      refused.err.find("node \"spare\": mechanism: nothing holds this node; no strut, beam, cable or "
+                       "substructure ends at it or passes it: remove it from \"nodes\", or connect it") !=
+          std::string::npos,
+      refused.err);
+}
+
 TEST_CASE("check says which jacks hold one another alone, and not of those that something else holds") {
   const auto mast = [](const std::string& struts) {
     return R"({ "taut": 1, "name": "mast", "dimension": 2,

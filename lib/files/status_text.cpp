@@ -388,10 +388,23 @@ bool touches(const Members& members, int node) {
   });
 }
 
+// Nothing is between it and any other node.
+bool is_unused(const SceneDescription& scene, int node) {
+  if (touches(scene.struts, node) || touches(scene.beams, node) || touches(scene.substructures, node))
+    return false;
+  return std::none_of(scene.cables.begin(), scene.cables.end(), [node](const CableDescription& cable) {
+    return std::find(cable.path.begin(), cable.path.end(), node) != cable.path.end();
+  });
+}
+
 Sentence failure_remedy_alone(const Status& status, const SceneDescription& scene) {
   switch (status.code) {
     case Code::mechanism:
       if (status.place == Place::joint) return Sentence(sliding_remedy);
+      if (status.place == Place::node && is_unused(scene, status.index))
+        return Sentence(
+            "no strut, beam, cable or substructure ends at it or passes it: remove it from \"nodes\", or "
+            "connect it");
       return Sentence(is_on_beam(scene, status)
                           ? "add a strut, a support or a substructure that holds it, or hold the rotation of "
                             "a beam that turns freely"

@@ -506,6 +506,10 @@ constexpr Translation translations[] = {
     {"unknown status", "未知状态", "unbekannter Zustand"},
     {"add a second strut, a support or a substructure at that node", "在该节点增设第二根撑杆、支座或子结构",
      "an diesem Knoten einen zweiten Stab, ein Lager oder ein Teiltragwerk ergänzen"},
+    {"no strut, beam, cable or substructure ends at it or passes it: remove it from \"nodes\", or connect it",
+     "没有撑杆、梁、索或子结构与其相连：从 \"nodes\" 中删去该节点，或将其连接",
+     "kein Stab, Balken, Seil oder Teiltragwerk endet dort oder führt darüber: aus \"nodes\" entfernen oder "
+     "anschließen"},
     {"add a strut, a support or a substructure that holds it", "增设撑杆、支座或子结构将其约束",
      "einen Stab, ein Lager oder ein Teiltragwerk ergänzen, das ihn hält"},
     {"add a strut, a support or a substructure that holds it, or hold the rotation of a beam that turns "
