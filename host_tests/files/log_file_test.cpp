@@ -302,6 +302,33 @@ TEST_CASE("lines that begin with # count for nothing but the numbers of lines") 
   CHECK(refusal("time,Fy\n0,1\n\n# a remark\n1,2\n").find("log: line 3: the line is blank") == 0);
 }
 
+TEST_CASE("the header again, as of a logger that was restarted, is skipped with a remark") {
+  std::istringstream stream("time,Fy\r\n0,1\r\n time,Fy \r\n1,2\r\n\xEF\xBB\xBFtime,Fy\r\n2,3\r\n");
+  LogReader reader(stream, "log", scene());
+  std::vector<std::size_t> lines;
+  for (LogRow row = reader.first_row(); reader.next(row);) lines.push_back(row.line);
+  CHECK(lines == std::vector<std::size_t>{2, 4, 6});
+  REQUIRE(reader.remarks().size() == 2);
+  CHECK(reader.remarks()[0].english() ==
+        "log: line 3 is the header again; it is skipped, and the log goes on below it");
+  CHECK(refusal("time,Fy\n0,1\ntime,wind\n1,2\n")
+            .find("log: line 3, column 1 (time): \"time\" is not a number") == 0);
+  CHECK(refusal("time,Fy\n5,1\ntime,Fy\n0,2\n")
+            .find("log: line 4, column 1 (time): the time 0 is not after 5") == 0);
+  CHECK(refusal("time,Fy\ntime,Fy\n").find("log: line 3: the log has no rows") == 0);
+}
+
+TEST_CASE("of headers that come again and again only the first are remarked on one by one") {
+  std::string text = "time,Fy\n";
+  for (int i = 0; i < 30; ++i) text += std::to_string(i) + ",1\ntime,Fy\n";
+  std::istringstream stream(text);
+  LogReader reader(stream, "log", scene());
+  for (LogRow row = reader.first_row(); reader.next(row);) continue;
+  REQUIRE(reader.remarks().size() == 21);
+  CHECK(reader.remarks()[20].english() ==
+        "log: line 43 is the header again, as are perhaps more; they are skipped");
+}
+
 TEST_CASE("rows of nothing but separators at the end do not count") {
   CHECK(rows("time,Fy\n0,1\n,\n , \n").size() == 1);
 }

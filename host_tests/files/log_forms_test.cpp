@@ -37,6 +37,26 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a log whose header comes again has the result of the one without, from a file and as a stream") {
+  const Scratch scratch;
+  const std::string head = "time,C.end,C.end.stroke\n", before = "6,1000,0.0001\n12,33350,0.0087\n",
+                    after = "18,90010,0.0203\n";
+  const std::string remark = "line 4 is the header again; it is skipped, and the log goes on below it\n";
+  for (const std::string command : {"simulate", "estimate"}) {
+    const Outcome expected = run(scratch, command, head + before + after, " --hex");
+    REQUIRE(expected.status == 0);
+    const Outcome outcome = run(scratch, command, head + before + head + after, " --hex");
+    CHECK(outcome.status == 0);
+    CHECK(outcome.out == expected.out);
+    CHECK_MESSAGE(outcome.err.find("log.csv: " + remark) != std::string::npos, outcome.err);
+  }
+  std::ofstream(scratch.path / "log.csv") << head + before + head + after;
+  const Outcome streamed = run_taut(scratch, "estimate '" + scene + "' - < " + scratch.quoted("log.csv"));
+  CHECK(streamed.status == 0);
+  CHECK(Table(streamed.out).column("time") == std::vector<std::string>{"6", "12", "18"});
+  CHECK_MESSAGE(streamed.err.find(remark) != std::string::npos, streamed.err);
+}
+
 TEST_CASE("of dates and times, the result has the seconds from the first row") {
   const Scratch scratch;
   const Outcome outcome = run(scratch, "simulate",

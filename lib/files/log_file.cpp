@@ -21,6 +21,8 @@ namespace {
 
 constexpr std::size_t longest_line = std::size_t{1} << 20;
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+// Of one kind, about the rows of a log.
+constexpr std::size_t most_remarks = 20;
 
 std::string_view trimmed(std::string_view text) {
   const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
@@ -124,6 +126,23 @@ bool LogReader::is_blank_row() const {
                      [&](char c) { return c == ' ' || c == '\t' || c == separator_; });
 }
 
+// A logger that was restarted writes its header, and perhaps the byte order mark, anew.
+bool LogReader::is_header_again() const {
+  std::string_view line = text_;
+  if (line.substr(0, byte_order_mark.size()) == byte_order_mark) line.remove_prefix(byte_order_mark.size());
+  return trimmed(line) == header_;
+}
+
+void LogReader::remark_on_header() {
+  const std::vector<Sentence> parts = {file_, std::to_string(line_)};
+  if (++headers_ <= most_remarks)
+    remarks_.push_back(
+        Sentence("{1}: line {2} is the header again; it is skipped, and the log goes on below it", parts));
+  else if (headers_ == most_remarks + 1)
+    remarks_.push_back(
+        Sentence("{1}: line {2} is the header again, as are perhaps more; they are skipped", parts));
+}
+
 // Commas can be in no name, so one of them in the header settles it; tabs beside others are blanks.
 void LogReader::find_separator() {
   bool in_quotes = false;
@@ -186,6 +205,7 @@ void LogReader::read_header() {
     refuse("the log is empty", "write a header, \"time\" and further columns, and rows below it");
   }
   header_line_ = line_;
+  header_ = trimmed(text_);
   find_separator();
   split();
   const std::vector<std::string> header = fields_;
@@ -271,6 +291,10 @@ bool LogReader::next(LogRow& row) {
     if (!read_line_with_content()) {
       if (rows_ == 0) refuse("the log has no rows", "write at least one below the header");
       return false;
+    }
+    if (is_header_again()) {
+      remark_on_header();
+      continue;
     }
     if (!is_blank_row()) break;
     if (blank_line == 0) blank_line = line_;
@@ -387,7 +411,6 @@ void LogReader::take_factor(std::size_t i, double& factor) {
   if (!rules_.are_readings)
     refuse_field(i, "the factor " + plain(given) + " is more than the cables can carry",
                  "write one of a size below " + plain(rules_.most_factor[load]) + ": is the unit wrong?");
-  constexpr std::size_t most_remarks = 20;
   const std::vector<Sentence> parts = {file_, std::to_string(line_), std::to_string(i + 1), names_[i],
                                        plain(given)};
   if (++left_out_ <= most_remarks)

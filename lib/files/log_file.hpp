@@ -66,7 +66,8 @@ struct LogRules {
 
 /// Reads a log from a stream, one row at a time.
 ///
-/// Lines end in LF or CRLF; a byte order mark, lines that begin with # and blank rows at the end are skipped.
+/// Lines end in LF or CRLF; a byte order mark, lines that begin with # and blank rows at the end are skipped,
+/// and with a remark the header where it comes again, as from a logger that was restarted.
 /// The header tells what separates fields: commas, else semicolons, with which a decimal comma is taken too,
 /// else tabs. Blanks around a field do not count, and a field may be in double quotes. Numbers become SI
 /// units by the unit that the header names. Times may be dates: they count in seconds from the first row.
@@ -98,7 +99,7 @@ class LogReader {
   std::size_t header_line() const { return header_line_; }
   /// A place for a message: the line, and the column with this name, which the log has.
   std::string place(std::size_t line, const std::string& column) const;
-  /// Where a factor was left out, of the rows until now.
+  /// Where a factor was left out or the header came again, of the rows until now.
   const std::vector<Sentence>& remarks() const { return remarks_; }
 
  private:
@@ -106,6 +107,8 @@ class LogReader {
   bool read_line_with_content();
   bool is_blank(char c) const;
   bool is_blank_row() const;
+  bool is_header_again() const;
+  void remark_on_header();
   void find_separator();
   void read_header();
   const LogUnit& known_unit(std::size_t i, const LogColumn& column, const NameWithUnit& field) const;
@@ -139,6 +142,7 @@ class LogReader {
   std::size_t time_column_ = 0, header_line_ = 0;
   std::optional<Moment> origin_;
   bool has_dates_ = false;
+  std::string header_;    // its line
   std::string text_;      // the present line
   std::size_t line_ = 0;  // its number
   std::vector<std::string> fields_;
@@ -146,6 +150,7 @@ class LogReader {
   std::size_t rows_ = 0;
   std::vector<Sentence> remarks_;
   std::size_t left_out_ = 0;  // factors
+  std::size_t headers_ = 0;   // after the first
 };
 
 /// Reads the whole log and throws InputError for the first thing in it that does not fit; returns the number

@@ -668,6 +668,13 @@ constexpr Translation translations[] = {
      "{1}：第 {2} 行第 {3} 列（{4}）：系数 {5} 超过索的承载能力，其后可能还有；均沿用前一个值",
      "{1}: Textzeile {2}, Spalte {3} ({4}): der Faktor {5} ist mehr, als die Seile tragen, vielleicht auch "
      "weitere; die vorigen bleiben"},
+    {"{1}: line {2} is the header again; it is skipped, and the log goes on below it",
+     "{1}：第 {2} 行重复了表头；跳过该行，记录从其下一行继续",
+     "{1}: Textzeile {2} ist noch einmal die Kopfzeile; sie wird übersprungen, das Protokoll geht darunter "
+     "weiter"},
+    {"{1}: line {2} is the header again, as are perhaps more; they are skipped",
+     "{1}：第 {2} 行重复了表头，其后可能还有；均予跳过",
+     "{1}: Textzeile {2} ist noch einmal die Kopfzeile, vielleicht auch weitere; sie werden übersprungen"},
     {"cable {1} has no \"mu_sd\": half of mu, {2}, is taken for its standard deviation",
      "索 {1} 没有 \"mu_sd\"：以 mu 的一半 {2} 作为其标准差",
      "Seil {1} hat kein \"mu_sd\": die Hälfte von mu, {2}, gilt als Standardabweichung"},
