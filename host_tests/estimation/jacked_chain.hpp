@@ -166,6 +166,18 @@ class Jacked {
 inline void add_to(Score& score, const Jacked& jacked, const Chain& chain) {
   for (int i = 0; i < segments; ++i) score.add((jacked[i].force - chain[i]) / jacked[i].deviation);
 }
+/// How all of them are held in the present row.
+inline Score score_of(const Jacked& jacked, const Chain& chain) {
+  Score score;
+  add_to(score, jacked, chain);
+  return score;
+}
+/// The largest error of one of them, as a part of what it is.
+inline double largest_error(const Jacked& jacked, const Chain& chain) {
+  double most = 0;
+  for (int i = 0; i < segments; ++i) most = std::max(most, std::fabs(jacked[i].force - chain[i]) / chain[i]);
+  return most;
+}
 
 /// A ramp, a hold, half of the time a release, and lock-off, perhaps with a cell at the far end: what is
 /// shown of segments once the wedge is drawn in, after so many rows more, when the jack has taken hold again,

@@ -29,17 +29,8 @@ class Stages {
     read(0, is_said);
   }
   int outliers() const { return outliers_; }
-  Score here() const {
-    Score score;
-    add_to(score, jacked_, chain_);
-    return score;
-  }
-  double off() const {
-    double most = 0;
-    for (int i = 0; i < segments; ++i)
-      most = std::max(most, std::fabs(jacked_[i].force - chain_[i]) / chain_[i]);
-    return most;
-  }
+  Score here() const { return score_of(jacked_, chain_); }
+  double off() const { return largest_error(jacked_, chain_); }
   double deviation(int segment) const { return jacked_[segment].deviation; }
 
  private:
