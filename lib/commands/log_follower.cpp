@@ -333,7 +333,7 @@ Sentence LogFollower::follow_row(const LogRow& row, Answer& answer, const RowVis
     return Sentence("{1}: {2}; {3}", {place(row), number, Sentence(remedy_of_impossible_numbers)});
   warn_of_bend(row, answer);
   warn_of_turn(row);
-  const bool is_stage = followed_ > 0 && row.time - last_.time > JumpGuard<double>::far_apart;
+  const bool is_stage = followed_ > 0 && JumpGuard<double>::is_stage(row.time - last_.time);
   if (options_.method == Method::estimate) answer.verdict = verdict_.take(answer.alarms, is_stage);
   ++followed_;
   last_ = row;

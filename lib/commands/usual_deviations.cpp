@@ -132,7 +132,7 @@ struct CellReadings {
   }
   void look(double reading, double at) {
     largest = std::max(largest, std::fabs(reading));
-    if (count > 0 && at - time > JumpGuard<double>::far_apart) scatter.interrupt();
+    if (count > 0 && JumpGuard<double>::is_stage(at - time)) scatter.interrupt();
     scatter.add(reading);
     time = at;
     ++count;

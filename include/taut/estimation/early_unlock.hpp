@@ -23,7 +23,7 @@ template <class Load, class Scalar>
                                    Scalar far_end) {
   constexpr Scalar surely = 4;
   const bool is_read = given.has_force && std::isfinite(given.force),
-             is_stage = dt > JumpGuard<Scalar>::far_apart;
+             is_stage = JumpGuard<Scalar>::is_stage(dt);
   if (!is_read) return jack.unlocked_early;
   if (jack.found_locked || 2 * far_end < jack.beside) return false;
   const Scalar noise = surely * cell.noise(), load = cell.up * held.load,

@@ -270,7 +270,7 @@ struct JackLoad {
   /// it had, and to no more than `most` [N]: where it was on its way, and has not come as far by `least` [N].
   /// Half of that is the most likely.
   Scalar gone_missed(Scalar least, Scalar most) const {
-    if (!went_on || !(stride > 0 && stride <= JumpGuard<Scalar>::far_apart)) return 0;
+    if (!went_on || was_stage() || !(stride > 0)) return 0;
     const Scalar left = step_by / stride * since - std::fabs(at.load - load_before),
                  room = larger(rises ? most - farthest : farthest, Scalar(0));
     return left > least ? -larger(-left / 2, -room) : Scalar(0);
@@ -315,20 +315,24 @@ struct JackLoad {
     return left > 5 * filter.sd() && left < come && come < far;
   }
 
+  /// Whether it was read last so long ago that the row is a load stage, or comes after a pause: what the load
+  /// has done since then is not known.
+  bool is_stage() const { return JumpGuard<Scalar>::is_stage(since); }
+  /// The same of the row in which it was read last.
+  bool was_stage() const { return JumpGuard<Scalar>::is_stage(stride); }
   /// Whether a load that has left the line of those before is believed at once: rows are load stages, where
   /// every load is a decision, the last one was another than before, and it is between half and twice that.
   /// What is farther off, or off a hold, may have been misread.
   bool is_next_stage(Scalar load) const {
     constexpr Scalar surely = 5;
-    return since > JumpGuard<Scalar>::far_apart && step_by > surely * filter.sd() &&
-           2 * load >= load_before && load <= 2 * load_before;
+    return is_stage() && step_by > surely * filter.sd() && 2 * load >= load_before && load <= 2 * load_before;
   }
   /// Whether a load that is more than three times as high as any is left for the next row to tell: rows are
   /// load stages, of which there have been two, and a digit may have been misplaced.
   bool is_far_stage(Scalar load) const {
     constexpr Scalar far = 3, begun = Scalar(0.9);
-    return filter.sd() > 0 && since > JumpGuard<Scalar>::far_apart && at.is_sure() &&
-           step_by < begun * load_before && load > far * larger(farthest, load_before);
+    return filter.sd() > 0 && is_stage() && at.is_sure() && step_by < begun * load_before &&
+           load > far * larger(farthest, load_before);
   }
   /// The jack took over from a wedge and does not surely pull more yet: nothing has slid, so that the tracker
   /// stays. Readings that are below what the wedge was taken to hold, by no more than may be, say no more
@@ -402,9 +406,10 @@ struct JackLoad {
     if (!is_unread) read_sd = filter.run_length() > 0 ? at.sd : cell.noise();
     is_unread = true;
     // A load stage is one, however soon it comes; and what is not due yet is not lost.
-    const bool is_stage = stride > JumpGuard<Scalar>::far_apart, is_due = since > Scalar(0.75) * stride;
+    const bool is_due = since > Scalar(0.75) * stride;
     const Scalar lost = is_due ? -larger(-since, -stride) : Scalar(0),
-                 times = since >= steps * stride ? steps : larger(since / stride, Scalar(is_stage ? 1 : 0)),
+                 times =
+                     since >= steps * stride ? steps : larger(since / stride, Scalar(was_stage() ? 1 : 0)),
                  on = larger(filter.gone(since) / branch(cell), stride > 0 ? times * step_by : step_by),
                  begun = gone_from_rest(taken > 0 ? since : lost, filter.lasted()),
                  gone = std::sqrt(on * on + begun * begun);
@@ -452,7 +457,7 @@ struct JackLoad {
   /// not be as sure.
   void lock(const LoadCell<Scalar>& cell, Corners<Scalar>& corners) {
     const Scalar come_back = back(at.load), fallen = rises ? at.come - at.load : at.load - at.come;
-    const bool has_turned = come_back > (since > JumpGuard<Scalar>::far_apart ? Scalar(0) : 5 * filter.sd());
+    const bool has_turned = come_back > (is_stage() ? Scalar(0) : 5 * filter.sd());
     at.reversed = has_turned || missed > 0 || fallen > 3 * at.come_sd;
     if (missed > 0) {
       turn_sd = turn_beyond(farthest, missed / 2, farthest_sd);
@@ -553,7 +558,7 @@ struct JackLoad {
     bool is_held = is_guarded || is_far;
     // What both cells read in a single row may be a fault of their supply: the load is taken to be there, and
     // friction to follow in the next row.
-    const bool is_first = at.is_sure() && since <= JumpGuard<Scalar>::far_apart;
+    const bool is_first = at.is_sure() && !is_stage();
     const Scalar shown = reading;
     bool is_shown = is_held && is_seen();
     if (is_shown && !is_first) {
@@ -600,8 +605,7 @@ struct JackLoad {
       // a row a load stage says that the jack may have gone as far again.
       const Scalar from = at.alone ? load_before * branch(cell) : at.load;
       if (std::isfinite(reading) || is_shown)
-        at.sd = larger(
-            at.sd, std::fabs(shown - from) / (at.refused && since > JumpGuard<Scalar>::far_apart ? 1 : 2));
+        at.sd = larger(at.sd, std::fabs(shown - from) / (at.refused && is_stage() ? 1 : 2));
       // Friction stands where the load is, perhaps elsewhere.
       at.come = at.load;
       at.come_sd = at.sd;
@@ -672,7 +676,7 @@ struct JackLoad {
   /// Beside other jacks: after take(), whether it goes on.
   void follow_moves(Scalar dt, const LoadCell<Scalar>& cell) {
     if (is_new)
-      moves.follow(at.load, filter.sd() / branch(cell), dt > JumpGuard<Scalar>::far_apart);
+      moves.follow(at.load, filter.sd() / branch(cell), JumpGuard<Scalar>::is_stage(dt));
     else
       moves.rest();
   }

@@ -25,6 +25,8 @@ class JumpGuard {
   static constexpr std::uint8_t most_held = 15;
   /// Rows are load stages, or pauses lie between them [s].
   static constexpr Scalar far_apart = 5;
+  /// Whether a row so long after another one [s] is a load stage, or comes after a pause.
+  static constexpr bool is_stage(Scalar dt) { return dt > far_apart; }
 
   /// Begins at a load that is known [N].
   void start(Scalar load) {
@@ -49,8 +51,8 @@ class JumpGuard {
                  steps = step_ > 0 && dt > step_ ? dt / step_ : Scalar(1),
                  possible = held_ == 0 ? jump : scatter + (passed_ + steps) * farthest_;
     const bool stays = held_ > 0 && from_shown < jump && from_shown < off;
-    const bool is_pause = dt > far_apart || (dt > pause * step_ && !stays &&
-                                             !(change > larger(far * fastest_, most) * dt + far * scatter));
+    const bool is_pause = is_stage(dt) || (dt > pause * step_ && !stays &&
+                                           !(change > larger(far * fastest_, most) * dt + far * scatter));
     const Scalar pace = held_ == 0 ? off / steps : on_by(reading, steps);
     const bool is_line = held_ == 0 || (is_line_ && pace_ <= slower * pace + 2 * scatter),
                goes_on = held_ >= line && is_line;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "taut/estimation/alarms.hpp"
-#include "taut/estimation/jump_guard.hpp"
 #include "taut/numerics/larger.hpp"
 
 namespace taut {
@@ -19,7 +18,7 @@ bool may_have_held_before(const Parts& parts, int k) {
   using Scalar = typename Parts::Scalar;
   const auto& jack = parts.jacks[k];
   const Scalar from = parts.turned.force(parts.end_segment(k));
-  const bool falls = jack.went_on && jack.stride <= JumpGuard<Scalar>::far_apart;
+  const bool falls = jack.went_on && !jack.was_stage();
   // A release to lock-off is slower.
   const bool is_let_out = falls && jack.step_by > Scalar(0.05) * from;
   return jack.locks_now && !jack.locks_rising() &&

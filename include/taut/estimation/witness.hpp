@@ -53,7 +53,7 @@ bool contradicts_stage(const Parts& parts, int k, typename Parts::Scalar reading
   const auto& jack = parts.jacks[k];
   const int cable = parts.jacks.end(k).cable();
   const Scalar scatter = surely * beside.deviation, gone = beside.force - jack.beside;
-  if (!(dt > JumpGuard<Scalar>::far_apart && jack.believed > 0 && jack.beside > scatter) || jack.locked ||
+  if (!(JumpGuard<Scalar>::is_stage(dt) && jack.believed > 0 && jack.beside > scatter) || jack.locked ||
       gone == 0 || !(gone > -scatter))
     return false;
   const Scalar of_jack = reading - jack.believed,
