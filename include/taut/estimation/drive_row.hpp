@@ -65,9 +65,10 @@ template <class Parts>
                                                    Corners<typename Parts::Scalar>& corners) {
   using Scalar = typename Parts::Scalar;
   auto& jacks = parts.jacks;
+  const EndReading<Scalar> none;
   bool has_more = false;
   for (int k = 0; k < jacks.size(); ++k) {
-    EndReading<Scalar> given = jacks.in(readings.ends, k);
+    const EndReading<Scalar>& given = jacks.in(readings.ends, k);
     bool locked = jacks.in(readings.sample.jack, k).locked;
     const auto beside = read_beside(parts, readings, jacks.end(k).cable());
     HeldByWedge<Scalar> held;
@@ -79,21 +80,19 @@ template <class Parts>
     } else {
       jacks[k].unlocked_early = false;
     }
-    if (given.has_force && !locked && contradicts_stage(parts, k, given.force, readings.dt, beside)) {
-      given.has_force = false;
-      parts.alarms.add(Parts::alarm_at(Alarm::Kind::outlier, jacks.end(k)));
-    }
-    const bool is_same = given.force == jacks[k].believed,
-               stands = given.has_force && !locked && stands_beside_rise(parts, k, given.force, beside);
-    given.has_force &= !stands;
-    if (jacks[k].take(locked, given, readings.dt, parts.cell(k), parts.most_force(k), held, corners,
-                      [&] { return sees_rise(parts, k, given.force, beside); }))
+    const bool is_same = given.force == jacks[k].believed;
+    const auto said = hear_far_end(parts, k, locked, given, readings.dt, beside);
+    const bool has_outlier = jacks[k].take(locked, said == FarEndSays::nothing ? given : none, readings.dt,
+                                           parts.cell(k), parts.most_force(k), held, corners,
+                                           [&] { return sees_rise(parts, k, given.force, beside); });
+    if (has_outlier || said == FarEndSays::is_misread)
       parts.alarms.add(Parts::alarm_at(Alarm::Kind::outlier, jacks.end(k)));
     if constexpr (Parts::Cap::lags) {
       const Scalar late = parts.lagging.late(jacks.end(k).cable(), jacks.end(k).end);
       if (jacks[k].is_new && late > 0) jacks[k].come_late(late);
     }
-    if (jacks[k].standing.is_frozen() || (stands && jacks[k].since > Parts::JacksType::Load::too_old))
+    if (jacks[k].standing.is_frozen() ||
+        (said == FarEndSays::is_old && jacks[k].since > Parts::JacksType::Load::too_old))
       parts.alarms.add(Parts::alarm_at(Alarm::Kind::frozen, jacks.end(k)));
     else if (jacks[k].is_silent())
       parts.alarms.add(Parts::alarm_at(Alarm::Kind::unread, jacks.end(k)));

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "taut/estimation/drive.hpp"
 #include "taut/estimation/force_estimate.hpp"
 #include "taut/estimation/held_over.hpp"
 #include "taut/estimation/jump_guard.hpp"
+#include "taut/estimation/readings.hpp"
 
 namespace taut {
 
@@ -25,17 +27,34 @@ ForceEstimate<typename Parts::Scalar> read_beside(const Parts& parts,
   return {std::numeric_limits<typename Parts::Scalar>::quiet_NaN(), 0};
 }
 
+/// How far a jack's cell and the one at the far end of its cable have gone up since the last reading of the
+/// jack that was believed [N].
+template <class Scalar>
+struct CommonRise {
+  Scalar of_jack, of_far_end;
+  Scalar scatter;  ///< of the far end, at most
+
+  /// Whether the far end has surely gone up.
+  bool is_seen() const { return of_far_end > scatter; }
+  /// What of the jack's comes through at least, where all joints slide and leave the part `held`: half of it.
+  Scalar least(Scalar held) const { return Scalar(0.5) * held * of_jack; }
+};
+template <class Parts>
+CommonRise<typename Parts::Scalar> common_rise(const Parts& parts, int k, typename Parts::Scalar reading,
+                                               const ForceEstimate<typename Parts::Scalar>& beside) {
+  constexpr typename Parts::Scalar surely = 10;
+  const auto& jack = parts.jacks[k];
+  return {reading - jack.believed, beside.force - jack.beside, surely * beside.deviation};
+}
+
 /// Whether the cell beside jack `k` has seen the load go up as far as its reading [N], or at least half as
 /// far as where all joints slide. What goes down does not come through at first. Cost: one product a joint.
 template <class Parts>
 bool sees_rise(const Parts& parts, int k, typename Parts::Scalar reading,
                const ForceEstimate<typename Parts::Scalar>& beside) {
-  using Scalar = typename Parts::Scalar;
-  constexpr Scalar surely = 10, half = Scalar(0.5);
-  const auto& jack = parts.jacks[k];
-  const Scalar rise = beside.force - jack.beside, of_jack = reading - jack.believed;
-  return of_jack > 0 && rise > surely * beside.deviation &&
-         rise > half * held_over(parts.tracker, parts.jacks.end(k).cable()) * of_jack;
+  const auto rise = common_rise(parts, k, reading, beside);
+  return rise.of_jack > 0 && rise.is_seen() &&
+         rise.of_far_end > rise.least(held_over(parts.tracker, parts.jacks.end(k).cable()));
 }
 
 /// Whether a reading of jack `k` [N], `dt` [s] after the row before, cannot be its load by what the cell
@@ -49,18 +68,18 @@ template <class Parts>
 bool contradicts_stage(const Parts& parts, int k, typename Parts::Scalar reading, typename Parts::Scalar dt,
                        const ForceEstimate<typename Parts::Scalar>& beside) {
   using Scalar = typename Parts::Scalar;
-  constexpr Scalar surely = 10, half = Scalar(0.5);
   const auto& jack = parts.jacks[k];
   const int cable = parts.jacks.end(k).cable();
-  const Scalar scatter = surely * beside.deviation, gone = beside.force - jack.beside;
-  if (!(JumpGuard<Scalar>::is_stage(dt) && jack.believed > 0 && jack.beside > scatter) || jack.locked ||
-      gone == 0 || !(gone > -scatter))
+  const auto rise = common_rise(parts, k, reading, beside);
+  const bool stays_up = rise.of_far_end > -rise.scatter && rise.of_far_end != 0;
+  if (!JumpGuard<Scalar>::is_stage(dt) || jack.locked ||
+      !(jack.believed > 0 && jack.beside > rise.scatter && stays_up))
     return false;
-  const Scalar of_jack = reading - jack.believed,
-               held = -larger(-held_over(parts.tracker, cable), -jack.beside / jack.believed);
-  const bool is_below = reading < half * held * beside.force && jack.believed >= held * jack.beside,
-             is_beyond = !jack.is_unread && jack.rises && of_jack > 2 * jack.step_by && gone > scatter &&
-                         gone < half * held * of_jack && parts.filter.slides_throughout(parts.tracker, cable);
+  const Scalar held = -larger(-held_over(parts.tracker, cable), -jack.beside / jack.believed);
+  const bool is_below = reading < Scalar(0.5) * held * beside.force && jack.believed >= held * jack.beside,
+             is_beyond = !jack.is_unread && jack.rises && rise.of_jack > 2 * jack.step_by && rise.is_seen() &&
+                         rise.of_far_end < rise.least(held) &&
+                         parts.filter.slides_throughout(parts.tracker, cable);
   return is_below || is_beyond;
 }
 
@@ -70,10 +89,24 @@ bool contradicts_stage(const Parts& parts, int k, typename Parts::Scalar reading
 template <class Parts>
 bool stands_beside_rise(const Parts& parts, int k, typename Parts::Scalar reading,
                         const ForceEstimate<typename Parts::Scalar>& beside) {
-  constexpr typename Parts::Scalar surely = 10;
   const auto& jack = parts.jacks[k];
   return reading == jack.believed && parts.cell(k).sd > 0 && jack.beside > 0 &&
-         jack.standing.has_always_changed() && beside.force - jack.beside > surely * beside.deviation;
+         jack.standing.has_always_changed() && common_rise(parts, k, reading, beside).is_seen();
+}
+
+/// What a far end says of a reading of its jack: nothing against it, that it is none, or that it is an old
+/// one, of a cell that does not live.
+enum class FarEndSays : std::uint8_t { nothing, is_misread, is_old };
+
+/// What the cell beside jack `k` says of what is read there in a row `dt` [s] after the one before; nothing
+/// where the jack is not read, or its wedge holds. Cost: that of contradicts_stage().
+template <class Parts>
+FarEndSays hear_far_end(const Parts& parts, int k, bool locked,
+                        const EndReading<typename Parts::Scalar>& given, typename Parts::Scalar dt,
+                        const ForceEstimate<typename Parts::Scalar>& beside) {
+  if (locked || !given.has_force) return FarEndSays::nothing;
+  if (contradicts_stage(parts, k, given.force, dt, beside)) return FarEndSays::is_misread;
+  return stands_beside_rise(parts, k, given.force, beside) ? FarEndSays::is_old : FarEndSays::nothing;
 }
 
 /// In a row in which the jack of its cable is not read, the load cell at anchored end `e` reads [N] what it
