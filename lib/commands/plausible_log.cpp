@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/files/deserved_digits.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/plausible_scene.hpp"
 #include "lib/files/text.hpp"
@@ -64,13 +63,8 @@ void PlausibleLog::take(const LogRow& row) {
         strokes.take({*given.stroke, row.line, given.reading.value_or(std::nan(""))});
         cables_[c].is_read_under_load |= *given.stroke != strokes.kept.front().at;
       }
-      if (cable.is_jacked(end)) {
-        const double reading = given.reading.value_or(std::nan("")),
-                     least = first_stage_strain * cable.E * cable.A;
-        cables_[c].lock[end].take(row.time, reading, given.locked, least, row.line);
-        cables_[c].with_load[end].take(reading, given.locked, least, row.line);
-        if (cable.seating > 0) cables_[c].never[end].take(reading, given.locked, least, row.line);
-      }
+      if (cable.is_jacked(end))
+        cables_[c].lock[end].take(row, given, first_stage_strain * cable.E * cable.A, cable.seating > 0);
       if (!given.reading) continue;
       // Behind a wedge the cell of a jack reads whatever is left there.
       if (!given.locked) cables_[c].unit[end].take(*given.reading, row.line);
@@ -109,39 +103,8 @@ std::vector<Sentence> PlausibleLog::doubts() const {
   std::vector<Sentence> doubts;
   for (std::size_t c = 0; c < cables_.size(); ++c)
     for (std::size_t end = 0; end < 2; ++end) {
-      const LateLock& lock = cables_[c].lock[end];
-      const NeverLocked& never = cables_[c].never[end];
-      const std::string column = column_of(scene_.cables[c], end);
-      if (never.is_found())
-        doubts.emplace_back(
-            "the load of {1} falls from {2} N to next to nothing after line {3}, and the end is never "
-            "locked: if "
-            "its wedge was drawn in there, {4} is 1 from line {5} on; if it has none, leave out \"seating\"",
-            std::vector<Sentence>{{quote(column)},
-                                  {plain(rounded(never.held(), 4))},
-                                  {std::to_string(never.held_line())},
-                                  {quote(column + ".locked")},
-                                  {std::to_string(never.held_line() + 1)}});
-      if (const LockedWithLoad& with = cables_[c].with_load[end]; with.is_found())
-        doubts.emplace_back(
-            "the load {2} N of {1} in line {3} is not used, for the end is locked in that row, and {4} N "
-            "before: "
-            "if the jack pulled it before the wedge was drawn in, give it a row of its own before that",
-            std::vector<Sentence>{{quote(column)},
-                                  {plain(rounded(with.load(), 4))},
-                                  {std::to_string(with.line())},
-                                  {plain(rounded(with.last(), 4))}});
-      if (!lock.is_found()) continue;
-      doubts.emplace_back(
-          "the load of {1} falls from {2} to {3} N after line {4}, and the end is locked in line {5}: if its "
-          "wedge was drawn in before, {6} is 1 from line {7} on",
-          std::vector<Sentence>{{quote(column)},
-                                {plain(rounded(lock.held(), 4))},
-                                {plain(rounded(lock.left(), 4))},
-                                {std::to_string(lock.held_line())},
-                                {std::to_string(lock.locked_line())},
-                                {quote(column + ".locked")},
-                                {std::to_string(lock.held_line() + 1)}});
+      const auto of_end = cables_[c].lock[end].sentences(column_of(scene_.cables[c], end));
+      doubts.insert(doubts.end(), of_end.begin(), of_end.end());
     }
   return doubts;
 }

@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/commands/late_lock.hpp"
-#include "lib/commands/locked_with_load.hpp"
-#include "lib/commands/never_locked.hpp"
+#include "lib/commands/lock_doubts.hpp"
 #include "lib/commands/reading_scatter.hpp"
 #include "lib/commands/unit_step.hpp"
 #include "lib/files/log_file.hpp"
@@ -33,8 +31,7 @@ class PlausibleLog {
   /// 1e-4, though these readings do not; and, where the log does not go on from a state, if no jack of a
   /// cable has a column though other instruments read it under load.
   void require(const LogReader& log, const std::string& path, bool has_past) const;
-  /// What may be meant and probably is not: ends that are locked rows after their load was let out, or in
-  /// the very row of a load, and those with a wedge that are let out and never locked.
+  /// What may be meant and probably is not, see LockDoubts.
   std::vector<Sentence> doubts() const;
 
  private:
@@ -62,9 +59,7 @@ class PlausibleLog {
     std::array<Jack, 2> jack;
     std::array<Strokes, 2> stroke;
     std::array<UnitStep, 2> unit;
-    std::array<LateLock, 2> lock;
-    std::array<NeverLocked, 2> never;
-    std::array<LockedWithLoad, 2> with_load;
+    std::array<LockDoubts, 2> lock;
     bool is_read_under_load = false;  ///< by other instruments
   };
 

@@ -627,28 +627,26 @@ constexpr Translation translations[] = {
      "die Last {1} erwärmt Seil {2}, das kein \"alpha\" hat: seine Temperatur bewirkt nichts"},
     {"the log has no column {1}: this jack force stays 0", "记录中没有列 {1}：该张拉力保持为 0",
      "das Protokoll hat keine Spalte {1}: diese Pressenkraft bleibt 0"},
-    {"the load of {1} falls from {2} to {3} N after line {4}, and the end is locked in line {5}: if its "
-     "wedge was drawn in before, {6} is 1 from line {7} on",
-     "{1} 的荷载在第 {4} 行之后从 {2} 降到 {3} N，而该端在第 {5} 行才锚固：如果夹片此前已回缩，则 {6} 应从第 "
-     "{7} 行起为 1",
+    {"the load of {1} falls from {2} to {3} N after line {4}, and the end is locked in line {5}: "
+     "if its wedge was drawn in before, {6} is 1 from line {7} on",
+     "{1} 的荷载在第 {4} 行之后从 {2} 降到 {3} N，而该端在第 {5} 行才锚固："
+     "如果夹片此前已回缩，则 {6} 应从第 {7} 行起为 1",
      "die Last von {1} fällt nach Zeile {4} von {2} auf {3} N, und das Ende ist erst in Zeile {5} verankert: "
      "wenn sein Keil vorher eingezogen wurde, ist {6} ab Zeile {7} gleich 1"},
-    {"the load of {1} falls from {2} N to next to nothing after line {3}, and the end is never locked: if "
-     "its wedge was drawn in there, {4} is 1 from line {5} on; if it has none, leave out \"seating\"",
-     "{1} 的荷载在第 {3} 行之后从 {2} N 降到几乎为零，而该端从未锚固：如果夹片在那里回缩，则 {4} 应从第 {5} "
-     "行起为 1；如果没有夹片，请删去 \"seating\"",
+    {"the load of {1} falls from {2} N to next to nothing after line {3}, and the end is never locked: "
+     "if its wedge was drawn in there, {4} is 1 from line {5} on; if it has none, leave out \"seating\"",
+     "{1} 的荷载在第 {3} 行之后从 {2} N 降到几乎为零，而该端从未锚固："
+     "如果夹片在那里回缩，则 {4} 应从第 {5} 行起为 1；如果没有夹片，请删去 \"seating\"",
      "die Last von {1} fällt nach Zeile {3} von {2} N auf so gut wie nichts, und das Ende ist nie verankert: "
-     "wenn sein Keil dort eingezogen wurde, ist {4} ab Zeile {5} gleich 1; hat es keinen, \"seating\" "
-     "weglassen"},
+     "wenn sein Keil dort eingezogen wurde, ist {4} ab Zeile {5} gleich 1; "
+     "hat es keinen, \"seating\" weglassen"},
     {"the load {2} N of {1} in line {3} is not used, for the end is locked in that row, and {4} N before: "
      "if the jack pulled it before the wedge was drawn in, give it a row of its own before that",
-     "{1} 在第 {3} 行的荷载 {2} N 未被使用，因为该端在此行已锚固，之前为 {4} "
-     "N：如果千斤顶在夹片回缩前达到该荷载，"
-     "请在此之前为它单独写一行",
+     "{1} 在第 {3} 行的荷载 {2} N 未被使用，因为该端在此行已锚固，之前为 {4} N："
+     "如果千斤顶在夹片回缩前达到该荷载，请在此之前为它单独写一行",
      "die Last {2} N von {1} in Zeile {3} wird nicht benutzt, denn das Ende ist in dieser Zeile verankert, "
-     "und "
-     "{4} N davor: wenn die Presse sie zog, bevor der Keil eingezogen wurde, ihr davor eine eigene Zeile "
-     "geben"},
+     "und {4} N davor: wenn die Presse sie zog, bevor der Keil eingezogen wurde, "
+     "ihr davor eine eigene Zeile geben"},
     {"column {1} is a measurement: simulate does not use it", "列 {1} 是测量值：simulate 不使用",
      "Spalte {1} ist eine Messung: simulate benutzt sie nicht"},
     {"column {1} is a measurement at an anchored end: simulate does not use it",
