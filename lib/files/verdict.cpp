@@ -13,26 +13,30 @@ namespace {
 constexpr const char* trust = "trust";
 constexpr std::size_t most_reasons = 2;
 
-// An alarm makes numbers doubtful while it was raised in so many of the last rows.
-struct Rule {
-  const char* kind;
+// Raised in so many of the last rows.
+struct Often {
   std::size_t raised;
   int of_rows;
-  const char* reason;  // {1} is the place
-  // A load stage is all that there is of its load: there it does, raised once in the last three rows.
-  bool once_in_stages = false;
 };
+// An alarm makes numbers doubtful while it was raised so often; in a load stage, which is all that there is
+// of its load, also as often as is said for that.
+struct Rule {
+  const char* kind;
+  Often usually, in_stages;
+  const char* reason;  // {1} is the place
+};
+constexpr int all = Verdict::rows;
 // The worst first: what explains the others stands before them.
 constexpr std::array<Rule, 9> rules = {{
-    {"unknown-past", 1, 1, "nobody knows how {1} came under load (pull on or use --state)"},
-    {"late-lock", 1, 1, "the wedge at {1} may have held before the log says so"},
-    {"unread", 1, 1, "the load cell at {1} is not read"},
-    {"frozen", 1, Verdict::rows, "the load cell at {1} keeps one value although the load moves"},
-    {"model-misfit", 1, Verdict::rows, "{1} does not fit the model"},
-    {"sensor", 3, Verdict::rows, "the load cell at {1} contradicts the model", true},
-    {"elongation", 3, Verdict::rows, "the stroke at {1} contradicts the model", true},
-    {"gauge", 3, Verdict::rows, "the measured force of {1} contradicts the model", true},
-    {"outlier", 6, Verdict::rows, "the load cell at {1} gives readings that do not belong together"},
+    {"unknown-past", {1, 1}, {1, 1}, "nobody knows how {1} came under load (pull on or use --state)"},
+    {"late-lock", {1, 1}, {1, 1}, "the wedge at {1} may have held before the log says so"},
+    {"unread", {1, 1}, {1, 1}, "the load cell at {1} is not read"},
+    {"frozen", {1, all}, {1, all}, "the load cell at {1} keeps one value although the load moves"},
+    {"model-misfit", {1, all}, {1, all}, "{1} does not fit the model"},
+    {"sensor", {3, all}, {1, 3}, "the load cell at {1} contradicts the model"},
+    {"elongation", {3, all}, {1, 3}, "the stroke at {1} contradicts the model"},
+    {"gauge", {3, all}, {1, 3}, "the measured force of {1} contradicts the model"},
+    {"outlier", {6, all}, {6, all}, "the load cell at {1} gives readings that do not belong together"},
 }};
 
 using Bits = std::bitset<Verdict::rows>;
@@ -40,12 +44,12 @@ using Bits = std::bitset<Verdict::rows>;
 // Kinds hold no colon, names may.
 bool is_of(const Rule& rule, const std::string& word) { return word.substr(0, word.find(':')) == rule.kind; }
 
-std::size_t times(const Rule& rule, std::uint32_t raised) {
-  return (Bits(raised) << static_cast<std::size_t>(Verdict::rows - rule.of_rows)).count();
+bool is_so(const Often& often, std::uint32_t raised) {
+  return (Bits(raised) << static_cast<std::size_t>(Verdict::rows - often.of_rows)).count() >= often.raised;
 }
 
 bool is_doubtful(const Rule& rule, std::uint32_t raised, bool is_stage) {
-  return times(rule, raised) >= rule.raised || (is_stage && rule.once_in_stages && (raised & 0b111U) != 0);
+  return is_so(rule.usually, raised) || (is_stage && is_so(rule.in_stages, raised));
 }
 
 }  // namespace
