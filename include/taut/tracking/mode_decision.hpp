@@ -13,9 +13,9 @@ namespace taut {
 ///
 /// An ordinary event goes on from the modes of the piece before: one pivot of ModeSolver. Spans at
 /// zero tension are tried pulled straight toward their jacks, then decided from nothing, Eqs. (10) and (11),
-/// with one covering vector after the other. Where rates contradict, all forces are found a little further
-/// on, from the modes of the piece before or from nothing, and taken if they are near. Where nothing is, the
-/// reason is returned.
+/// with one covering vector after the other; those that nothing acts on are left as they are. Where rates
+/// contradict, all forces are found a little further on, from the modes of the piece before or from nothing,
+/// and taken if they are near. Where nothing is, the reason is returned.
 template <class Cables>
 class ModeDecision {
  public:
@@ -166,7 +166,34 @@ class ModeDecision {
       zero[r] = !state_.rests[r] && is_at_zero(r, ending);
       any = any || zero[r];
     }
+    return any && leave_out_of_reach(zero);
+  }
+  /// Takes out of `zero` what stays at zero whatever others do: because of it, others that are under tension
+  /// would be decided from nothing too. Whether any is left.
+  [[gnu::noinline]] bool leave_out_of_reach(Spans& zero) const {
+    if constexpr (is_one_span<Cap>) return true;
+    Tensions stuck;
+    cables_.stuck_rates(stuck);
+    bool any = false;
+    for (int r = 0; r < spans_.size(); ++r) {
+      zero[r] = zero[r] && !is_out_of_reach(r, stuck);
+      any = any || zero[r];
+    }
     return any;
+  }
+  /// Whether nothing acts on a span on this path: no jack, no rate of tension with every joint stuck, no
+  /// stiffness that it shares with another.
+  bool is_out_of_reach(int r, const Tensions& stuck) const {
+    if (cables_.is_jacked(spans_[r])) return false;
+    bool is = true;
+    for (int i = 0; i < model_.segments; ++i) {
+      if (spans_.of(i) == r) {
+        is = is && stuck[i] == 0;
+        continue;
+      }
+      for (int k = 0; k < spans_[r].count; ++k) is = is && model_.coupling(i, spans_[r].segment(k)) == 0;
+    }
+    return is;
   }
   bool is_at_zero(int r, const Ending& ending) const {
     if (!state_.slack[r]) return cables_.force[state_.representative[r]] <= cables_.force_tolerance();
