@@ -128,11 +128,12 @@ class FarEnds {
     predict(filter.prediction());
     if (!filter.is_informative(tracker, end.cable(), sd, slides))
       return compare(e, reading, tracker, filter, jacks);
+    if (doubts_zero(e, reading, tracker, filter, jacks)) return Update::contradiction;
     const Scalar lasting = variance_that_lasts(e, filter, jacks);
     const auto loads = jacks.readings(filter.prior());
     const Scalar counted = filter.counted_deviation(sd, lasting, loads);
     if (!(counted > 0)) return look(e, reading, tracker, filter, jacks);
-    count_learned(1);
+    count_learned(e, 1, tracker, filter, jacks);
     const Update update = filter.update(tracker, predict, loads, {reading, counted, Scalar(0)});
     note(e, reading, lasting, filter);
     return update;
@@ -147,7 +148,8 @@ class FarEnds {
     const Expected<Scalar> force = filter.belief().expect(filter.prediction(), loads, Scalar(0));
     const Scalar lasting = variance_while_stuck(e, tracker, filter, jacks);
     state_.watch[e].take(reading, force.value, force.variance + lasting, sd * sd);
-    correct_memory(e, reading, lasting, filter, jacks);
+    if (!doubts_zero(e, reading, tracker, filter, jacks))
+      correct_memory(e, reading, lasting, tracker, filter, jacks);
     return Update::no_information;
   }
   /// The same where a load of the cable may have turned, so that its joints stick here: they may slide yet.
@@ -160,7 +162,7 @@ class FarEnds {
           carried_over(tracker, jacks.end(k), ends_[e].segment(tracker.model())) * jacks[k].at.sd;
       lasting += part * part;
     }
-    correct_memory(e, reading, lasting, filter, jacks);
+    correct_memory(e, reading, lasting, tracker, filter, jacks);
   }
   /// A reading [N] of cell `e` of a cable that is locked corrects what drifts there, the unknowns with
   /// is_of(p), through the elastic response; of friction nothing is learned. Cost: that of
@@ -225,7 +227,7 @@ class FarEnds {
     if (!has_waiting()) return Update::waits;
     const Gathered<Scalar> all = state_.gathered;
     state_.gathered.size = 0;
-    count_learned(all.size);
+    count_learned(0, all.size, tracker, filter, jacks);
     const Scalar driven = jacks[0].driven.force, back = all.driven() - driven;
     const auto predict = [&](auto& prediction) {
       predict_at(ends_[0], tracker, filter, jacks, prediction);
@@ -272,16 +274,61 @@ class FarEnds {
     return variance_that_lasts(e, filter, jacks) + in_doubt * in_doubt;
   }
   /// After predict_at(): of friction a reading teaches nothing while joints stick, and of what it remembers
-  /// of loads as much as is not `lasting`, Eq. (70).
-  [[gnu::noinline]] void correct_memory(int e, Scalar reading, Scalar lasting, FilterType& filter,
-                                        const Jacks& jacks) {
+  /// of loads as much as is not `lasting`, Eq. (70). Before anything pulls it tells the zero of the cell, no
+  /// better than it is known that the jack holds nothing.
+  [[gnu::noinline]] void correct_memory(int e, Scalar reading, Scalar lasting, const TrackerType& tracker,
+                                        FilterType& filter, const Jacks& jacks) {
     const auto& watch = state_.watch[e];
+    const int zero = tells_zero(e, tracker, filter, jacks) ? zero_of(e, filter) : -1;
+    if (zero >= 0) lasting += variance_of_zeros(ends_[e].cable(), filter, jacks);
     const auto loads = jacks.readings(filter.prior());
     const Scalar counted = filter.counted_deviation(watch.sd, lasting, loads);
     if (!(counted > 0) || !watch.noise.is_other()) return;
-    const auto is_memory = [&](int p) { return jacks.remember(p); };
-    corrects_memory_ =
-        filter.update_alone(is_memory, loads, {reading, counted, Scalar(0)}) == Update::updated;
+    const auto is_told = [&](int p) { return p == zero || jacks.remember(p); };
+    corrects_memory_ = filter.update_alone(is_told, loads, {reading, counted, Scalar(0)}) == Update::updated;
+  }
+  /// Of the jacks' cells of a cable.
+  Scalar variance_of_zeros(int cable, const FilterType& filter, const Jacks& jacks) const {
+    Scalar variance = 0;
+    for (int k = 0; k < jacks.size(); ++k) {
+      const int zero = filter.instruments().at(jacks.end(k).cable(), jacks.end(k).end).zero;
+      if (jacks.end(k).cable() == cable && zero >= 0) variance += filter.belief().variance(zero);
+    }
+    return variance;
+  }
+  /// The number of the unknown zero of cell `e`, or -1.
+  int zero_of(int e, const FilterType& filter) const {
+    return filter.instruments().at(ends_[e].cable(), ends_[e].end).zero;
+  }
+  /// Whether its zero is unknown and told at present: no force has been larger than noise so far, as a few
+  /// readings of every jack say.
+  bool tells_zero(int e, const TrackerType& tracker, const FilterType& filter, const Jacks& jacks) const {
+    constexpr Scalar at_most = 4;
+    constexpr int few = 3;
+    if (zero_of(e, filter) < 0) return false;
+    Scalar noise = state_.watch[e].sd;
+    bool has_rested = true;
+    for (int k = 0; k < jacks.size(); ++k) {
+      noise = larger(noise, jacks[k].filter.sd());
+      has_rested = has_rested && jacks[k].filter.run_length() >= few;
+    }
+    return has_rested && static_cast<Scalar>(tracker.peak()) < at_most * noise;
+  }
+  /// After predict_at(): whether a reading [N] is outside of the gate before anything pulls, or where no
+  /// force so far is so large that it would explain it: then the zero is farther off than was said, and the
+  /// next ones tell how far. Cost: that of Belief::expect().
+  [[gnu::noinline]] bool doubts_zero(int e, Scalar reading, const TrackerType& tracker, FilterType& filter,
+                                     const Jacks& jacks) {
+    constexpr Scalar far = 4;
+    const int zero = zero_of(e, filter);
+    const bool explains = !(far * static_cast<Scalar>(tracker.peak()) < std::fabs(reading));
+    if (zero < 0 || (explains && !tells_zero(e, tracker, filter, jacks))) return false;
+    const auto expected =
+        filter.belief().expect(filter.prediction(), jacks.readings(filter.prior()), state_.watch[e].sd);
+    const Scalar off = reading - expected.value;
+    if (!(off * off > FilterType::BeliefType::gate * expected.variance)) return false;
+    filter.widen(zero, std::fabs(reading));
+    return true;
   }
   /// The same of the only cell, once its readings are gathered.
   Scalar variance_in_common(const FilterType& filter, const Jacks& jacks) const {
@@ -312,9 +359,12 @@ class FarEnds {
   }
   /// For readings that are gathered. Soon after something has happened little is known.
   int room() const { return state_.learned / 4; }
-  void count_learned(int readings) {
+  /// Of friction, of which nothing is learned before anything pulls.
+  void count_learned(int e, int readings, const TrackerType& tracker, const FilterType& filter,
+                     const Jacks& jacks) {
     constexpr int well_known = 4 * Gathered<Scalar>::capacity;
-    if (state_.learned < well_known) state_.learned = static_cast<std::uint8_t>(state_.learned + readings);
+    if (state_.learned < well_known && !tells_zero(e, tracker, filter, jacks))
+      state_.learned = static_cast<std::uint8_t>(state_.learned + readings);
   }
   /// Finds the line that readings are compared with. False if the cell says nothing at present.
   bool begin_gathering(Scalar driven, const TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
