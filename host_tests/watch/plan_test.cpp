@@ -365,6 +365,7 @@ TEST_CASE("rows are answered while a plan is found that takes long, and a signal
   std::vector<double> waited;
   int planning = 0;
   bool has_begun = false, is_over = false;
+  auto planning_begun = std::chrono::steady_clock::now();
   std::size_t seen = 0;
   for (int row = 0; row < 1500 && !is_over; ++row) {
     // Far beyond the first stage, and back.
@@ -389,6 +390,7 @@ TEST_CASE("rows are answered while a plan is found that takes long, and a signal
     REQUIRE(is_there);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     if (is_planning) {
+      if (!has_begun) planning_begun = begun;
       waited.push_back(seconds);
       ++planning;
       has_begun = true;
@@ -398,9 +400,13 @@ TEST_CASE("rows are answered while a plan is found that takes long, and a signal
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   REQUIRE(planning >= 20);  // it takes seconds
-  std::sort(waited.begin(), waited.end());
-  MESSAGE(planning << " rows while planning, the slowest answered in " << 1000 * waited.back() << " ms");
-  CHECK(waited[waited.size() * 95 / 100] < 0.05);
+  const double planned =
+                   std::chrono::duration<double>(std::chrono::steady_clock::now() - planning_begun).count(),
+               slowest = *std::max_element(waited.begin(), waited.end());
+  MESSAGE(planning << " rows in the " << planned << " s of planning, the slowest answered in "
+                   << 1000 * slowest << " ms");
+  // A row that waits for the plan would take that long, however slow the machine is.
+  CHECK(slowest < planned / 2);
   const auto begun = std::chrono::steady_clock::now();
   watch.send(SIGTERM);
   CHECK(watch.ended() == 0);
