@@ -26,6 +26,7 @@ struct Case {
   bool with_far = true, without_far = true;  ///< far-end cell
   bool logs_dead = false, logs_sun = false, logs_stroke = false;
   std::size_t locks_late = 0;    ///< so many rows after an end was locked the log says so
+  bool unlocks_early = false;    ///< that it is no more as soon as the pump runs, while its wedge holds yet
   bool gauges_segments = false;  ///< one a cable, at neither end
   bool gauges_struts = false;    ///< both at one joint of each cable (trusses)
   bool silent = false;           ///< the scene has no sensors
@@ -120,6 +121,17 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.jacking.lock = true;
     c.jacking.stages = in_stages;
   }
+  {
+    Case& c = add("unlocked-early", Demand::model);
+    c.unlocks_early = c.jacking.visit = true;
+  }
+  {
+    Case& c = add("far-end-tared");
+    c.jacking.rests = true;
+    c.instruments.zero_sd = 0.002;
+    c.instruments.far_tared = 0.03;
+    c.without_far = false;
+  }
   add("any-pace", Demand::model).jacking.any_pace = true;
   {
     Case& c = add("cables-in-turns", Demand::model);
@@ -145,6 +157,15 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.instruments.jack_gain_sd = 0.01;
   }
   add("load-stages", Demand::model).jacking.stages = true;
+  {
+    Case& c = add("even-stages", Demand::model);
+    c.jacking.stages = c.jacking.even = true;
+  }
+  {
+    Case& c = add("mistyped-stages");
+    c.jacking.stages = c.jacking.even = c.instruments.mistyped = true;
+    c.instruments.step = 0.001;
+  }
   {
     Case& c = add("turns", Demand::model);
     c.jacking.swings = c.jacking.lock = true;

@@ -128,12 +128,14 @@ std::string sensors_text(const Jacked& jacked, const Case& tried, bool far, bool
   return joined(cells, [](const std::string& cell) { return cell; });
 }
 
-/// Whether the log says in row `i` that an end is locked: so many rows `late`, and at once that it is no
-/// more.
-bool says_locked(const Jacked& jacked, std::size_t c, std::size_t end, std::size_t i, std::size_t late) {
-  for (std::size_t back = 0; back <= std::min(late, i); ++back)
+/// Whether the log says in row `i` that an end is locked: so many rows late, and that it is no more at once,
+/// or as soon as the pump runs again.
+bool says_locked(const Jacked& jacked, std::size_t c, std::size_t end, std::size_t i, const Case& tried) {
+  for (std::size_t back = 0; back <= std::min(tried.locks_late, i); ++back)
     if (!jacked.rows[i - back].pulls[c].locked[end]) return false;
-  return true;
+  if (!tried.unlocks_early) return true;
+  const auto level = [&](std::size_t row) { return jacked.rows[row].pulls[c].level; };
+  return i == 0 || !(level(i) > level(i - 1));
 }
 
 }  // namespace
@@ -185,7 +187,7 @@ std::string log_text(const Jacked& jacked, const Case& tried, bool far) {
     text += rounded(deed.time, 3);
     for (std::size_t c = 0; c < cables.size(); ++c) {
       const auto locked = [&](std::size_t end) {
-        return says_locked(jacked, c, end, i, tried.locks_late) ? ",1" : ",0";
+        return says_locked(jacked, c, end, i, tried) ? ",1" : ",0";
       };
       text += ',' + rounded(jacked.readings[c].end[i], 1) + locked(1);
       if (far || cables[c].two_jacks) text += ',' + rounded(jacked.readings[c].start[i], 1);

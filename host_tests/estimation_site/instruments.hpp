@@ -26,6 +26,8 @@ struct InstrumentRules {
   double wrong = 0;            ///< so often a reading of either is of anything
   bool is_held = false;        ///< each is read at its own pace, and written again in between
   bool far_freezes = false;    ///< the far cell keeps its value from the first ramp on
+  double far_tared = 0;        ///< the zero of the far cell is off by so much more, up or down, part
+  bool mistyped = false;       ///< one reading of the jack has its point moved, or two digits swapped
   double gauge_gain_sd = 0, gauge_zero_sd = 0;  ///< of gauges on segments and struts: relative, part
   bool gauges_freeze = false;  ///< those of the first joint or segment keep a value of the first ramp
   double gauge_creep = 0;      ///< by so much the zero of the first has gone off at the end, up or down, part
@@ -90,6 +92,19 @@ inline void drop_out(support::Random& random, std::vector<double>& readings) {
 inline void misread(support::Random& random, double part, double full, std::vector<double>& readings) {
   for (double& reading : readings)
     if (random.between(0, 1) < part) reading = full * random.between(0, 1.5);
+}
+
+/// What a reading becomes whose first two digits are swapped.
+inline double with_digits_swapped(double reading) {
+  const double unit = std::pow(10, std::floor(std::log10(std::fabs(reading))) - 1);
+  const int digits = static_cast<int>(std::fabs(reading) / unit), swapped = digits % 10 * 10 + digits / 10;
+  return reading + std::copysign((swapped - digits) * unit, reading);
+}
+/// One reading from the third row to the last free one is copied wrongly.
+inline void mistype(support::Random& random, std::vector<double>& readings, int last_row) {
+  double& reading = readings[static_cast<std::size_t>(2 + random.below(std::max(1, last_row - 1)))];
+  const int way = random.below(3);
+  reading = way == 0 ? 10 * reading : way == 1 ? reading / 10 : with_digits_swapped(reading);
 }
 
 /// A cell is read at an even pace of its own, once in 0.3 to 3 s and in two rows at most; rows in between

@@ -16,6 +16,8 @@ namespace estimation_site {
 /// What a case asks of the jacking.
 struct JackingRules {
   bool stages = false;         ///< a row a load stage
+  bool even = false;           ///< all of them at the same time from one another
+  bool rests = false;          ///< the log begins before the pump runs
   double least_rate = 1;       ///< rows a second
   bool every_row = false;      ///< rows come at their rate, none is left out
   bool lock = false;           ///< always, not now and then
@@ -39,7 +41,7 @@ struct JackingRules {
   bool pumped_again = false;             ///< a few times in a hold, within a row
 
   auto all() const {
-    return std::tie(stages, least_rate, every_row, lock, visit, swings, loop, in_turns, together,
+    return std::tie(stages, even, rests, least_rate, every_row, lock, visit, swings, loop, in_turns, together,
                     jacks_in_turn, any_pace, dead_load, warming, warming_locked, sized, year_rows, year_sd,
                     relaxation, ram, ram_sd, ripple, least_leak, most_leak, pumped_again);
   }
@@ -91,7 +93,7 @@ class Jacking {
 
   void run() {
     const int increments = rules_.loop || rules_.stages || rules_.year_rows > 0 ? 1 : 1 + random_.below(3);
-    if (rules_.any_pace) rest();
+    if (rules_.any_pace || rules_.rests) rest();
     for (int i = 1; i <= increments; ++i) {
       move(Phase::ramp, double(i) / increments);
       wait(Phase::hold, i == increments ? warming(rules_.warming) : 0);
@@ -359,7 +361,7 @@ class Jacking {
       deed.pulls[c].phase = phase;
       deed.pulls[c].fresh = !rules_.stages && i <= 12;
     }
-    deed.time += rules_.stages ? log_between(random_, 10, 600) : pace.step;
+    deed.time += rules_.even ? 60 : rules_.stages ? log_between(random_, 10, 600) : pace.step;
     return deed;
   }
   void add(Deed deed, bool pumping) {

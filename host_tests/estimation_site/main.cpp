@@ -68,6 +68,7 @@ Readings read_cable(Random& random, const InstrumentRules& rules, const Jacked& 
   };
   Cell at_jack = cell(rules.jack_gain_sd),
        at_start = cell(cable.two_jacks ? rules.jack_gain_sd : rules.far_gain_sd);
+  const double tared = rules.far_tared > 0 ? rules.far_tared * full * (random.coin() ? 1 : -1) : 0;
   const double mark = random.between(-0.05, 0.05);
   int last_free = 0, last_of_ramp = 0;
   for (std::size_t i = 0; i < jacked.rows.size(); ++i) {
@@ -78,7 +79,7 @@ Readings read_cable(Random& random, const InstrumentRules& rules, const Jacked& 
                                                               : pull.gauge[end];
     };
     readings.end.push_back(at_jack.read(random, shown(1), deed.time));
-    readings.start.push_back(at_start.read(random, shown(0), deed.time));
+    readings.start.push_back(at_start.read(random, shown(0), deed.time) + tared);
     readings.stroke[1].push_back(mark + pull.extension[1] + 0.001 * gaussian(random));
     if (!pull.locked[1]) last_free = static_cast<int>(i);
     if (pull.phase == Phase::ramp) last_of_ramp = static_cast<int>(i);
@@ -94,6 +95,7 @@ Readings read_cable(Random& random, const InstrumentRules& rules, const Jacked& 
     misread(random, rules.wrong, full, readings.start);
   }
   if (rules.loose_plug) loosen_plug(random, full, readings.end, last_free);
+  if (rules.mistyped) mistype(random, readings.end, last_free);
   if (rules.is_held) {
     std::vector<double> times;
     for (const Deed& deed : jacked.rows) times.push_back(deed.time);
