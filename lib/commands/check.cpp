@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "lib/commands/balancing_jacks.hpp"
 #include "lib/commands/compared_theories.hpp"
 #include "lib/commands/log_follower.hpp"
 #include "lib/files/hanging_joints.hpp"
@@ -135,64 +136,6 @@ std::vector<HangingJoint> loose_joints(const SceneDescription& scene, const Cond
     }
   }
   return found;
-}
-
-// Jacks whose forces alone pull at something: with all of them given, it moves and no tension changes.
-std::vector<std::string> jacks_that_balance(const SceneDescription& scene, const CondensedArrays& condensed) {
-  std::vector<std::string> names;
-  std::vector<std::size_t> segments;
-  for (std::size_t c = 0; c < scene.cables.size(); ++c)
-    for (std::size_t end = 0; end < 2; ++end) {
-      const CableDescription& cable = scene.cables[c];
-      const std::size_t segment = scene.first_segment(c) + (end == 0 ? 0 : cable.segments() - 1);
-      // Two jacks on one segment give one force.
-      if (!cable.is_jacked(end) || (!segments.empty() && segments.back() == segment)) continue;
-      if (!(condensed.coupling[segment][segment] > 0)) continue;
-      names.push_back(cable.name + "." + end_name(end));
-      segments.push_back(segment);
-    }
-  // Rows of the stiffness that depend on those before them, by elimination; scaled, so that the pivot is a
-  // part.
-  const auto& coupling = condensed.coupling;
-  const std::size_t n = segments.size();
-  std::vector<std::vector<double>> rows(n, std::vector<double>(n)), taken(n, std::vector<double>(n, 0));
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)
-      rows[i][j] = coupling[segments[i]][segments[j]] /
-                   std::sqrt(coupling[segments[i]][segments[i]] * coupling[segments[j]][segments[j]]);
-  std::vector<char> balances(n, 0);
-  for (std::size_t i = 0; i < n; ++i) {
-    taken[i][i] = 1;
-    for (std::size_t k = 0; k < i; ++k) {
-      if (balances[k] > 1) continue;
-      const double part = rows[i][k] / rows[k][k];
-      for (std::size_t j = 0; j < n; ++j) {
-        rows[i][j] -= part * rows[k][j];
-        taken[i][j] -= part * taken[k][j];
-      }
-    }
-    if (!(rows[i][i] < 1e-9)) continue;
-    for (std::size_t k = 0; k < i; ++k)
-      if (std::fabs(taken[i][k]) > 1e-6 && balances[k] == 0) balances[k] = 1;
-    balances[i] = 2;
-  }
-  std::vector<std::string> found;
-  for (std::size_t i = 0; i < n; ++i)
-    if (balances[i] != 0) found.push_back(names[i]);
-  return found;
-}
-
-// Linear theory alone: tension may hold what is between them.
-std::vector<std::string> jack_warnings(const SceneDescription& scene, const CondensedArrays& condensed) {
-  if (scene.second_order) return {};
-  const std::vector<std::string> jacks = jacks_that_balance(scene, condensed);
-  if (jacks.size() < 2) return {};
-  std::string text;
-  for (std::size_t i = 0; i < jacks.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == jacks.size() ? " and " : ", ") + jacks[i];
-  return {"while the forces of " + text +
-          " are given, nothing holds what they pull at, and there is an answer only where they balance; "
-          "lock or anchor all but one of them, or hold it: add a strut, a support or a substructure"};
 }
 
 std::string condition(double number) {
@@ -409,7 +352,8 @@ int check(const std::string& scene_path, const std::string& log_path) {
   output.write(condition(condensed.condensing.condition) + mechanisms(loose.size()) +
                (rigid ? "" : held_by_cable(scene, hanging) + accuracy(scene, compared)));
   output.finish();
-  for (const std::string& text : jack_warnings(scene, condensed)) std::cerr << "warning: " << text << '\n';
+  if (const std::string text = balance_warning(scene, condensed); !text.empty())
+    std::cerr << "warning: " << text << '\n';
   for (const std::string& text : joint_warnings(scene, compared && compared->begins, loose, hanging))
     std::cerr << "warning: " << text << '\n';
   if (compared)
