@@ -62,8 +62,9 @@ bool sees_rise(const Parts& parts, int k, typename Parts::Scalar reading,
 /// cable slid over all joints as it was pulled, a load that has gone on farther than twice as far as in the
 /// stage before has taken the far end at least half as far as that of all joints; of several such rows the
 /// first is held to be wrong. A load below half of what lets all joints slide back takes the far end down: as
-/// long as that does not go down, and does not stand still either, the jack was misread, or its wedge holds.
-/// Cost: two products a joint.
+/// long as that does not go down the jack was misread, or its wedge holds; of several rows in which the far
+/// end reads the very same the first is held to be wrong, for its cell may be dead. Cost: two products a
+/// joint.
 template <class Parts>
 bool contradicts_stage(const Parts& parts, int k, typename Parts::Scalar reading, typename Parts::Scalar dt,
                        const ForceEstimate<typename Parts::Scalar>& beside) {
@@ -71,14 +72,14 @@ bool contradicts_stage(const Parts& parts, int k, typename Parts::Scalar reading
   const auto& jack = parts.jacks[k];
   const int cable = parts.jacks.end(k).cable();
   const auto rise = common_rise(parts, k, reading, beside);
-  const bool stays_up = rise.of_far_end > -rise.scatter && rise.of_far_end != 0;
+  const bool stays_up = rise.of_far_end > -rise.scatter, may_be_dead = rise.of_far_end == 0 && jack.is_unread;
   if (!JumpGuard<Scalar>::is_stage(dt) || jack.locked ||
-      !(jack.believed > 0 && jack.beside > rise.scatter && stays_up))
+      !(jack.believed > 0 && jack.beside > rise.scatter && stays_up) || may_be_dead)
     return false;
   const Scalar held = -larger(-held_over(parts.tracker, cable), -jack.beside / jack.believed);
   const bool is_below = reading < Scalar(0.5) * held * beside.force && jack.believed >= held * jack.beside,
-             is_beyond = !jack.is_unread && jack.rises && rise.of_jack > 2 * jack.step_by && rise.is_seen() &&
-                         rise.of_far_end < rise.least(held) &&
+             is_beyond = !jack.is_unread && jack.rises && rise.of_jack > 2 * jack.step_by &&
+                         rise.least(held) > larger(rise.scatter, rise.of_far_end) &&
                          parts.filter.slides_throughout(parts.tracker, cable);
   return is_below || is_beyond;
 }
