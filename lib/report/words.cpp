@@ -506,6 +506,12 @@ constexpr Translation translations[] = {
     {"unknown status", "未知状态", "unbekannter Zustand"},
     {"add a second strut, a support or a substructure at that node", "在该节点增设第二根撑杆、支座或子结构",
      "an diesem Knoten einen zweiten Stab, ein Lager oder ein Teiltragwerk ergänzen"},
+    {"make all but one of the jacked ends that pull at it \"anchored\": a jack gives a force, and holds "
+     "nothing",
+     "把拉住它的张拉端除一个以外都改为 \"anchored\"：千斤顶只给出力，并不固定任何东西",
+     "alle gespannten Enden bis auf eines, die daran ziehen, \"anchored\" machen: eine Presse gibt eine "
+     "Kraft "
+     "und hält nichts"},
     {"no strut, beam, cable or substructure ends at it or passes it: remove it from \"nodes\", or connect it",
      "没有撑杆、梁、索或子结构与其相连：从 \"nodes\" 中删去该节点，或将其连接",
      "kein Stab, Balken, Seil oder Teiltragwerk endet dort oder führt darüber: aus \"nodes\" entfernen oder "
