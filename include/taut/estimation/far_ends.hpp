@@ -296,33 +296,39 @@ class FarEnds {
     }
     return variance;
   }
-  /// The number of the unknown zero of cell `e`, or -1.
+  /// The number of the unknown zero of cell `e`, or -1: as the compiler knows where there can be none.
   int zero_of(int e, const FilterType& filter) const {
-    return filter.instruments().at(ends_[e].cable(), ends_[e].end).zero;
+    return FilterType::has_further ? filter.instruments().at(ends_[e].cable(), ends_[e].end).zero : -1;
   }
   /// Whether its zero is unknown and told at present: no force has been larger than noise so far, as a few
   /// readings of every jack say.
   bool tells_zero(int e, const TrackerType& tracker, const FilterType& filter, const Jacks& jacks) const {
+    return zero_of(e, filter) >= 0 && has_rested(e, tracker, jacks);
+  }
+  [[gnu::noinline]] bool has_rested(int e, const TrackerType& tracker, const Jacks& jacks) const {
     constexpr Scalar at_most = 4;
     constexpr int few = 3;
-    if (zero_of(e, filter) < 0) return false;
     Scalar noise = state_.watch[e].sd;
-    bool has_rested = true;
+    bool are_few = false;
     for (int k = 0; k < jacks.size(); ++k) {
       noise = larger(noise, jacks[k].filter.sd());
-      has_rested = has_rested && jacks[k].filter.run_length() >= few;
+      are_few = are_few || jacks[k].filter.run_length() < few;
     }
-    return has_rested && static_cast<Scalar>(tracker.peak()) < at_most * noise;
+    return !are_few && static_cast<Scalar>(tracker.peak()) < at_most * noise;
   }
   /// After predict_at(): whether a reading [N] is outside of the gate before anything pulls, or where no
   /// force so far is so large that it would explain it: then the zero is farther off than was said, and the
   /// next ones tell how far. Cost: that of Belief::expect().
-  [[gnu::noinline]] bool doubts_zero(int e, Scalar reading, const TrackerType& tracker, FilterType& filter,
-                                     const Jacks& jacks) {
-    constexpr Scalar far = 4;
+  bool doubts_zero(int e, Scalar reading, const TrackerType& tracker, FilterType& filter,
+                   const Jacks& jacks) {
     const int zero = zero_of(e, filter);
+    return zero >= 0 && doubts_zero(zero, e, reading, tracker, filter, jacks);
+  }
+  [[gnu::noinline]] bool doubts_zero(int zero, int e, Scalar reading, const TrackerType& tracker,
+                                     FilterType& filter, const Jacks& jacks) {
+    constexpr Scalar far = 4;
     const bool explains = !(far * static_cast<Scalar>(tracker.peak()) < std::fabs(reading));
-    if (zero < 0 || (explains && !tells_zero(e, tracker, filter, jacks))) return false;
+    if (explains && !tells_zero(e, tracker, filter, jacks)) return false;
     const auto expected =
         filter.belief().expect(filter.prediction(), jacks.readings(filter.prior()), state_.watch[e].sd);
     const Scalar off = reading - expected.value;

@@ -46,6 +46,8 @@ class FrictionFilter {
   /// unknown that may be friction.
   static constexpr int jack_bounds = max_jacks<Cap> / 2,
                        bounds = jack_bounds + (TrackerType::Model::has_level ? Parameters : 0);
+  /// Whether there may be unknowns on which readings alone depend, as the zero of a far end.
+  static constexpr bool has_further = Further > 0;
   using BeliefType = Belief<Scalar, Parameters + Further, max_jacks<Cap>, bounds>;
   using Values = typename BeliefType::Values;
   using PredictionType = typename BeliefType::PredictionType;

@@ -70,12 +70,11 @@ bool contradicts_stage(const Parts& parts, int k, typename Parts::Scalar reading
                        const ForceEstimate<typename Parts::Scalar>& beside) {
   using Scalar = typename Parts::Scalar;
   const auto& jack = parts.jacks[k];
+  if (!JumpGuard<Scalar>::is_stage(dt) || jack.locked) return false;
   const int cable = parts.jacks.end(k).cable();
   const auto rise = common_rise(parts, k, reading, beside);
   const bool stays_up = rise.of_far_end > -rise.scatter, may_be_dead = rise.of_far_end == 0 && jack.is_unread;
-  if (!JumpGuard<Scalar>::is_stage(dt) || jack.locked ||
-      !(jack.believed > 0 && jack.beside > rise.scatter && stays_up) || may_be_dead)
-    return false;
+  if (!(jack.believed > 0 && jack.beside > rise.scatter && stays_up) || may_be_dead) return false;
   const Scalar held = -larger(-held_over(parts.tracker, cable), -jack.beside / jack.believed);
   const bool is_below = reading < Scalar(0.5) * held * beside.force && jack.believed >= held * jack.beside,
              is_beyond = !jack.is_unread && jack.rises && rise.of_jack > 2 * jack.step_by &&
