@@ -14,7 +14,7 @@ using namespace estimation;
 namespace {
 
 using Model = Site<double>::Model;
-using Estimator = taut::Estimator<Model, PlaneCapacity::joints + 8, 4>;
+using Estimator = CellEstimator;
 
 constexpr double noise = 0.001 * full;
 

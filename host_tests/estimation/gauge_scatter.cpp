@@ -11,7 +11,7 @@ using namespace estimation;
 
 namespace {
 
-using Estimator = taut::Estimator<SaddleSite::Model, PlaneCapacity::joints + 4, 4>;
+using Estimator = CellEstimator;
 
 /// Of the forces and mu after a ramp, and after some way back, with a measured force of this segment.
 struct Said {

@@ -11,7 +11,7 @@ using namespace estimation;
 
 TEST_CASE("a jack reverses with the friction that a gauge has taught, not with that of the scene") {
   using Model = taut::Condensed<double, PlaneCapacity>;
-  using Estimator = taut::Estimator<Model, PlaneCapacity::joints + 4, 4>;
+  using Estimator = CellEstimator;
   Ground ground;
   taut::Cable<double> cable = support::steel_cable(0.15);
   cable.law = taut::FrictionLaw::capstan;

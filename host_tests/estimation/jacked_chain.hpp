@@ -86,8 +86,7 @@ struct Said {
 class Jacked {
  public:
   using Model = taut::Condensed<double, PlaneCapacity>;
-  // Friction, and of each of two jacks the draw-in and what friction remembers of its loads.
-  using Estimator = taut::Estimator<Model, 9>;
+  using Estimator = taut::Estimator<Model, most_unknowns>;
 
   Jacked(double seating, const Said& said) {
     auto cable = support::steel_cable(mu, said.has_two_jacks ? support::two_jacks : support::jacked_end);

@@ -18,8 +18,7 @@ using namespace estimation;
 namespace {
 
 using Model = taut::Condensed<double, PlaneCapacity>;
-// Friction, gain of the cells and what friction remembers of both jacks' loads; gain and zero of strokes.
-using Estimator = taut::Estimator<Model, 9, 4>;
+using Estimator = CellEstimator;
 
 enum class Strokes { none, of_start, of_both };
 

@@ -22,6 +22,9 @@ using support::Random;
 
 constexpr int most_unknowns = PlaneCapacity::joints + 4;
 
+/// The estimator for instruments that have a gain and a zero of their own to be found.
+using CellEstimator = taut::Estimator<taut::Condensed<double, PlaneCapacity>, PlaneCapacity::joints + 8, 4>;
+
 /// How well the site's instruments read, as parts of the full jack force.
 struct Instruments {
   double jack = 0.005, cell = 0.005;  ///< standard deviations of the noise
@@ -201,3 +204,6 @@ extern template class taut::Tracker<estimation::Site<float>::Model, estimation::
 extern template class taut::Tracker<estimation::Site<double>::Model, estimation::most_unknowns>;
 extern template class taut::Estimator<estimation::Site<float>::Model, estimation::most_unknowns>;
 extern template class taut::Estimator<estimation::Site<double>::Model, estimation::most_unknowns>;
+extern template class taut::Tracker<estimation::Site<double>::Model, estimation::PlaneCapacity::joints + 8>;
+extern template class taut::Estimator<estimation::Site<double>::Model, estimation::PlaneCapacity::joints + 8,
+                                      4>;

@@ -15,7 +15,7 @@ using namespace estimation;
 namespace {
 
 using Model = taut::Condensed<double, PlaneCapacity>;
-using Estimator = taut::Estimator<Model, PlaneCapacity::joints + 4, 4>;
+using Estimator = CellEstimator;
 
 taut::Cable<double> cable_of(double mu, double jack_sd) {
   taut::Cable<double> cable = support::steel_cable(mu);

@@ -15,8 +15,7 @@ using namespace estimation;
 namespace {
 
 using Model = taut::Condensed<double, PlaneCapacity>;
-// Friction, the zero of the jack's cell, what friction remembers; zeros of the others.
-using Estimator = taut::Estimator<Model, 4, 4>;
+using Estimator = CellEstimator;
 
 constexpr double zero_sd = 0.01 * full;
 

@@ -13,8 +13,7 @@ using namespace estimation;
 namespace {
 
 using Model = taut::Condensed<double, PlaneCapacity>;
-// Friction, the zero of the jack's cell and what friction remembers of its load; the zero of the far end.
-using Estimator = taut::Estimator<Model, 4, 2>;
+using Estimator = CellEstimator;
 
 constexpr double noise = 1e-3 * full, zero_sd = 5e-3 * full;  // of the far end
 

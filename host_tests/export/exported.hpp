@@ -217,7 +217,7 @@ std::string estimated(const std::string& name, bool fits_exactly, const Exported
   Response<Scalar, Cap> response;
   Readings<Scalar, Cap> readings;
   Answer answer;
-  Verdict verdict;
+  taut::host::Verdict verdict;
   for (double before = 0; log.next(row); before = row.time) {
     const double dt = row.row == 1 ? 1 : row.time - before;
     read_row(row, scene, dt, readings);
