@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <string>
@@ -46,10 +47,11 @@ void check_refused(const Site& site, const std::string& command, const std::stri
         std::string::npos);
   CHECK(run(scratch, site, command, log, false).err.find("if it is meant") == std::string::npos);
 }
-void check_taken(const Site& site, const std::string& command, const std::string& log) {
+std::string check_taken(const Site& site, const std::string& command, const std::string& log) {
   const Scratch scratch;
   const Outcome outcome = run(scratch, site, command, log);
   CHECK_MESSAGE(outcome.status == 0, outcome.err);
+  return outcome.err;
 }
 
 // A ramp with the friction of nobody's choice: so many rows up to a force, with what else each has.
@@ -371,12 +373,9 @@ TEST_CASE(
 TEST_CASE(
     "a jack that is let out though its wedge never holds, or locked in the row of its load, is remarked on") {
   const auto remarks = [](const std::string& wedge, const std::string& log) {
-    const Scratch scratch;
     Site site;
     site.wedge = wedge;
-    const Outcome outcome = run(scratch, site, "estimate", log);
-    CHECK_MESSAGE(outcome.status == 0, outcome.err);
-    return outcome.err;
+    return check_taken(site, "estimate", log);
   };
   const std::string wedge = R"(, "seating": 0.002)",
                     let_out = "time,C.end\n0,0\n60,10000\n120,20000\n180,30000\n240,0\n300,0\n";
@@ -400,6 +399,40 @@ TEST_CASE(
                 "of its own before that\n") != std::string::npos);
   for (const char* locked : {"180,20100,1\n", "180,0,1\n", "180,30000,0\n240,30000,1\n"})
     CHECK(remarks(wedge, stages + locked).find("is not used") == std::string::npos);
+}
+
+TEST_CASE("the cell of a jack that rests off zero before its load rises is remarked on") {
+  const auto remarks = [](const std::string& cell, const std::string& log) {
+    Site site;
+    site.sensors = cell;
+    return check_taken(site, "estimate", log);
+  };
+  // Rests with noise of 20 N at `rest`, then goes up to 40 kN more.
+  const auto log = [](double rest, int rows) {
+    const auto row = [&](int i) {
+      const double pull = i > rows ? 400.0 * (i - rows) : 0, noise = 20 * std::sin(2.3 * i);
+      return std::to_string(rest + pull + noise);
+    };
+    return ramp("time,C.end", rows + 100, row);
+  };
+  const std::string cell = R"("C.end": { "sd": 20 })", said = R"("C.end": { "sd": 20, "zero_sd": 500 })";
+  const std::string remark =
+      "before its load rises: if nothing pulls there, take that off all of its readings";
+  for (const int rows : {6, 30, 300}) {
+    CAPTURE(rows);
+    const std::string found = remarks(cell, log(1200, rows));
+    CHECK(found.find(" N in its first " + std::to_string(rows) + " rows, " + remark) != std::string::npos);
+    CHECK(found.find("remark: \"C.end\" reads 1") != std::string::npos);
+  }
+  for (const double rest : {1200.0, -1200.0})
+    CHECK(remarks(cell, log(rest, 30)).find(remark) != std::string::npos);
+  // A zero as it is said to be, or as that of any cell is; a load from which the log begins; no rest at all.
+  CHECK(remarks(said, log(1200, 30)).find(remark) == std::string::npos);
+  CHECK(remarks(R"("C.end": { "exact": true })", log(1200, 30)).find(remark) == std::string::npos);
+  CHECK(remarks(cell, log(60, 30)).find(remark) == std::string::npos);
+  CHECK(remarks(cell, log(8000, 30)).find(remark) == std::string::npos);
+  CHECK(remarks(cell, log(1200, 3)).find(remark) == std::string::npos);
+  CHECK(remarks(cell, log(0, 0)).find(remark) == std::string::npos);
 }
 
 TEST_CASE("an area in mm2 is refused by name") {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/commands/usual_deviations.hpp"
+#include "lib/files/deserved_digits.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/plausible_scene.hpp"
 #include "lib/files/text.hpp"
@@ -25,6 +27,19 @@ std::string column_of(const CableDescription& cable, std::size_t end) {
 std::string unit_remedy(const CableDescription& cable, std::size_t end, const std::string& unit) {
   if (!cable.cell[end].calibration.empty()) return "look at the \"calibration\" of this column in the scene";
   return "write the unit of the column after its name, as in " + column_of(cable, end) + " [" + unit + "]";
+}
+
+// An exact cell reads what the jack holds.
+bool is_off_zero(const RestOffZero& rest, const InstrumentDescription& cell) {
+  const double zero_sd = cell.zero_sd.value_or(usual_zero_sd * rest.largest());
+  return !cell.exact && std::fabs(rest.level()) > 3 * zero_sd;
+}
+
+Sentence rest_text(const RestOffZero& rest, const std::string& column) {
+  return Sentence(
+      "{1} reads {2} N in its first {3} rows, before its load rises: if nothing pulls there, "
+      "take that off all of its readings, for forces are off by as much",
+      {quote(column), plain(rounded(rest.level(), 4)), std::to_string(rest.rows())});
 }
 
 [[noreturn]] void refuse(const std::string& file, const std::string& place, const std::string& problem,
@@ -63,8 +78,10 @@ void PlausibleLog::take(const LogRow& row) {
         strokes.take({*given.stroke, row.line, given.reading.value_or(std::nan(""))});
         cables_[c].is_read_under_load |= *given.stroke != strokes.kept.front().at;
       }
-      if (cable.is_jacked(end))
+      if (cable.is_jacked(end)) {
         cables_[c].lock[end].take(row, given, first_stage_strain * cable.E * cable.A, cable.seating > 0);
+        cables_[c].rest[end].take(given.reading.value_or(std::nan("")), given.locked);
+      }
       if (!given.reading) continue;
       // Behind a wedge the cell of a jack reads whatever is left there.
       if (!given.locked) cables_[c].unit[end].take(*given.reading, row.line);
@@ -103,8 +120,12 @@ std::vector<Sentence> PlausibleLog::doubts() const {
   std::vector<Sentence> doubts;
   for (std::size_t c = 0; c < cables_.size(); ++c)
     for (std::size_t end = 0; end < 2; ++end) {
-      const auto of_end = cables_[c].lock[end].sentences(column_of(scene_.cables[c], end));
+      const std::string column = column_of(scene_.cables[c], end);
+      const auto of_end = cables_[c].lock[end].sentences(column);
       doubts.insert(doubts.end(), of_end.begin(), of_end.end());
+      const RestOffZero& rest = cables_[c].rest[end];
+      if (rest.is_found() && is_off_zero(rest, scene_.cables[c].cell[end]))
+        doubts.push_back(rest_text(rest, column));
     }
   return doubts;
 }

@@ -8,6 +8,7 @@
 
 #include "lib/commands/lock_doubts.hpp"
 #include "lib/commands/reading_scatter.hpp"
+#include "lib/commands/rest_off_zero.hpp"
 #include "lib/commands/unit_step.hpp"
 #include "lib/files/log_file.hpp"
 #include "lib/files/scene_description.hpp"
@@ -31,7 +32,8 @@ class PlausibleLog {
   /// 1e-4, though these readings do not; and, where the log does not go on from a state, if no jack of a
   /// cable has a column though other instruments read it under load.
   void require(const LogReader& log, const std::string& path, bool has_past) const;
-  /// What may be meant and probably is not, see LockDoubts.
+  /// What may be meant and probably is not: see LockDoubts; a jack that rests three deviations of its cell's
+  /// zero or more off, which a scene that says none has at 0.2 % of the largest reading, see RestOffZero.
   std::vector<Sentence> doubts() const;
 
  private:
@@ -60,6 +62,7 @@ class PlausibleLog {
     std::array<Strokes, 2> stroke;
     std::array<UnitStep, 2> unit;
     std::array<LockDoubts, 2> lock;
+    std::array<RestOffZero, 2> rest;
     bool is_read_under_load = false;  ///< by other instruments
   };
 

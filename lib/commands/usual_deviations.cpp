@@ -16,9 +16,8 @@
 namespace taut::host {
 namespace {
 
-constexpr double usual_mu_sd = 0.5, usual_gain_sd = 0.01, usual_zero_sd = 0.002, usual_hysteresis_sd = 0.01,
-                 least_noise = 1e-4, expected_noise = 1e-3, usual_noise_of_stage = 3e-3,
-                 usual_stroke_sd = 1e-3;
+constexpr double usual_mu_sd = 0.5, usual_gain_sd = 0.01, usual_hysteresis_sd = 0.01, least_noise = 1e-4,
+                 expected_noise = 1e-3, usual_noise_of_stage = 3e-3, usual_stroke_sd = 1e-3;
 // Of a tendon when it is tensioned, and of a strut.
 constexpr double usual_strain = 0.005, usual_strain_of_strut = 0.001;
 

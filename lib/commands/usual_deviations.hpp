@@ -10,6 +10,10 @@
 
 namespace taut::host {
 
+/// Standard deviation of the zero of a cell of which the scene says nothing, as a part of its largest
+/// reading.
+constexpr double usual_zero_sd = 0.002;
+
 /// Standard deviation of the noise of a load cell of this cable of which neither scene nor readings tell
 /// [N]: 1e-3 of the force of a strain of 0.5 %.
 double usual_noise(const CableDescription& cable);

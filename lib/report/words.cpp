@@ -653,6 +653,12 @@ constexpr Translation translations[] = {
      "die Last {2} N von {1} in Zeile {3} wird nicht benutzt, denn das Ende ist in dieser Zeile verankert, "
      "und {4} N davor: wenn die Presse sie zog, bevor der Keil eingezogen wurde, "
      "ihr davor eine eigene Zeile geben"},
+    {"{1} reads {2} N in its first {3} rows, before its load rises: if nothing pulls there, "
+     "take that off all of its readings, for forces are off by as much",
+     "{1} 在荷载上升之前的前 {3} 行读数为 {2} N："
+     "如果那时没有张拉，请从其所有读数中减去该值，否则索力会差这么多",
+     "{1} zeigt in seinen ersten {3} Zeilen, bevor die Last steigt, {2} N: wenn dort nichts zieht, "
+     "das von allen seinen Werten abziehen, denn um so viel sind Kräfte falsch"},
     {"column {1} is a measurement: simulate does not use it", "列 {1} 是测量值：simulate 不使用",
      "Spalte {1} ist eine Messung: simulate benutzt sie nicht"},
     {"column {1} is a measurement at an anchored end: simulate does not use it",
