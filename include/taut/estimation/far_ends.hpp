@@ -12,6 +12,7 @@
 #include "taut/estimation/friction_filter.hpp"
 #include "taut/estimation/gathered.hpp"
 #include "taut/estimation/since_lock_off.hpp"
+#include "taut/estimation/zero_at_rest.hpp"
 #include "taut/numerics/fixed_list.hpp"
 #include "taut/scene/scene.hpp"
 
@@ -128,41 +129,30 @@ class FarEnds {
     predict(filter.prediction());
     if (!filter.is_informative(tracker, end.cable(), sd, slides))
       return compare(e, reading, tracker, filter, jacks);
-    if (doubts_zero(e, reading, tracker, filter, jacks)) return Update::contradiction;
-    const Scalar lasting = variance_that_lasts(e, filter, jacks);
+    const auto at_rest = zero_at_rest(e, tracker, filter, jacks);
     const auto loads = jacks.readings(filter.prior());
+    if (at_rest.open_zero(reading,
+                          [&] { return filter.belief().expect(filter.prediction(), loads, Scalar(0)); }))
+      return Update::contradiction;
+    const Scalar lasting = variance_that_lasts(e, filter, jacks);
     const Scalar counted = filter.counted_deviation(sd, lasting, loads);
     if (!(counted > 0)) return look(e, reading, tracker, filter, jacks);
-    count_learned(e, 1, tracker, filter, jacks);
+    if (counts_learned() && !at_rest.tells_zero()) count_learned(1);
     const Update update = filter.update(tracker, predict, loads, {reading, counted, Scalar(0)});
     note(e, reading, lasting, filter);
     return update;
   }
-  /// Compares a reading [N] of cell `e` with what is expected, and corrects with it what friction remembers,
-  /// as correct_memory() does. Cost: that.
+  /// Compares a reading [N] of cell `e` with what is expected, and corrects with it what friction remembers
+  /// of loads, or the zero of the cell where that is told. Cost: that of FilterType::update_alone().
   [[nodiscard]] Update compare(int e, Scalar reading, const TrackerType& tracker, FilterType& filter,
                                const Jacks& jacks) {
-    const Scalar sd = state_.watch[e].sd;
-    predict_at(ends_[e], tracker, filter, jacks, filter.prediction());
-    const auto loads = jacks.readings(filter.prior());
-    const Expected<Scalar> force = filter.belief().expect(filter.prediction(), loads, Scalar(0));
-    const Scalar lasting = variance_while_stuck(e, tracker, filter, jacks);
-    state_.watch[e].take(reading, force.value, force.variance + lasting, sd * sd);
-    if (!doubts_zero(e, reading, tracker, filter, jacks))
-      correct_memory(e, reading, lasting, tracker, filter, jacks);
+    compare(e, reading, false, tracker, filter, jacks);
     return Update::no_information;
   }
   /// The same where a load of the cable may have turned, so that its joints stick here: they may slide yet.
-  [[gnu::noinline]] void compare_in_doubt(int e, Scalar reading, const TrackerType& tracker,
-                                          FilterType& filter, const Jacks& jacks) {
-    predict_at(ends_[e], tracker, filter, jacks, filter.prediction());
-    Scalar lasting = variance_while_stuck(e, tracker, filter, jacks);
-    for (int k = 0; k < jacks.size(); ++k) {
-      const Scalar part =
-          carried_over(tracker, jacks.end(k), ends_[e].segment(tracker.model())) * jacks[k].at.sd;
-      lasting += part * part;
-    }
-    correct_memory(e, reading, lasting, tracker, filter, jacks);
+  void compare_in_doubt(int e, Scalar reading, const TrackerType& tracker, FilterType& filter,
+                        const Jacks& jacks) {
+    compare(e, reading, true, tracker, filter, jacks);
   }
   /// A reading [N] of cell `e` of a cable that is locked corrects what drifts there, the unknowns with
   /// is_of(p), through the elastic response; of friction nothing is learned. Cost: that of
@@ -227,7 +217,7 @@ class FarEnds {
     if (!has_waiting()) return Update::waits;
     const Gathered<Scalar> all = state_.gathered;
     state_.gathered.size = 0;
-    count_learned(0, all.size, tracker, filter, jacks);
+    if (counts_learned() && !zero_at_rest(0, tracker, filter, jacks).tells_zero()) count_learned(all.size);
     const Scalar driven = jacks[0].driven.force, back = all.driven() - driven;
     const auto predict = [&](auto& prediction) {
       predict_at(ends_[0], tracker, filter, jacks, prediction);
@@ -265,7 +255,12 @@ class FarEnds {
   Scalar variance_that_lasts(int e, const FilterType& filter, const Jacks& jacks) const {
     return variance_that_lasts(e, filter, jacks, [&](int k) { return filter.prediction().by_jack[k]; });
   }
-  /// The same while joints stick: which ones do depends on friction, and what it holds is as uncertain.
+  /// The same of the only cell, once its readings are gathered.
+  Scalar variance_in_common(const FilterType& filter, const Jacks& jacks) const {
+    return variance_that_lasts(0, filter, jacks, [&](int) { return state_.gathered.slope; });
+  }
+  /// The same after predict_at(), while joints stick: which ones do depends on friction, and what it holds is
+  /// as uncertain.
   Scalar variance_while_stuck(int e, const TrackerType& tracker, const FilterType& filter,
                               const Jacks& jacks) const {
     const auto& cable = tracker.model().cables[ends_[e].cable()];
@@ -273,72 +268,36 @@ class FarEnds {
                  in_doubt = held * filter.relative_deviation(tracker, ends_[e].cable());
     return variance_that_lasts(e, filter, jacks) + in_doubt * in_doubt;
   }
-  /// After predict_at(): of friction a reading teaches nothing while joints stick, and of what it remembers
-  /// of loads as much as is not `lasting`, Eq. (70). Before anything pulls it tells the zero of the cell, no
-  /// better than it is known that the jack holds nothing.
-  [[gnu::noinline]] void correct_memory(int e, Scalar reading, Scalar lasting, const TrackerType& tracker,
-                                        FilterType& filter, const Jacks& jacks) {
-    const auto& watch = state_.watch[e];
-    const int zero = tells_zero(e, tracker, filter, jacks) ? zero_of(e, filter) : -1;
-    if (zero >= 0) lasting += variance_of_zeros(ends_[e].cable(), filter, jacks);
+  /// Both of these in one. Of friction a reading teaches nothing while joints stick, and of what
+  /// it remembers of loads as much as does not last, Eq. (70). Before anything pulls it tells the zero of the
+  /// cell, no better than it is known that the jack holds nothing.
+  [[gnu::noinline]] void compare(int e, Scalar reading, bool in_doubt, const TrackerType& tracker,
+                                 FilterType& filter, const Jacks& jacks) {
+    auto& watch = state_.watch[e];
+    predict_at(ends_[e], tracker, filter, jacks, filter.prediction());
+    const auto at_rest = zero_at_rest(e, tracker, filter, jacks);
     const auto loads = jacks.readings(filter.prior());
+    Scalar lasting = variance_while_stuck(e, tracker, filter, jacks);
+    if (in_doubt) {
+      for (int k = 0; k < jacks.size(); ++k) {
+        const Scalar part =
+            carried_over(tracker, jacks.end(k), ends_[e].segment(tracker.model())) * jacks[k].at.sd;
+        lasting += part * part;
+      }
+    } else {
+      const Expected<Scalar> force = filter.belief().expect(filter.prediction(), loads, Scalar(0));
+      watch.take(reading, force.value, force.variance + lasting, watch.sd * watch.sd);
+      if (at_rest.open_zero(reading, [&] { return force; })) return;
+    }
+    if (at_rest.tells_zero()) lasting += at_rest.variance_of_zeros();
     const Scalar counted = filter.counted_deviation(watch.sd, lasting, loads);
     if (!(counted > 0) || !watch.noise.is_other()) return;
-    const auto is_told = [&](int p) { return p == zero || jacks.remember(p); };
+    const auto is_told = [&](int p) { return at_rest.tells(p) || jacks.remember(p); };
     corrects_memory_ = filter.update_alone(is_told, loads, {reading, counted, Scalar(0)}) == Update::updated;
   }
-  /// Of the jacks' cells of a cable.
-  Scalar variance_of_zeros(int cable, const FilterType& filter, const Jacks& jacks) const {
-    Scalar variance = 0;
-    for (int k = 0; k < jacks.size(); ++k) {
-      const int zero = filter.instruments().at(jacks.end(k).cable(), jacks.end(k).end).zero;
-      if (jacks.end(k).cable() == cable && zero >= 0) variance += filter.belief().variance(zero);
-    }
-    return variance;
-  }
-  /// The number of the unknown zero of cell `e`, or -1: as the compiler knows where there can be none.
-  int zero_of(int e, const FilterType& filter) const {
-    return FilterType::has_further ? filter.instruments().at(ends_[e].cable(), ends_[e].end).zero : -1;
-  }
-  /// Whether its zero is unknown and told at present: no force has been larger than noise so far, as a few
-  /// readings of every jack say.
-  bool tells_zero(int e, const TrackerType& tracker, const FilterType& filter, const Jacks& jacks) const {
-    return zero_of(e, filter) >= 0 && has_rested(e, tracker, jacks);
-  }
-  [[gnu::noinline]] bool has_rested(int e, const TrackerType& tracker, const Jacks& jacks) const {
-    constexpr Scalar at_most = 4;
-    constexpr int few = 3;
-    Scalar noise = state_.watch[e].sd;
-    bool are_few = false;
-    for (int k = 0; k < jacks.size(); ++k) {
-      noise = larger(noise, jacks[k].filter.sd());
-      are_few = are_few || jacks[k].filter.run_length() < few;
-    }
-    return !are_few && static_cast<Scalar>(tracker.peak()) < at_most * noise;
-  }
-  /// After predict_at(): whether a reading [N] is outside of the gate before anything pulls, or where no
-  /// force so far is so large that it would explain it: then the zero is farther off than was said, and the
-  /// next ones tell how far. Cost: that of Belief::expect().
-  bool doubts_zero(int e, Scalar reading, const TrackerType& tracker, FilterType& filter,
-                   const Jacks& jacks) {
-    const int zero = zero_of(e, filter);
-    return zero >= 0 && doubts_zero(zero, e, reading, tracker, filter, jacks);
-  }
-  [[gnu::noinline]] bool doubts_zero(int zero, int e, Scalar reading, const TrackerType& tracker,
-                                     FilterType& filter, const Jacks& jacks) {
-    constexpr Scalar far = 4;
-    const bool explains = !(far * static_cast<Scalar>(tracker.peak()) < std::fabs(reading));
-    if (explains && !tells_zero(e, tracker, filter, jacks)) return false;
-    const auto expected =
-        filter.belief().expect(filter.prediction(), jacks.readings(filter.prior()), state_.watch[e].sd);
-    const Scalar off = reading - expected.value;
-    if (!(off * off > FilterType::BeliefType::gate * expected.variance)) return false;
-    filter.widen(zero, std::fabs(reading));
-    return true;
-  }
-  /// The same of the only cell, once its readings are gathered.
-  Scalar variance_in_common(const FilterType& filter, const Jacks& jacks) const {
-    return variance_that_lasts(0, filter, jacks, [&](int) { return state_.gathered.slope; });
+  ZeroAtRest<FilterType, Jacks> zero_at_rest(int e, const TrackerType& tracker, FilterType& filter,
+                                             const Jacks& jacks) const {
+    return {ends_[e], state_.watch[e].sd, tracker, filter, jacks};
   }
   /// A reading that tells nothing new is compared all the same.
   Update look(int e, Scalar reading, const TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
@@ -365,13 +324,9 @@ class FarEnds {
   }
   /// For readings that are gathered. Soon after something has happened little is known.
   int room() const { return state_.learned / 4; }
-  /// Of friction, of which nothing is learned before anything pulls.
-  void count_learned(int e, int readings, const TrackerType& tracker, const FilterType& filter,
-                     const Jacks& jacks) {
-    constexpr int well_known = 4 * Gathered<Scalar>::capacity;
-    if (state_.learned < well_known && !tells_zero(e, tracker, filter, jacks))
-      state_.learned = static_cast<std::uint8_t>(state_.learned + readings);
-  }
+  /// Whether readings that teach of friction count yet: none does before anything pulls.
+  bool counts_learned() const { return state_.learned < 4 * Gathered<Scalar>::capacity; }
+  void count_learned(int readings) { state_.learned = static_cast<std::uint8_t>(state_.learned + readings); }
   /// Finds the line that readings are compared with. False if the cell says nothing at present.
   bool begin_gathering(Scalar driven, const TrackerType& tracker, FilterType& filter, const Jacks& jacks) {
     const auto& belief = filter.belief();
