@@ -409,5 +409,15 @@ TEST_CASE_TEMPLATE("tensions are the affine map of the inputs that the laws of t
       CHECK(map.keeps(k, true) == up);
       CHECK(map.keeps(k, false) == down);
     }
+
+    // With springs, laws may imply one another: nothing is kept.
+    map.set().clear();
+    map.set().hold(1e-8);
+    for (const taut::ActiveConstraint& each : active) REQUIRE(map.set().append(cable.laws, each));
+    map.make(cable.laws, T, values, anchored);
+    CHECK(map.is_held() == On::coupled);
+    for (int k = 0; k < map.inputs() && map.is_held(); ++k)
+      for (const bool up : {false, true}) CHECK_FALSE(map.keeps(k, up));
+    CHECK_FALSE((map.is_held() && map.keeps(inputs, inputs)));
   }
 }

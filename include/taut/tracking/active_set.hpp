@@ -142,12 +142,13 @@ class ActiveSet {
   /// free while they are slack, and a decision at zero tension is well posed nevertheless. To be set while
   /// the set is empty.
   void hold(Real part) { held_ = is_chains() ? Real(0) : part; }
-  bool is_held() const { return is_positive(held_); }
+  /// Whether there are such springs. Between rigid saddles no node is free, and the compiler knows.
+  bool is_held() const { return has_rows && is_positive(held_); }
   /// Adds the tensions that elongations make.
   template <class Number>
   void carry(const Along<Number>& e, Along<Number>& T) const {
     model_->coupling.add(model_->segments, e, T);
-    if (held_ == 0) return;
+    if (!is_held()) return;
     for (int i = 0; i < model_->segments; ++i)
       T[i] += static_cast<Number>(held_ * model_->coupling(i, i)) * e[i];
   }

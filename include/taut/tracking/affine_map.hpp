@@ -105,8 +105,14 @@ class AffineMap {
   /// What an elongation by an active variable is in its own segment [N/m].
   Real stiffness(int i) const { return set_.stiffness(i); }
 
-  /// Whether every slip variable keeps the sign it must have when input `k` alone grows, or shrinks.
+  /// Whether samples stay on this piece when input `k` alone grows, or shrinks: every slip variable keeps the
+  /// sign it must have. Laws that imply one another may contradict where an input changes; only a whole path
+  /// sees that, and such a map keeps nothing.
   bool keeps(int k, bool up) const { return up ? keeps_if_up_[k] : keeps_if_down_[k]; }
+  /// The same of a sample at `x` that is reached by `dx`; every slack span still has length to spare there.
+  bool keeps(const Inputs& dx, const Inputs& x) const {
+    return !is_held() && goes_on(dx, Real(0)) && stays_slack(x);
+  }
   /// Whether every slip variable keeps the sign it must have going along `dx`, give or take `tolerance` [N].
   bool goes_on(const Inputs& dx, Real tolerance) const {
     for (int i = 0; i < active(); ++i)
@@ -124,12 +130,6 @@ class AffineMap {
     for (int k = 0; k < inputs(); ++k)
       if (inputs_[k].kind == Input::Kind::jack_force) off[row_of_jack(inputs_[k].index)] -= x[k];
     return largest(active(), &off[0]);
-  }
-  /// Whether at `x` every slack span still has length to spare.
-  bool stays_slack(const Inputs& x) const {
-    for (int i = 0; i < active(); ++i)
-      if (variable(i).kind == SlipVariable::Kind::slack_length && value(i, x) < 0) return false;
-    return true;
   }
 
   // In the scene's scalar, for samples without an event.
@@ -151,6 +151,13 @@ class AffineMap {
  private:
   static constexpr bool is_wide = std::is_same<Real, Scalar>::value;
   static constexpr int most_passes = 8;
+
+  /// Whether at `x` every slack span still has length to spare.
+  bool stays_slack(const Inputs& x) const {
+    for (int i = 0; i < active(); ++i)
+      if (variable(i).kind == SlipVariable::Kind::slack_length && value(i, x) < 0) return false;
+    return true;
+  }
 
   void round_columns() {
     if constexpr (!is_wide) {
@@ -177,7 +184,7 @@ class AffineMap {
     if (input.kind == Input::Kind::jack_force) due[row_of_jack(input.index)] = 1;
     column_values_[k].fill(Real(0));
     set_.settle(laws, due, column, column_values_[k], most_passes);
-    keeps_if_up_[k] = keeps_if_down_[k] = true;
+    keeps_if_up_[k] = keeps_if_down_[k] = !is_held();
     for (int i = 0; i < active(); ++i) {
       const Real along = static_cast<Real>(set_[i].sense) * column_values_[k][i];
       keeps_if_up_[k] = keeps_if_up_[k] && along >= 0;

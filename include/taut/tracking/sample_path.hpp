@@ -32,8 +32,6 @@ class SamplePath {
   /// enough. Otherwise nothing is changed.
   [[nodiscard]] bool follow(Cables& cables, const Sample<Scalar, Cap>& sample) {
     if (!cables.state.has_map || !cables.state.arrived || cables.has_redundant_jack) return false;
-    // Laws that imply one another may contradict where an input has changed: that is for whole paths to see.
-    if (cables.map.is_held()) return false;
     Given x;
     if (!read(cables, sample, x)) return false;
     bool keeps = true, regroups = false, moves = false;
@@ -81,7 +79,7 @@ class SamplePath {
     if (k < 0 || !(force >= 0)) return false;
     const Scalar step = force - at_[k];
     if (step == 0) return true;
-    if (cables.map.is_held() || !cables.map.keeps(k, step > 0)) return false;
+    if (!cables.map.keeps(k, step > 0)) return false;
     if (cables.map.has_slack()) {
       Given x = at_;
       x[k] = force;
@@ -226,7 +224,7 @@ class SamplePath {
       x[k] = static_cast<Real>(given[k]);
       dx[k] = static_cast<Real>(given[k] - at_[k]);
     }
-    return cables.map.goes_on(dx, Real(0)) && cables.map.stays_slack(x);
+    return cables.map.keeps(dx, x);
   }
   /// Inputs that do not change are added up once.
   void regroup(Cables& cables, const Given& x) {
