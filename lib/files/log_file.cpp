@@ -133,14 +133,9 @@ bool LogReader::is_header_again() const {
   return trimmed(line) == header_;
 }
 
-void LogReader::remark_on_header() {
-  const std::vector<Sentence> parts = {file_, std::to_string(line_)};
-  if (++headers_ <= most_remarks)
-    remarks_.push_back(
-        Sentence("{1}: line {2} is the header again; it is skipped, and the log goes on below it", parts));
-  else if (headers_ == most_remarks + 1)
-    remarks_.push_back(
-        Sentence("{1}: line {2} is the header again, as are perhaps more; they are skipped", parts));
+// `last` stands for all that are too many.
+void LogReader::remark(std::size_t& of_this_kind, const Sentence& each, const Sentence& last) {
+  if (++of_this_kind <= most_remarks + 1) remarks_.push_back(of_this_kind <= most_remarks ? each : last);
 }
 
 // Commas can be in no name, so one of them in the header settles it; tabs beside others are blanks.
@@ -293,7 +288,11 @@ bool LogReader::next(LogRow& row) {
       return false;
     }
     if (is_header_again()) {
-      remark_on_header();
+      const std::vector<Sentence> parts = {file_, std::to_string(line_)};
+      remark(
+          headers_,
+          Sentence("{1}: line {2} is the header again; it is skipped, and the log goes on below it", parts),
+          Sentence("{1}: line {2} is the header again, as are perhaps more; they are skipped", parts));
       continue;
     }
     if (!is_blank_row()) break;
@@ -413,16 +412,13 @@ void LogReader::take_factor(std::size_t i, double& factor) {
                  "write one of a size below " + plain(rules_.most_factor[load]) + ": is the unit wrong?");
   const std::vector<Sentence> parts = {file_, std::to_string(line_), std::to_string(i + 1), names_[i],
                                        plain(given)};
-  if (++left_out_ <= most_remarks)
-    remarks_.push_back(
-        Sentence("{1}: line {2}, column {3} ({4}): the factor {5} is more than the cables can "
-                 "carry; the one before is kept",
-                 parts));
-  else if (left_out_ == most_remarks + 1)
-    remarks_.push_back(
-        Sentence("{1}: line {2}, column {3} ({4}): the factor {5} is more than the cables can "
-                 "carry, as are perhaps more; the ones before are kept",
-                 parts));
+  remark(left_out_,
+         Sentence("{1}: line {2}, column {3} ({4}): the factor {5} is more than the cables can carry; "
+                  "the one before is kept",
+                  parts),
+         Sentence("{1}: line {2}, column {3} ({4}): the factor {5} is more than the cables can carry, "
+                  "as are perhaps more; the ones before are kept",
+                  parts));
 }
 
 // Tables with empty fields write 0 and 1 as any other number: 1.0.

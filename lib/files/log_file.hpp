@@ -108,7 +108,7 @@ class LogReader {
   bool is_blank(char c) const;
   bool is_blank_row() const;
   bool is_header_again() const;
-  void remark_on_header();
+  void remark(std::size_t& of_this_kind, const Sentence& each, const Sentence& last);
   void find_separator();
   void read_header();
   const LogUnit& known_unit(std::size_t i, const LogColumn& column, const NameWithUnit& field) const;
