@@ -183,7 +183,7 @@ TEST_CASE("no force and no stroke passes its limit anywhere on the way") {
     const auto kind = number % 2 == 0 ? plan_test::SceneKind::saddles : plan_test::SceneKind::truss;
     plan_test::Site site = plan_test::random_site(random, kind, number % 3 == 0);
     const Plan free = find_plan(site.scene, site.goal);
-    REQUIRE(free.status.ok());
+    REQUIRE(free.status().ok());
     PlanGoal limited = site.goal;
     double most = 0, most_stroke = 0;
     for (const auto& stage : free.outcome.tension)
@@ -290,7 +290,7 @@ TEST_CASE("cables on one node are tensioned in turn, each with what the next one
   goal.most_stroke = goal.most_force;
   goal.lock = true;
   const Plan plan = find_plan(scene, goal);
-  REQUIRE(plan.status.ok());
+  REQUIRE(plan.status().ok());
   CHECK(plan.outcome.error < 1e-8);
   // Locked, each is a spring k between its anchor and the node, which the strut holds with c. The second pull
   // moves the node; the first cable was pulled with what that and its own seating will take.
@@ -316,7 +316,7 @@ TEST_CASE("the rest of a plan knows what was jacked: it goes on as planned, and 
     const plan_test::Site site = plan_test::random_site(
         random, round % 2 == 0 ? plan_test::SceneKind::saddles : plan_test::SceneKind::truss, false);
     const Plan plan = find_plan(site.scene, site.goal);
-    REQUIRE(plan.status.ok());
+    REQUIRE(plan.status().ok());
     if (plan.stages.size() < 2) continue;
     PlanStage rest = plan.stages[0];
     rest.force[0] = 0;
@@ -390,7 +390,7 @@ TEST_CASE("of two cables the first stays locked while the rest of the second one
   goal.most_stroke = goal.most_force;
   goal.lock = true;
   const Plan plan = find_plan(scene, goal);
-  REQUIRE(plan.status.ok());
+  REQUIRE(plan.status().ok());
   PlanPast past;
   past.moves = {{{{0, 0}, {0, 0}}, goal.factor}};
   std::size_t s = 0;

@@ -227,7 +227,7 @@ bool compare_one(const Options& options, Kind& kind, std::uint64_t i) {
   const auto begin = std::chrono::steady_clock::now();
   const Plan plan = find_plan(site.scene, site.goal);
   const double took = seconds_since(begin);
-  if (!plan.status) {
+  if (!plan.status()) {
     ++kind.unusable;
     return true;
   }
@@ -325,7 +325,7 @@ bool compare_two(const Options& options, Kind& kind, std::uint64_t i) {
   const auto begin = std::chrono::steady_clock::now();
   const Plan plan = find_plan(site.scene, site.goal);
   const double took = seconds_since(begin);
-  if (!plan.status) {
+  if (!plan.status()) {
     ++kind.unusable;
     return true;
   }

@@ -109,7 +109,7 @@ int run(const Options& options) {
                     1000 * static_cast<std::uint64_t>(kind) + static_cast<std::uint64_t>(i));
       const Site site = uncertain_site(random, kind);
       const Plan plan = find_plan(site.scene, site.goal);
-      if (!plan.status) continue;
+      if (!plan.status()) continue;
       const Plan other = find_robust_plan(site.scene, site.goal, plan);
       const PriorOutcome before = outcome_over_prior(site.scene, site.goal, plan.jacks, plan.stages);
       const PriorOutcome after = outcome_over_prior(site.scene, site.goal, other.jacks, other.stages);

@@ -46,7 +46,7 @@ int plan(const PlanOptions& options) {
   keep_files_apart(options);
   PlanResult result;
   result.plan = find_plan(scene, goal);
-  if (!result.plan.status) {
+  if (!result.plan.status()) {
     std::cerr << options.scene << ": " << no_plan_text(scene, result.plan) << '\n';
     return 1;
   }

@@ -249,9 +249,9 @@ class Watch {
     PlanResult result;
     try {
       result.plan = find_plan(scene_, *goal_, give_up);
-      if (!result.plan.status || !result.plan.outcome.whole) {
+      if (!result.plan.status() || !result.plan.outcome.whole) {
         std::cerr << options_.scene << ": "
-                  << (result.plan.status ? "the plan comes to no end" : no_plan_text(scene_, result.plan))
+                  << (result.plan.status() ? "the plan comes to no end" : no_plan_text(scene_, result.plan))
                   << '\n';
         return false;
       }

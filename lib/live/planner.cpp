@@ -75,8 +75,8 @@ PlanFound Planner::find(PlanRequest request) const {
   const GiveUp give_up = [this] { return is_over_.load(); };
   try {
     found.plan = find_rest_of_plan(scene, goal_, past, give_up);
-    if (!found.plan.status)
-      found.failure = failure_text(found.plan.status, scene).english();
+    if (!found.plan.status())
+      found.failure = failure_text(found.plan.status(), scene).english();
     else if (!found.plan.outcome.whole)
       found.failure = "the structure has no answer on the way";
     else if (has_prior(scene))

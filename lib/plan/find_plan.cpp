@@ -121,10 +121,10 @@ class PlanSearch {
   Plan find() {
     Plan plan;
     plan.jacks = jacks_;
-    plan.status = condensed_.condensing.status;
-    if (!plan.status) return plan;
+    plan.failure.status = condensed_.condensing.status;
+    if (!plan.status()) return plan;
     if (!jacking_->begin()) {
-      plan.status = jacking_->why();
+      plan.failure.status = jacking_->why();
       return plan;
     }
     start_ = jacking_->state();
@@ -143,7 +143,7 @@ class PlanSearch {
       Found from_rest;
       if (is_one_jack() && !past_->stays) search_all(from_rest);
       if (!jacking_->begin_after(past_->moves)) {
-        plan.status = jacking_->why();
+        plan.failure.status = jacking_->why();
         return plan;
       }
       start_ = jacking_->state();
@@ -153,14 +153,11 @@ class PlanSearch {
       if (!from_rest.shape.empty()) take_better(best, from_here(from_rest.shape, from_rest.plan.force));
     }
     search_all(best);
-    if (past_ == nullptr && !jacking_->has_moved() && best.merit() > far_off)
-      if (const FailedMove& failure = jacking_->first_failure(); !failure.status) {
-        plan.status = failure.status;
-        plan.failed = failure.to;
-        plan.failed_part = failure.part;
-        plan.loads_come_first = jacking_->loads_come_first();
-        return plan;
-      }
+    if (past_ == nullptr && !jacking_->has_moved() && best.merit() > far_off) {
+      plan.failure = jacking_->first_failure();
+      plan.loads_come_first = jacking_->loads_come_first();
+      if (!plan.status()) return plan;
+    }
     if (past_ != nullptr && before.merit() <= best.merit() + worth_a_change)
       return finished(plan, before, true);
     be_gentle(best);
@@ -657,7 +654,7 @@ class PlanSearch {
 
 Plan find_plan(const SceneDescription& scene, const PlanGoal& goal, const GiveUp& give_up) {
   Plan plan = PlanSearch(scene, goal, give_up).find();
-  if (!plan.status || plan.outcome.merit() <= far_off || !has_limits(goal)) return plan;
+  if (!plan.status() || plan.outcome.merit() <= far_off || !has_limits(goal)) return plan;
   PlanGoal free = goal;
   free.most_segment.assign(goal.most_segment.size(), no_limit);
   free.most_force.assign(goal.most_force.size(), {no_limit, no_limit});

@@ -22,10 +22,9 @@ enum class Certainty {
 
 /// A plan, and what it leads to by the model. Units: N, m.
 struct Plan {
-  Status status =
-      Status::success();   ///< else the structure has no answer before, or as soon as, a jack moves
-  PlanStage failed;        ///< where the first trial was to go if all had no answer; else no forces
-  double failed_part = 0;  ///< of the way there
+  /// The first trial, if the structure has no answer as soon as a jack moves; it goes to no forces where it
+  /// has none before.
+  FailedMove failure;
   std::vector<PlanJack> jacks;
   CourseShape shape;
   std::vector<PlanStage> stages;  ///< one a step of the shape
@@ -41,6 +40,9 @@ struct Plan {
   bool limits_stop_it = false;
   std::size_t moves_tried = 0;
   bool is_as_before = false;  ///< of a rest: it is that of the plan until now
+
+  /// That of the failure: success if there is a plan.
+  const Status& status() const { return failure.status; }
 };
 
 /// How far from its target a plan is useless.

@@ -120,21 +120,22 @@ std::vector<std::string> plan_sentences(const SceneDescription& scene, const Pla
 }
 
 std::string no_plan_text(const SceneDescription& scene, const Plan& plan) {
-  if (plan.failed.force.empty()) return failure_text(plan.status, scene).english();
+  const FailedMove& failure = plan.failure;
+  if (failure.to.force.empty()) return failure_text(failure.status, scene).english();
   std::string way;
   for (std::size_t k = 0; k < plan.jacks.size(); ++k)
     way += (k == 0 ? "" : ", ") + plan.jacks[k].name + " " +
-           std::to_string(std::llround(plan.failed.force[k])) + " N";
+           std::to_string(std::llround(failure.to.force[k])) + " N";
   if (!plan.loads_come_first) way += " with the loads of the goal";
-  const std::string where = plan.failed_part < 1e-6 ? "at once" : "after " + part_text(plan.failed_part);
+  const std::string where = failure.part < 1e-6 ? "at once" : "after " + part_text(failure.part);
   // Jacks alone balance one another only while they pull just so; a length that is given takes what is left.
   Sentence remedy;
-  if (plan.status.code == Code::mechanism && plan.jacks.size() > 1 && !scene.second_order)
-    remedy = Sentence("{1}, or {2}", {failure_remedy(plan.status, scene),
+  if (failure.status.code == Code::mechanism && plan.jacks.size() > 1 && !scene.second_order)
+    remedy = Sentence("{1}, or {2}", {failure_remedy(failure.status, scene),
                                       Sentence("make all but one of the jacked ends that pull at it "
                                                "\"anchored\": a jack gives a force, and holds nothing")});
   return "no jack can be moved; on the way to " + way + ", " + where + ": " +
-         failure_text(plan.status, scene, remedy).english();
+         failure_text(failure.status, scene, remedy).english();
 }
 
 }  // namespace taut::host

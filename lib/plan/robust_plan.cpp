@@ -181,7 +181,7 @@ Plan find_robust_plan(const SceneDescription& scene, const PlanGoal& goal, const
   add(for_mean);
   double least = found[0].expected;
   for (const double deviations : {-2.0, -1.0, 0.5, 1.0, 2.0})
-    if (const Plan plan = find_plan(shifted(scene, deviations), goal); plan.status && plan.outcome.whole)
+    if (const Plan plan = find_plan(shifted(scene, deviations), goal); plan.status() && plan.outcome.whole)
       add(plan);
   const CourseShape shape = found[0].shape;
   if (open_forces(shape) == 2 && shape[0].jacks == shape[1].jacks)
