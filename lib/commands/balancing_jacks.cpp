@@ -66,9 +66,8 @@ std::string balance_warning(const SceneDescription& scene, const CondensedArrays
   for (std::size_t i = 0; i < ends.size(); ++i)
     names += (i == 0 ? "" : i + 1 == ends.size() ? " and " : ", ") + ends[i];
   return "while the forces of " + names +
-         " are given, nothing holds what they pull at, and there is an answer only where they balance; lock "
-         "or "
-         "anchor all but one of them, or hold it: add a strut, a support or a substructure";
+         " are given, nothing holds what they pull at, and there is an answer only where they balance; "
+         "lock or anchor all but one of them, or hold it: add a strut, a support or a substructure";
 }
 
 }  // namespace taut::host

@@ -373,9 +373,8 @@ constexpr Translation translations[] = {
     {"This end was marked as unlocked before its jack pulls what the wedge holds. A wedge cannot come free "
      "before that: it is taken to hold until then.",
      "该端在千斤顶尚未达到夹片所持之力时就被标为解锁。夹片在此之前不会松开：在那之前视为仍然锚固。",
-     "Dieses Ende wurde als gelöst gekennzeichnet, bevor seine Presse zieht, was der Keil hält. Vorher kann "
-     "ein "
-     "Keil nicht frei werden: bis dahin gilt er als verankert."},
+     "Dieses Ende wurde als gelöst gekennzeichnet, bevor seine Presse zieht, was der Keil hält. "
+     "Vorher kann ein Keil nicht frei werden: bis dahin gilt er als verankert."},
     {"This end was locked while the load of its jack fell, or when next to none was left. If its wedge held "
      "before the log says so, the forces are those from before the load fell; the intervals reach that far.",
      "该端锚固时千斤顶荷载正在下降，或已所剩无几。若夹片早于记录所示锚固，则力为下降之前的力；区间已延伸至该"
@@ -509,9 +508,8 @@ constexpr Translation translations[] = {
     {"make all but one of the jacked ends that pull at it \"anchored\": a jack gives a force, and holds "
      "nothing",
      "把拉住它的张拉端除一个以外都改为 \"anchored\"：千斤顶只给出力，并不固定任何东西",
-     "alle gespannten Enden bis auf eines, die daran ziehen, \"anchored\" machen: eine Presse gibt eine "
-     "Kraft "
-     "und hält nichts"},
+     "alle gespannten Enden bis auf eines, die daran ziehen, \"anchored\" machen: "
+     "eine Presse gibt eine Kraft und hält nichts"},
     {"no strut, beam, cable or substructure ends at it or passes it: remove it from \"nodes\", or connect it",
      "没有撑杆、梁、索或子结构与其相连：从 \"nodes\" 中删去该节点，或将其连接",
      "kein Stab, Balken, Seil oder Teiltragwerk endet dort oder führt darüber: aus \"nodes\" entfernen oder "
