@@ -1,8 +1,9 @@
 // An end that is marked as unlocked when its pump begins to work, and not once its wedge is free.
 #include <doctest/doctest.h>
 
-#include <memory>
+#include <cstdint>
 
+#include "estimation/each_seed.hpp"
 #include "estimation/jacked_chain.hpp"
 
 using namespace estimation;
@@ -75,63 +76,59 @@ class NextVisit {
   Score score_;
 };
 
+/// Calls check(visit, are_stages) of visits with a row a second, and of others with load stages.
+template <class Check>
+void for_each_visit(const Check& check) {
+  for (const double pace : {1.0, 60.0}) {
+    CAPTURE(pace);
+    for_each_seed<NextVisit>(pace, [&](NextVisit& visit) { check(visit, pace > 1); });
+  }
+}
+
 }  // namespace
 
 TEST_CASE(
     "a wedge holds until its jack pulls what it holds, whatever the log says: one notice, and true forces") {
-  for (const int rows : {10, 60})
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-      CAPTURE(rows);
-      CAPTURE(seed);
-      const auto visit = std::make_unique<NextVisit>(seed, 1);
-      visit->go(0.9 * visit->held(), rows);
-      CHECK(visit->score().worst < 4);
-      CHECK(visit->notices() == 1);
-      visit->go(1.05 * full, 10);
-      CHECK(visit->score().worst < 4);
-      CHECK(visit->notices() == 1);
-    }
+  for (const int rows : {10, 60}) {
+    CAPTURE(rows);
+    for_each_seed<NextVisit>(1.0, [&](NextVisit& visit) {
+      visit.go(0.9 * visit.held(), rows);
+      CHECK(visit.score().worst < 4);
+      CHECK(visit.notices() == 1);
+      visit.go(1.05 * full, 10);
+      CHECK(visit.score().worst < 4);
+      CHECK(visit.notices() == 1);
+    });
+  }
 }
 
 TEST_CASE("so it does in load stages, and where the jack is let out again before it has pulled as much") {
-  for (const double pace : {1.0, 60.0})
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-      CAPTURE(pace);
-      CAPTURE(seed);
-      const auto visit = std::make_unique<NextVisit>(seed, pace);
-      visit->go(0.7 * visit->held(), pace > 1 ? 2 : 40);
-      visit->lock_again();
-      CHECK(visit->score().worst < 4);
-      visit->go(0.6 * visit->held(), pace > 1 ? 1 : 40);
-      CHECK(visit->notices() == 2);
-      visit->go(1.05 * full, pace > 1 ? 2 : 40);
-      CHECK(visit->score().worst < 4);
-      CHECK(visit->off() < 0.1);
-    }
+  for_each_visit([](NextVisit& visit, bool are_stages) {
+    visit.go(0.7 * visit.held(), are_stages ? 2 : 40);
+    visit.lock_again();
+    CHECK(visit.score().worst < 4);
+    visit.go(0.6 * visit.held(), are_stages ? 1 : 40);
+    CHECK(visit.notices() == 2);
+    visit.go(1.05 * full, are_stages ? 2 : 40);
+    CHECK(visit.score().worst < 4);
+    CHECK(visit.off() < 0.1);
+  });
 }
 
 TEST_CASE("an end that is unlocked where its jack pulls as much is let out with it, without a notice") {
-  for (const double pace : {1.0, 60.0})
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-      CAPTURE(pace);
-      CAPTURE(seed);
-      const auto visit = std::make_unique<NextVisit>(seed, pace);
-      visit->go(1.005 * visit->held(), 1);
-      visit->go(0.5 * full, pace > 1 ? 2 : 40);
-      CHECK(visit->notices() == 0);
-      CHECK(visit->off() < 0.1);
-    }
+  for_each_visit([](NextVisit& visit, bool are_stages) {
+    visit.go(1.005 * visit.held(), 1);
+    visit.go(0.5 * full, are_stages ? 2 : 40);
+    CHECK(visit.notices() == 0);
+    CHECK(visit.off() < 0.1);
+  });
 }
 
 TEST_CASE("a jack that jumps to a load below, or stands there in a load stage, has let the end out") {
-  for (const double pace : {1.0, 60.0})
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-      CAPTURE(pace);
-      CAPTURE(seed);
-      const auto visit = std::make_unique<NextVisit>(seed, pace);
-      // It takes some rows to tell a jump from a loose plug.
-      visit->stand_free(0.8 * visit->held(), 30);
-      CHECK(visit->notices() == 0);
-      CHECK(visit->here().held == segments);
-    }
+  for_each_visit([](NextVisit& visit, bool) {
+    // It takes some rows to tell a jump from a loose plug.
+    visit.stand_free(0.8 * visit.held(), 30);
+    CHECK(visit.notices() == 0);
+    CHECK(visit.here().held == segments);
+  });
 }
