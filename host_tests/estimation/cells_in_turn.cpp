@@ -54,7 +54,43 @@ Ramps ramps_in_turn(int rows, const Load& load) {
   return ramps;
 }
 
+/// A jack that rests and then has 40 % of its load within three of its readings, 3 s apart, as it is shown;
+/// whether the cable has that load, too. Each reading of the far end comes so long after one of the jack.
+/// Returns how far its last segment is off at most from the third of these readings on, as a
+/// part of the full load.
+double jump_in_turn(std::uint64_t seed, double after, bool is_pulled) {
+  const double never = std::numeric_limits<double>::quiet_NaN();
+  Said said;
+  said.mu_sd = likely;
+  said.jack_sd = said.far_sd = 2e-3 * full;
+  support::Random random(seed);
+  const auto jacked = std::make_unique<Jacked>(0, said);
+  Chain chain(mu * std::max(0.1, 1 + likely / mu * support::gaussian(random)));
+  const auto noise = [&] { return said.jack_sd * support::gaussian(random); };
+  const auto load = [](double rows) { return full * std::clamp(0.2 * (rows - 12), 0.0, 0.4); };
+  double off = 0;
+  for (int i = 0; i < 20; ++i) {
+    if (is_pulled) chain.pull(load(i));
+    jacked->row(load(i) + noise(), false, 3 - after, -1);
+    if (i >= 15) off = std::max(off, std::fabs((*jacked)[segments - 1].force - chain[segments - 1]) / full);
+    if (is_pulled) chain.pull(load(i + after / 3));
+    jacked->row(never, false, after, std::max(0.0, chain[0] + noise()));
+  }
+  return off;
+}
+
 }  // namespace
+
+TEST_CASE(
+    "a load that comes at once is believed if the far end, read in turn, has seen it, and no other one") {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed)
+    for (const double after : {0.3, 1.5, 2.9}) {
+      CAPTURE(seed);
+      CAPTURE(after);
+      CHECK(jump_in_turn(seed, after, true) < 0.03);
+      CHECK(jump_in_turn(seed, after, false) < 0.03);
+    }
+}
 
 TEST_CASE("a far end that is read between readings of its jack teaches friction on the way up") {
   const Ramps ramps = ramps_in_turn(120, [](int i) { return i / 120.0; });

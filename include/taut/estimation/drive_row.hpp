@@ -70,7 +70,7 @@ template <class Parts>
   for (int k = 0; k < jacks.size(); ++k) {
     const EndReading<Scalar>& given = jacks.in(readings.ends, k);
     bool locked = jacks.in(readings.sample.jack, k).locked;
-    const auto beside = read_beside(parts, readings, jacks.end(k).cable());
+    auto beside = read_beside(parts, readings, jacks.end(k).cable());
     HeldByWedge<Scalar> held;
     if (jacks[k].locked && !locked) {
       held = held_by_wedge(parts, k);
@@ -82,6 +82,7 @@ template <class Parts>
     }
     const bool is_same = given.force == jacks[k].believed;
     const auto said = hear_far_end(parts, k, locked, given, readings.dt, beside);
+    if (jacks[k].is_unread && std::isnan(beside.force)) beside = read_before(parts, jacks.end(k).cable());
     const bool has_outlier = jacks[k].take(locked, said == FarEndSays::nothing ? given : none, readings.dt,
                                            parts.cell(k), parts.most_force(k), held, corners,
                                            [&] { return sees_rise(parts, k, given.force, beside); });

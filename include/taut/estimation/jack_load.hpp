@@ -99,7 +99,8 @@ struct JackLoad {
   Scalar read_sd = 0;  ///< then the standard deviation of the load where it was last [N]
   Scalar step_by = 0, stride = 0;    ///< how far it had come since the reading before [N], in that time
   Scalar believed = 0, refused = 0;  ///< the last reading that was believed, and that was not [N]
-  /// What the cell at the other end of the cable read with it, or with the first that was the same [N].
+  /// What the cell at the other end of the cable read with it, or with the first that was the same [N]; where
+  /// they are read in turn, what it read before.
   Scalar beside = 0;
   std::int32_t taught = 0;    ///< readings of the line that it is on with which unknowns were learned
   bool teaches = false;       ///< those of this row were counted

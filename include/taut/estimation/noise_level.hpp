@@ -84,6 +84,8 @@ class NoiseLevel {
   /// Whether the last reading is another than the one before: the same one again of a force that stays is the
   /// step of a display, and no news.
   bool is_other() const { return last_ != before_; }
+  /// The last reading, or zero.
+  Scalar last() const { return last_; }
 
   /// The readings have left the line that they were on.
   void bend() {

@@ -27,6 +27,16 @@ ForceEstimate<typename Parts::Scalar> read_beside(const Parts& parts,
   return {std::numeric_limits<typename Parts::Scalar>::quiet_NaN(), 0};
 }
 
+/// The same as it was read last, for a jack whose cell was not read since: a logger that reads its channels
+/// in turn has it in a row of its own. Cost: a few operations an end.
+template <class Parts>
+[[gnu::noinline]] ForceEstimate<typename Parts::Scalar> read_before(const Parts& parts, int cable) {
+  const auto& ends = parts.far_ends.ends();
+  for (int e = 0; e < ends.size(); ++e)
+    if (ends[e].cable() == cable) return {parts.far_ends.watch(e).noise.last(), parts.far_ends.watch(e).sd};
+  return {std::numeric_limits<typename Parts::Scalar>::quiet_NaN(), 0};
+}
+
 /// How far a jack's cell and the one at the far end of its cable have gone up since the last reading of the
 /// jack that was believed [N].
 template <class Scalar>
