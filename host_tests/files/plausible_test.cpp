@@ -435,6 +435,86 @@ TEST_CASE("the cell of a jack that rests off zero before its load rises is remar
   CHECK(remarks(cell, log(0, 0)).find(remark) == std::string::npos);
 }
 
+TEST_CASE("a far end that is shown later than its jack is remarked on with how much later it is") {
+  // Up to 40 kN with two holds on the way, a hold, and down to 20 kN; friction holds a fiftieth back.
+  const auto load = [](double t) {
+    const auto part = [&](double from, double to) { return std::clamp((t - from) / (to - from), 0.0, 1.0); };
+    return 1e4 * (part(10, 30) + 1.5 * part(50, 80) + 1.5 * part(100, 130) - 2 * part(150, 170));
+  };
+  const auto far_end = [&](double t) { return std::max(0.98 * load(std::min(t, 150.0)), 0.0); };
+  const auto loosely = [&](double t) { return t < 150 ? far_end(t) : std::min(far_end(t), load(t) / 0.98); };
+  const auto remarks = [](const std::string& log, const std::string& lag = "") {
+    Site site;
+    site.sensors = R"("C.end": { "sd": 20 }, "C.start": { "sd": 20)" + lag + " }";
+    const std::string all = check_taken(site, "estimate", log);
+    const std::size_t at = all.find("remark: \"C.");
+    return at == std::string::npos ? "" : all.substr(at, all.find('\n', at) - at);
+  };
+  const auto text = [](double force, int i, double phase) {
+    return std::to_string(force + 20 * std::sin(2.3 * i + phase));
+  };
+  const auto log = [&](double later, const auto& at_far_end) {
+    return ramp("time,C.end,C.start", 180,
+                [&](int i) { return text(load(i), i, 0) + "," + text(at_far_end(i - later), i, 1); });
+  };
+  const std::string way_out =
+      ", and that is taken off: let the clocks of loggers agree; if an amplifier averages, write \"lag\": 3 "
+      "for it";
+  CHECK(remarks(log(3, far_end)) == "remark: \"C.start\" is read 3 s later than \"C.end\"" + way_out);
+  CHECK(remarks(log(-3, far_end)) == "remark: \"C.end\" is read 3 s later than \"C.start\"" + way_out);
+  // As two loggers, each with rows of its own.
+  std::string in_turn = "time,C.end,C.start\n";
+  for (int i = 1; i <= 180; ++i)
+    in_turn += std::to_string(i) + "," + text(load(i), i, 0) + ",\n" + std::to_string(i + 0.4) + ",," +
+               text(far_end(i + 0.4 - 5), i, 1) + "\n";
+  CHECK(remarks(in_turn).find("\"C.start\" is read 5 s later") != std::string::npos);
+  // Behind a filter, with which a ramp is 3 s late and a hold is not.
+  double filtered = 0;
+  const auto slowly = [&](double t) { return filtered += (far_end(t) - filtered) / 4; };
+  const std::string lagging = log(0, slowly), found = remarks(lagging), late = "\"C.start\" is read ";
+  REQUIRE(found.find(late) != std::string::npos);
+  const double seconds = std::stod(found.substr(found.find(late) + late.size()));
+  CHECK(seconds >= 2);
+  CHECK(seconds <= 3);
+  CHECK(remarks(lagging, R"(, "lag": 4)").empty());
+  // Nearly as long as the way up, on which a hold would be on a path of its own.
+  std::string at_once = "time,C.end,C.start\n";
+  const auto quickly = [](double t) { return 4e4 * std::clamp(t / 13, 0.0, 1.0); };
+  for (int i = 1; i <= 280; ++i)
+    at_once += std::to_string(i / 10.0) + "," + text(quickly(i / 10.0), i, 0) + "," +
+               text(0.95 * quickly(i / 10.0 + 7), i, 1) + "\n";
+  CHECK(remarks(at_once).find("\"C.end\" is read 7 s later") != std::string::npos);
+  // With it taken off friction is what it is without it, and so are forces.
+  const auto answers = [&](double later) {
+    const Scratch scratch;
+    Site site;
+    site.sensors = R"("C.end": { "sd": 20 }, "C.start": { "sd": 20 })";
+    return Table(run(scratch, site, "estimate", log(later, far_end)).out);
+  };
+  const Table in_time = answers(0);
+  for (const double later : {-3.0, 3.0}) {
+    const Table off = answers(later);
+    CAPTURE(later);
+    CHECK(std::fabs(off.number(144, "C.mu1") - in_time.number(144, "C.mu1")) < 0.002);
+    CHECK(std::fabs(off.number(144, "C.T1") / in_time.number(144, "C.T1") - 1) < 0.001);
+  }
+  // What is no gap: none, friction that lets the far end come down, a cell that stops, values that are
+  // written again, load stages.
+  CHECK(remarks(log(0, far_end)).empty());
+  CHECK(remarks(log(0.2, far_end)).empty());
+  CHECK(remarks(log(0, loosely)).empty());
+  CHECK(remarks(log(0, [&](double t) { return far_end(std::min(t, 60.0)); })).empty());
+  CHECK(remarks(ramp("time,C.end,C.start", 180, [&](int i) {
+          const int read = i - i % 3;
+          return text(load(read), read, 0) + "," + text(far_end(i), i, 1);
+        })).empty());
+  std::string stages = "time,C.end,C.start\n";
+  for (int i = 1; i <= 18; ++i)
+    stages += std::to_string(60 * i) + "," + text(load(10 * i), i, 0) + "," +
+              text(far_end(10 * i - 20), i, 1) + "\n";
+  CHECK(remarks(stages).find("later") == std::string::npos);
+}
+
 TEST_CASE("an area in mm2 is refused by name") {
   const Scratch scratch;
   std::ofstream(scratch.path / "scene.json") <<

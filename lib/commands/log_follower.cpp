@@ -8,7 +8,6 @@
 #include <iostream>
 
 #include "lib/commands/first_load.hpp"
-#include "lib/commands/plausible_log.hpp"
 #include "lib/commands/progress_line.hpp"
 #include "lib/commands/usual_deviations.hpp"
 #include "lib/files/deserved_digits.hpp"
@@ -168,12 +167,20 @@ void LogFollower::read_log() {
   if (measures) {
     plausible.require(log, options_.log, begun_.has_value());
     for (const Sentence& doubt : plausible.doubts()) remark(doubt);
+    bring_into_time(plausible);
   }
   remark_on_columns(log);
   if (begun_)
     fill_in_mu_deviations(scene_);
   else if (measures)
     for (const Sentence& taken : fill_in_deviations(options_.log, rules_, scene_)) remark(taken);
+}
+
+void LogFollower::bring_into_time(const PlausibleLog& plausible) {
+  for (std::size_t c = 0; c < scene_.cables.size(); ++c)
+    if (const double gap = plausible.clock_gap(c); gap != 0)
+      late_ends_.push_back(std::make_unique<FarEndInTime>(options_.log, scene_, rules_, c,
+                                                          scene_.cables[c].is_jacked(0) ? 1 : 0, gap));
 }
 
 // What is not in its header is not known.
@@ -246,6 +253,7 @@ Sentence LogFollower::follow(LogReader& log, const RowVisitor& visit) {
     row.factor = last_.factor;
     row.cables = last_.cables;
     log.count_from(origin_);
+    for (const auto& end : late_ends_) end->count_from(origin_);
   }
   Answer answer;
   ProgressLine progress(rows_, wants_progress(options_));
@@ -254,6 +262,7 @@ Sentence LogFollower::follow(LogReader& log, const RowVisitor& visit) {
     if (is_first) require_later(log, row);
     is_first = false;
     origin_ = log.origin();
+    for (const auto& end : late_ends_) end->correct(row);
     if (Sentence end = follow_row(row, answer, visit); !end.empty()) return end;
     progress.reach(row.row);
   }

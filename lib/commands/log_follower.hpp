@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "lib/commands/far_end_in_time.hpp"
 #include "lib/commands/first_load.hpp"
 #include "lib/commands/member_turns.hpp"
+#include "lib/commands/plausible_log.hpp"
 #include "lib/commands/result_writer.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/sentence.hpp"
@@ -89,6 +91,7 @@ class LogFollower {
  private:
   void remark(const Sentence& sentence);
   void read_log();
+  void bring_into_time(const PlausibleLog& plausible);
   void open_stream();
   void begin();
   Sentence follow(LogReader& log, const RowVisitor& visit);
@@ -115,9 +118,10 @@ class LogFollower {
   SceneDescription scene_;
   std::unique_ptr<Model> model_;
   LogRules rules_;
-  std::optional<LogStream> source_;        // where a stream comes from
-  std::unique_ptr<LogReader> stream_;      // the log that it is now
-  std::unique_ptr<FirstLoad> first_load_;  // of a stream, as long as it is in question
+  std::optional<LogStream> source_;                       // where a stream comes from
+  std::unique_ptr<LogReader> stream_;                     // the log that it is now
+  std::unique_ptr<FirstLoad> first_load_;                 // of a stream, as long as it is in question
+  std::vector<std::unique_ptr<FarEndInTime>> late_ends_;  // of a file
   std::size_t rows_ = 0, left_out_ = 0, followed_ = 0;
   std::optional<SavedState> begun_;  // with the log before
   Verdict verdict_;

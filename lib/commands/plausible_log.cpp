@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "lib/commands/usual_deviations.hpp"
 #include "lib/files/deserved_digits.hpp"
@@ -17,7 +18,7 @@ constexpr double part_of_length = 0.1, clear_of_noise = 20;
 // Until a cable is strained as in a first stage, most of a sound log is still to come.
 constexpr double first_stage_strain = 1e-4, part_in_first_stage = 0.5, part_of_largest = 0.1;
 constexpr double least_growth = 0.005, most_times_stretch = 100;  // [m], [-]
-constexpr std::size_t most_strokes = 4096, least_strokes = 3, least_readings = 3;
+constexpr std::size_t least_strokes = 3, least_readings = 3;
 
 std::string column_of(const CableDescription& cable, std::size_t end) {
   return cable.name + "." + end_name(end);
@@ -27,6 +28,10 @@ std::string column_of(const CableDescription& cable, std::size_t end) {
 std::string unit_remedy(const CableDescription& cable, std::size_t end, const std::string& unit) {
   if (!cable.cell[end].calibration.empty()) return "look at the \"calibration\" of this column in the scene";
   return "write the unit of the column after its name, as in " + column_of(cable, end) + " [" + unit + "]";
+}
+
+bool is_plausible(double force, const CableDescription& cable) {
+  return std::fabs(force) <= largest_plausible_strain * cable.E * cable.A;
 }
 
 // An exact cell reads what the jack holds.
@@ -42,23 +47,29 @@ Sentence rest_text(const RestOffZero& rest, const std::string& column) {
       {quote(column), plain(rounded(rest.level(), 4)), std::to_string(rest.rows())});
 }
 
+// The jack of a cable with a far end; two or none have no such end.
+std::optional<std::size_t> only_jack(const CableDescription& cable) {
+  if (cable.is_jacked(0) == cable.is_jacked(1)) return std::nullopt;
+  return static_cast<std::size_t>(cable.is_jacked(0) ? 0 : 1);
+}
+std::size_t later_end(const CableDescription& cable, double gap) {
+  const std::size_t jack = *only_jack(cable);
+  return gap > 0 ? 1 - jack : jack;
+}
+
+Sentence clock_text(double gap, const std::string& late, const std::string& other) {
+  return Sentence(
+      "{1} is read {2} s later than {3}, and that is taken off: let the clocks of loggers agree; "
+      "if an amplifier averages, write \"lag\": {2} for it",
+      {quote(late), plain(rounded(gap, 3)), quote(other)});
+}
+
 [[noreturn]] void refuse(const std::string& file, const std::string& place, const std::string& problem,
                          const std::string& remedy) {
   throw InputError(file, place, problem, remedy + remedy_if_meant);
 }
 
 }  // namespace
-
-// Every so many of a long log are enough.
-void PlausibleLog::Strokes::take(const Stroke& stroke) {
-  if (readings++ % every != 0) return;
-  if (kept.size() == most_strokes) {
-    for (std::size_t i = 0; 2 * i < kept.size(); ++i) kept[i] = kept[2 * i];
-    kept.resize(most_strokes / 2);
-    every *= 2;
-  }
-  kept.push_back(stroke);
-}
 
 double PlausibleLog::Jack::pull() const {
   const bool is_clear = within.largest() > clear_of_noise * within.scatter() || within.goes_somewhere();
@@ -74,9 +85,9 @@ void PlausibleLog::take(const LogRow& row) {
       const CableDescription& cable = scene_.cables[c];
       const EndRow& given = row.cables[c][end];
       if (given.stroke) {
-        Strokes& strokes = cables_[c].stroke[end];
-        strokes.take({*given.stroke, row.line, given.reading.value_or(std::nan(""))});
-        cables_[c].is_read_under_load |= *given.stroke != strokes.kept.front().at;
+        auto& strokes = cables_[c].stroke[end];
+        strokes.add({*given.stroke, row.line, given.reading.value_or(std::nan(""))});
+        cables_[c].is_read_under_load |= *given.stroke != strokes.kept().front().at;
       }
       if (cable.is_jacked(end)) {
         cables_[c].lock[end].take(row, given, first_stage_strain * cable.E * cable.A, cable.seating > 0);
@@ -90,12 +101,20 @@ void PlausibleLog::take(const LogRow& row) {
         continue;
       }
       Jack& jack = cables_[c].jack[end];
-      if (std::fabs(*given.reading) <= largest_plausible_strain * cable.E * cable.A) {
+      if (is_plausible(*given.reading, cable)) {
         jack.within.add(*given.reading);
       } else if (jack.beyond++ == 0) {
         jack.line = row.line;
         jack.force = *given.reading;
       }
+    }
+  for (std::size_t c = 0; c < cables_.size(); ++c)
+    if (const auto jack = only_jack(scene_.cables[c])) {
+      const auto read = [&](std::size_t end) {
+        const auto& reading = row.cables[c][end].reading;
+        return reading && is_plausible(*reading, scene_.cables[c]) ? *reading : std::nan("");
+      };
+      cables_[c].clock.take(row.time, read(*jack), read(1 - *jack), row.cables[c][*jack].locked);
     }
   for (const MeasuredForce& force : row.forces)
     if (!force.of_strut) cables_[force.cable].is_read_under_load |= force.reading > 0;
@@ -127,7 +146,20 @@ std::vector<Sentence> PlausibleLog::doubts() const {
       if (rest.is_found() && is_off_zero(rest, scene_.cables[c].cell[end]))
         doubts.push_back(rest_text(rest, column));
     }
+  for (std::size_t c = 0; c < cables_.size(); ++c)
+    if (const double gap = clock_gap(c); gap != 0) {
+      const CableDescription& cable = scene_.cables[c];
+      const std::size_t late = later_end(cable, gap);
+      doubts.push_back(clock_text(std::fabs(gap), column_of(cable, late), column_of(cable, 1 - late)));
+    }
   return doubts;
+}
+
+double PlausibleLog::clock_gap(std::size_t c) const {
+  const CableDescription& cable = scene_.cables[c];
+  if (!only_jack(cable)) return 0;
+  const double gap = cables_[c].clock.found();
+  return cable.cell[later_end(cable, gap)].lag < std::fabs(gap) / 2 ? gap : 0;
 }
 
 void PlausibleLog::require_units_of_jacks(const LogReader& log, const std::string& path) const {
@@ -174,7 +206,7 @@ void PlausibleLog::require_strokes(std::size_t c, std::size_t end, const LogRead
                                    const std::string& path) const {
   const CableDescription& cable = scene_.cables[c];
   const double most = part_of_length * length_of(cable, scene_);
-  std::vector<Stroke> sorted = cables_[c].stroke[end].kept;
+  std::vector<Stroke> sorted = cables_[c].stroke[end].kept();
   if (sorted.size() < least_strokes) return;
   std::sort(sorted.begin(), sorted.end(), [](const Stroke& a, const Stroke& b) { return a.at < b.at; });
   const std::size_t tenth = (sorted.size() - 1) / 10;
@@ -193,7 +225,7 @@ void PlausibleLog::require_stretch(std::size_t c, std::size_t end, const LogRead
   const CableDescription& cable = scene_.cables[c];
   const double pull = cables_[c].jack[end].pull();
   std::vector<Stroke> high;
-  for (const Stroke& stroke : cables_[c].stroke[end].kept)
+  for (const Stroke& stroke : cables_[c].stroke[end].kept())
     if (stroke.force >= pull / 2) high.push_back(stroke);
   if (pull == 0 || high.size() < least_strokes) return;
   std::sort(high.begin(), high.end(), [](const Stroke& a, const Stroke& b) { return a.force < b.force; });

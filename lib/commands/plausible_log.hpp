@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "lib/commands/clock_gap.hpp"
+#include "lib/commands/every_so_many.hpp"
 #include "lib/commands/lock_doubts.hpp"
 #include "lib/commands/reading_scatter.hpp"
 #include "lib/commands/rest_off_zero.hpp"
@@ -33,8 +35,12 @@ class PlausibleLog {
   /// cable has a column though other instruments read it under load.
   void require(const LogReader& log, const std::string& path, bool has_past) const;
   /// What may be meant and probably is not: see LockDoubts; a jack that rests three deviations of its cell's
-  /// zero or more off, which a scene that says none has at 0.2 % of the largest reading, see RestOffZero.
+  /// zero or more off, which a scene that says none has at 0.2 % of the largest reading, see RestOffZero; a
+  /// far end with a clock_gap().
   std::vector<Sentence> doubts() const;
+  /// How much later than its jack the far end of cable `c` is shown [s], below zero if the jack is, see
+  /// ClockGap; zero too if a `lag` of the later one says at least half of that.
+  double clock_gap(std::size_t c) const;
 
  private:
   struct Jack {
@@ -51,18 +57,13 @@ class PlausibleLog {
     std::size_t line;
     double force;  ///< that the jack read in the same row; not a number: none
   };
-  struct Strokes {
-    std::vector<Stroke> kept;
-    std::size_t readings = 0, every = 1;
-
-    void take(const Stroke& stroke);
-  };
   struct Cable {
     std::array<Jack, 2> jack;
-    std::array<Strokes, 2> stroke;
+    std::array<EverySoMany<Stroke, 4096>, 2> stroke;  // every so many of a long log are enough
     std::array<UnitStep, 2> unit;
     std::array<LockDoubts, 2> lock;
     std::array<RestOffZero, 2> rest;
+    ClockGap clock;
     bool is_read_under_load = false;  ///< by other instruments
   };
 

@@ -651,6 +651,11 @@ constexpr Translation translations[] = {
      "die Last {2} N von {1} in Zeile {3} wird nicht benutzt, denn das Ende ist in dieser Zeile verankert, "
      "und {4} N davor: wenn die Presse sie zog, bevor der Keil eingezogen wurde, "
      "ihr davor eine eigene Zeile geben"},
+    {"{1} is read {2} s later than {3}, and that is taken off: let the clocks of loggers agree; "
+     "if an amplifier averages, write \"lag\": {2} for it",
+     "{1} 的读数比 {3} 晚 {2} s，已扣除：请使各记录仪的时钟一致；如果是放大器在求平均，请为它写 \"lag\": {2}",
+     "{1} wird {2} s später gelesen als {3}, und das wird abgezogen: die Uhren der Logger gleich stellen; "
+     "wenn ein Verstärker mittelt, für ihn \"lag\": {2} schreiben"},
     {"{1} reads {2} N in its first {3} rows, before its load rises: if nothing pulls there, "
      "take that off all of its readings, for forces are off by as much",
      "{1} 在荷载上升之前的前 {3} 行读数为 {2} N："

@@ -1,0 +1,147 @@
+#include "lib/commands/clock_gap.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace taut::host {
+namespace {
+
+constexpr std::size_t least_compared = 12;
+constexpr double longest_gap = 15, shortest_gap = 0.5, gap_step = 0.25, longest_held = 5,
+                 stages_apart = 5;  // [s]
+// Parts of the largest load: where slack is out, how far it comes down as it is let out, and in a hold.
+constexpr double taut_from = 0.1, pulls_from = 0.3, let_out = 0.1, leaked = 0.02;
+// How far readings may be from a path and what a gap has to mend of that, as parts of the largest: other
+// errors are no gap. And how much smaller a gap makes their variance.
+constexpr double on_path = 0.007, mended = 0.002, times_less = 3;
+
+double middle_of(double a, double b, double c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+// Noise that goes to and fro is none in it, and could have a beat of its own.
+template <class Value>
+Value mean_of(const Value& before, const Value& value, const Value& after) {
+  return (before + 2 * value + after) / 4;
+}
+
+}  // namespace
+
+void ClockGap::Series::add(const Reading& reading) {
+  if (!std::isnan(before_.force))
+    kept_.add({last_.time, middle_of(before_.force, last_.force, reading.force)});
+  before_ = last_;
+  last_ = reading;
+}
+
+// A jack's value that is written again is as old as it is, but in a hold; a far end that shows the very same
+// may be dead.
+void ClockGap::take(double time, double jack, double far_end, bool is_over) {
+  is_over_ = is_over_ || is_over;
+  if (is_over_) return;
+  if (!std::isnan(jack) && !(jack_.is_last(jack) && time - jack_.read_at() < longest_held))
+    jack_.add({time, jack});
+  if (!std::isnan(far_end) && !far_end_.is_last(far_end)) far_end_.add({time, far_end});
+}
+
+// The rising path nearest to what is read, by pooling neighbours that fall: the highest of readings that
+// scatter would be above what the load was, most of all in a hold. It ends at the top: what is let out after
+// that comes through to the far end, too, where friction is low.
+std::vector<ClockGap::Reading> ClockGap::way_up() const {
+  struct Level {
+    double sum;
+    std::size_t readings;
+
+    double mean() const { return sum / static_cast<double>(readings); }
+  };
+  const std::vector<Reading>& read = jack_.kept();
+  std::vector<Reading> jack;
+  for (std::size_t i = 1; i + 1 < read.size(); ++i)
+    jack.push_back({read[i].time, mean_of(read[i - 1].force, read[i].force, read[i + 1].force)});
+  double largest = 0, highest = 0;
+  for (const Reading& reading : jack) largest = std::max(largest, reading.force);
+  std::vector<Reading> way;
+  for (const Reading& reading : jack) {
+    highest = std::max(highest, reading.force);
+    if (highest > pulls_from * largest && reading.force < (1 - let_out) * highest) break;
+    if (highest > taut_from * largest && reading.force > (1 - leaked) * highest) way.push_back(reading);
+  }
+  std::vector<Level> levels;
+  for (const Reading& reading : way) {
+    levels.push_back({reading.force, 1});
+    while (levels.size() > 1 && levels.back().mean() <= levels[levels.size() - 2].mean()) {
+      const Level last = levels.back();
+      levels.pop_back();
+      levels.back() = {levels.back().sum + last.sum, levels.back().readings + last.readings};
+    }
+  }
+  std::size_t at = 0;
+  for (const Level& level : levels)
+    for (std::size_t i = 0; i < level.readings; ++i) way[at++].force = level.mean();
+  return way;
+}
+
+// Where the structure gives way the part that arrives changes a little with the load: a parabola.
+ClockGap::Path ClockGap::path(const std::vector<Reading>& way, double gap) const {
+  // A row for each reading: what the parabola is made of, and the reading.
+  Eigen::Vector4d before = Eigen::Vector4d::Zero(), last = before;
+  Eigen::Matrix4d products = Eigen::Matrix4d::Zero();
+  int rows = 0;
+  std::size_t i = 1;
+  for (const Reading& reading : far_end_.kept()) {
+    const double at = reading.time - gap;
+    if (at < way.front().time) continue;
+    while (i < way.size() && way[i].time < at) ++i;
+    if (i == way.size()) break;
+    const Reading &from = way[i - 1], &to = way[i];
+    const double load = from.force + (to.force - from.force) * (at - from.time) / (to.time - from.time),
+                 part = load / way.back().force;
+    const Eigen::Vector4d row(1, part, part * part, reading.force);
+    if (++rows > 2) {
+      const Eigen::Vector4d mean = mean_of(before, last, row);
+      products += mean * mean.transpose();
+    }
+    before = last;
+    last = row;
+  }
+  const Eigen::Matrix3d normal = products.topLeftCorner<3, 3>();
+  const Eigen::Vector3d sum = products.topRightCorner<3, 1>();
+  const auto solver = normal.ldlt();
+  if (rows < static_cast<int>(least_compared) || !(solver.rcond() > 1e-9)) return {};
+  const Eigen::Vector3d parabola = solver.solve(sum), bottom(1, taut_from, taut_from * taut_from);
+  return {std::max(0.0, products(3, 3) - sum.dot(parabola)) / (rows - 5),
+          parabola.dot(bottom) < parabola.sum() / 2};
+}
+
+double ClockGap::found() const {
+  const std::vector<Reading> way = way_up();
+  const std::vector<Reading>& far_end = far_end_.kept();
+  if (way.size() < least_compared || far_end.size() < least_compared) return 0;
+  const double lasts = way.back().time - way.front().time;
+  // A cell that has stopped on the way is compared with too little of it.
+  if (way.back().time - far_end.back().time > lasts / 10) return 0;
+  if (lasts > stages_apart * static_cast<double>(jack_.every() * (way.size() - 1))) return 0;
+  const double now = path(way, 0).variance, most = std::min(longest_gap, lasts / 2);
+  double gap = 0, least = now;
+  const auto try_about = [&](double middle, double range, double step) {
+    for (double tried = middle - range; tried <= middle + range; tried += step) {
+      const Path found = path(way, tried);
+      if (found.rises && found.variance < least) {
+        least = found.variance;
+        gap = tried;
+      }
+    }
+  };
+  try_about(0, longest_gap, gap_step);
+  try_about(gap, gap_step, gap_step / 10);
+  double force = 0;
+  for (const Reading& reading : far_end) force = std::max(force, reading.force);
+  const bool is_path = std::sqrt(least) < on_path * force;
+  const bool is_better =
+      times_less * least < now && std::sqrt(now - least) > mended * force && std::isfinite(now);
+  const bool is_inside = std::fabs(gap) >= shortest_gap && std::fabs(gap) + gap_step < most;
+  return is_path && is_better && is_inside ? gap : 0;
+}
+
+}  // namespace taut::host
