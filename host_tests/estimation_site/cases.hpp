@@ -132,6 +132,11 @@ inline std::vector<Case> all_cases(int year_rows) {
     c.instruments.far_tared = 0.03;
     c.without_far = false;
   }
+  {
+    Case& c = add("other-clock");
+    c.instruments.other_clock = 8;
+    c.without_far = false;
+  }
   add("any-pace", Demand::model).jacking.any_pace = true;
   {
     Case& c = add("cables-in-turns", Demand::model);

@@ -27,6 +27,7 @@ struct InstrumentRules {
   bool is_held = false;        ///< each is read at its own pace, and written again in between
   bool far_freezes = false;    ///< the far cell keeps its value from the first ramp on
   double far_tared = 0;        ///< the zero of the far cell is off by so much more, up or down, part
+  double other_clock = 0;      ///< that of the far cell is off by 1 to so many seconds, before or behind [s]
   bool mistyped = false;       ///< one reading of the jack has its point moved, or two digits swapped
   double gauge_gain_sd = 0, gauge_zero_sd = 0;  ///< of gauges on segments and struts: relative, part
   bool gauges_freeze = false;  ///< those of the first joint or segment keep a value of the first ramp

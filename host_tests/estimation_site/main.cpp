@@ -48,6 +48,17 @@ std::uint64_t mixed(std::uint64_t seed, std::uint64_t i) {
   return z ^ (z >> 31);
 }
 
+/// The force at the start of a cable at a time, straight on from row to row.
+double tension_then(const std::vector<Deed>& rows, const Cable& cable, double time) {
+  const auto after =
+      std::find_if(rows.begin(), rows.end(), [&](const Deed& row) { return row.time >= time; });
+  if (after == rows.begin()) return tension_at(rows.front(), cable, 0);
+  if (after == rows.end()) return tension_at(rows.back(), cable, 0);
+  const auto before = after - 1;
+  const double from = tension_at(*before, cable, 0), to = tension_at(*after, cable, 0);
+  return from + (to - from) * (time - before->time) / (after->time - before->time);
+}
+
 /// What the cells of a cable show of a jacking.
 Readings read_cable(Random& random, const InstrumentRules& rules, const Jacked& jacked, std::size_t c) {
   const Cable& cable = jacked.ground.cables[c];
@@ -69,6 +80,8 @@ Readings read_cable(Random& random, const InstrumentRules& rules, const Jacked& 
   Cell at_jack = cell(rules.jack_gain_sd),
        at_start = cell(cable.two_jacks ? rules.jack_gain_sd : rules.far_gain_sd);
   const double tared = rules.far_tared > 0 ? rules.far_tared * full * (random.coin() ? 1 : -1) : 0;
+  const double behind =
+      rules.other_clock > 0 ? random.between(1, rules.other_clock) * (random.coin() ? 1 : -1) : 0;
   const double mark = random.between(-0.05, 0.05);
   int last_free = 0, last_of_ramp = 0;
   for (std::size_t i = 0; i < jacked.rows.size(); ++i) {
@@ -79,7 +92,8 @@ Readings read_cable(Random& random, const InstrumentRules& rules, const Jacked& 
                                                               : pull.gauge[end];
     };
     readings.end.push_back(at_jack.read(random, shown(1), deed.time));
-    readings.start.push_back(at_start.read(random, shown(0), deed.time) + tared);
+    const double at_far_end = behind == 0 ? shown(0) : tension_then(jacked.rows, cable, deed.time - behind);
+    readings.start.push_back(at_start.read(random, at_far_end, deed.time) + tared);
     readings.stroke[1].push_back(mark + pull.extension[1] + 0.001 * gaussian(random));
     if (!pull.locked[1]) last_free = static_cast<int>(i);
     if (pull.phase == Phase::ramp) last_of_ramp = static_cast<int>(i);
