@@ -6,5 +6,5 @@ template class taut::Tracker<estimation::Site<float>::Model, estimation::most_un
 template class taut::Tracker<estimation::Site<double>::Model, estimation::most_unknowns>;
 template class taut::Estimator<estimation::Site<float>::Model, estimation::most_unknowns>;
 template class taut::Estimator<estimation::Site<double>::Model, estimation::most_unknowns>;
-template class taut::Tracker<estimation::Site<double>::Model, estimation::PlaneCapacity::joints + 8>;
-template class taut::Estimator<estimation::Site<double>::Model, estimation::PlaneCapacity::joints + 8, 4>;
+template class taut::Tracker<estimation::Site<double>::Model, estimation::most_with_cells>;
+template class taut::Estimator<estimation::Site<double>::Model, estimation::most_with_cells, 4>;

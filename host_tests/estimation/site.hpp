@@ -20,10 +20,11 @@ using support::Plane;
 using support::PlaneCapacity;
 using support::Random;
 
-constexpr int most_unknowns = PlaneCapacity::joints + 4;
+/// With nothing but friction to be found, and with gains and zeros of instruments, too.
+constexpr int most_unknowns = PlaneCapacity::joints + 4, most_with_cells = PlaneCapacity::joints + 8;
 
 /// The estimator for instruments that have a gain and a zero of their own to be found.
-using CellEstimator = taut::Estimator<taut::Condensed<double, PlaneCapacity>, PlaneCapacity::joints + 8, 4>;
+using CellEstimator = taut::Estimator<taut::Condensed<double, PlaneCapacity>, most_with_cells, 4>;
 
 /// How well the site's instruments read, as parts of the full jack force.
 struct Instruments {
@@ -204,6 +205,5 @@ extern template class taut::Tracker<estimation::Site<float>::Model, estimation::
 extern template class taut::Tracker<estimation::Site<double>::Model, estimation::most_unknowns>;
 extern template class taut::Estimator<estimation::Site<float>::Model, estimation::most_unknowns>;
 extern template class taut::Estimator<estimation::Site<double>::Model, estimation::most_unknowns>;
-extern template class taut::Tracker<estimation::Site<double>::Model, estimation::PlaneCapacity::joints + 8>;
-extern template class taut::Estimator<estimation::Site<double>::Model, estimation::PlaneCapacity::joints + 8,
-                                      4>;
+extern template class taut::Tracker<estimation::Site<double>::Model, estimation::most_with_cells>;
+extern template class taut::Estimator<estimation::Site<double>::Model, estimation::most_with_cells, 4>;

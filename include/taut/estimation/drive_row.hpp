@@ -70,7 +70,7 @@ template <class Parts>
   for (int k = 0; k < jacks.size(); ++k) {
     const EndReading<Scalar>& given = jacks.in(readings.ends, k);
     bool locked = jacks.in(readings.sample.jack, k).locked;
-    auto beside = read_beside(parts, readings, jacks.end(k).cable());
+    auto beside = read_beside(parts, readings, k);
     HeldByWedge<Scalar> held;
     if (jacks[k].locked && !locked) {
       held = held_by_wedge(parts, k);
@@ -82,7 +82,8 @@ template <class Parts>
     }
     const bool is_same = given.force == jacks[k].believed;
     const auto said = hear_far_end(parts, k, locked, given, readings.dt, beside);
-    if (jacks[k].is_unread && std::isnan(beside.force)) beside = read_before(parts, jacks.end(k).cable());
+    // A reading of an earlier row tells of a jump; it is too old to contradict the jack.
+    if (jacks[k].is_unread && std::isnan(beside.force)) beside = read_before(parts, k);
     const bool has_outlier = jacks[k].take(locked, said == FarEndSays::nothing ? given : none, readings.dt,
                                            parts.cell(k), parts.most_force(k), held, corners,
                                            [&] { return sees_rise(parts, k, given.force, beside); });
@@ -194,7 +195,7 @@ Progress<typename Parts::Scalar> come_down_to(Parts& parts, const typename Parts
       highest = {jacks.in(above.jack, other).force, false};
       continue;
     }
-    const auto beside = read_beside(parts, first, c);
+    const auto beside = read_beside(parts, first, k);
     const Scalar load = larger(beside.force + 5 * beside.deviation, Scalar(0));
     highest = {highest_with(load, held_over(parts.tracker, c), k), false};
   }

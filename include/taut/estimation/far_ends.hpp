@@ -60,6 +60,12 @@ class FarEnds {
 
   /// Two a cable at most.
   const FixedList<EndType, 2 * Cap::cables>& ends() const { return ends_; }
+  /// The number of the cell at an end, or -1.
+  int find(int cable, std::size_t end) const {
+    for (int e = 0; e < ends_.size(); ++e)
+      if (ends_[e].is(cable, end)) return e;
+    return -1;
+  }
 
   void begin_row() { has_gathered_ = false; }
   void begin_memory() { corrects_memory_ = false; }
@@ -268,9 +274,9 @@ class FarEnds {
                  in_doubt = held * filter.relative_deviation(tracker, ends_[e].cable());
     return variance_that_lasts(e, filter, jacks) + in_doubt * in_doubt;
   }
-  /// Both of these in one. Of friction a reading teaches nothing while joints stick, and of what
-  /// it remembers of loads as much as does not last, Eq. (70). Before anything pulls it tells the zero of the
-  /// cell, no better than it is known that the jack holds nothing.
+  /// Both of these in one. Of friction a reading teaches nothing while joints stick, and of what it remembers
+  /// of loads as much as does not last, Eq. (70). Before anything pulls it tells the zero of the cell, no
+  /// better than it is known that the jack holds nothing.
   [[gnu::noinline]] void compare(int e, Scalar reading, bool in_doubt, const TrackerType& tracker,
                                  FilterType& filter, const Jacks& jacks) {
     auto& watch = state_.watch[e];

@@ -13,27 +13,35 @@
 
 namespace taut {
 
-/// The force at the anchored end of a cable as its load cell reads it in this row, with the standard
-/// deviation of its noise [N]; not a number if it has none, or none is read. Cost: a few operations an end.
+/// The number among far ends of the cell at the other end of the cable of jack `k`, or -1. Cost: a few
+/// operations an end.
+template <class Parts>
+int far_end_of(const Parts& parts, int k) {
+  const auto& jack = parts.jacks.end(k);
+  return parts.far_ends.find(jack.cable(), 1 - jack.end);
+}
+
+/// The force at the other end of the cable of jack `k`, which is anchored, as its load cell reads it in this
+/// row, with the standard deviation of its noise [N]; not a number if it has none, or none is read. Cost:
+/// that of far_end_of().
 template <class Parts>
 ForceEstimate<typename Parts::Scalar> read_beside(const Parts& parts,
-                                                  const typename Parts::ReadingsType& readings, int cable) {
-  const auto& ends = parts.far_ends.ends();
-  for (int e = 0; e < ends.size(); ++e) {
-    const auto& given = ends[e].in(readings.ends);
-    if (ends[e].cable() == cable && parts.can_be(given, cable))
-      return {given.force, parts.far_ends.watch(e).sd};
+                                                  const typename Parts::ReadingsType& readings, int k) {
+  const int e = far_end_of(parts, k);
+  if (e >= 0) {
+    const auto& end = parts.far_ends.ends()[e];
+    const auto& given = end.in(readings.ends);
+    if (parts.can_be(given, end.cable())) return {given.force, parts.far_ends.watch(e).sd};
   }
   return {std::numeric_limits<typename Parts::Scalar>::quiet_NaN(), 0};
 }
 
 /// The same as it was read last, for a jack whose cell was not read since: a logger that reads its channels
-/// in turn has it in a row of its own. Cost: a few operations an end.
+/// in turn has it in a row of its own. Cost: that of far_end_of().
 template <class Parts>
-[[gnu::noinline]] ForceEstimate<typename Parts::Scalar> read_before(const Parts& parts, int cable) {
-  const auto& ends = parts.far_ends.ends();
-  for (int e = 0; e < ends.size(); ++e)
-    if (ends[e].cable() == cable) return {parts.far_ends.watch(e).noise.last(), parts.far_ends.watch(e).sd};
+[[gnu::noinline]] ForceEstimate<typename Parts::Scalar> read_before(const Parts& parts, int k) {
+  const int e = far_end_of(parts, k);
+  if (e >= 0) return {parts.far_ends.watch(e).noise.last(), parts.far_ends.watch(e).sd};
   return {std::numeric_limits<typename Parts::Scalar>::quiet_NaN(), 0};
 }
 
