@@ -177,10 +177,11 @@ void LogFollower::read_log() {
 }
 
 void LogFollower::bring_into_time(const PlausibleLog& plausible) {
-  for (std::size_t c = 0; c < scene_.cables.size(); ++c)
-    if (const double gap = plausible.clock_gap(c); gap != 0)
-      late_ends_.push_back(std::make_unique<FarEndInTime>(options_.log, scene_, rules_, c,
-                                                          scene_.cables[c].is_jacked(0) ? 1 : 0, gap));
+  for (const LateFarEnd& late : plausible.late_far_ends()) {
+    remark(late.remark);
+    late_ends_.push_back(
+        std::make_unique<FarEndInTime>(options_.log, scene_, rules_, late.cable, late.end, late.gap));
+  }
 }
 
 // What is not in its header is not known.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "lib/commands/usual_deviations.hpp"
 #include "lib/files/deserved_digits.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/plausible_scene.hpp"
@@ -34,27 +33,10 @@ bool is_plausible(double force, const CableDescription& cable) {
   return std::fabs(force) <= largest_plausible_strain * cable.E * cable.A;
 }
 
-// An exact cell reads what the jack holds.
-bool is_off_zero(const RestOffZero& rest, const InstrumentDescription& cell) {
-  const double zero_sd = cell.zero_sd.value_or(usual_zero_sd * rest.largest());
-  return !cell.exact && std::fabs(rest.level()) > 3 * zero_sd;
-}
-
-Sentence rest_text(const RestOffZero& rest, const std::string& column) {
-  return Sentence(
-      "{1} reads {2} N in its first {3} rows, before its load rises: if nothing pulls there, "
-      "take that off all of its readings, for forces are off by as much",
-      {quote(column), plain(rounded(rest.level(), 4)), std::to_string(rest.rows())});
-}
-
 // The jack of a cable with a far end; two or none have no such end.
 std::optional<std::size_t> only_jack(const CableDescription& cable) {
   if (cable.is_jacked(0) == cable.is_jacked(1)) return std::nullopt;
   return static_cast<std::size_t>(cable.is_jacked(0) ? 0 : 1);
-}
-std::size_t later_end(const CableDescription& cable, double gap) {
-  const std::size_t jack = *only_jack(cable);
-  return gap > 0 ? 1 - jack : jack;
 }
 
 Sentence clock_text(double gap, const std::string& late, const std::string& other) {
@@ -89,10 +71,8 @@ void PlausibleLog::take(const LogRow& row) {
         strokes.add({*given.stroke, row.line, given.reading.value_or(std::nan(""))});
         cables_[c].is_read_under_load |= *given.stroke != strokes.kept().front().at;
       }
-      if (cable.is_jacked(end)) {
-        cables_[c].lock[end].take(row, given, first_stage_strain * cable.E * cable.A, cable.seating > 0);
-        cables_[c].rest[end].take(given.reading.value_or(std::nan("")), given.locked);
-      }
+      if (cable.is_jacked(end))
+        cables_[c].doubts[end].take(row, given, first_stage_strain * cable.E * cable.A, cable.seating > 0);
       if (!given.reading) continue;
       // Behind a wedge the cell of a jack reads whatever is left there.
       if (!given.locked) cables_[c].unit[end].take(*given.reading, row.line);
@@ -139,27 +119,26 @@ std::vector<Sentence> PlausibleLog::doubts() const {
   std::vector<Sentence> doubts;
   for (std::size_t c = 0; c < cables_.size(); ++c)
     for (std::size_t end = 0; end < 2; ++end) {
-      const std::string column = column_of(scene_.cables[c], end);
-      const auto of_end = cables_[c].lock[end].sentences(column);
-      doubts.insert(doubts.end(), of_end.begin(), of_end.end());
-      const RestOffZero& rest = cables_[c].rest[end];
-      if (rest.is_found() && is_off_zero(rest, scene_.cables[c].cell[end]))
-        doubts.push_back(rest_text(rest, column));
-    }
-  for (std::size_t c = 0; c < cables_.size(); ++c)
-    if (const double gap = clock_gap(c); gap != 0) {
       const CableDescription& cable = scene_.cables[c];
-      const std::size_t late = later_end(cable, gap);
-      doubts.push_back(clock_text(std::fabs(gap), column_of(cable, late), column_of(cable, 1 - late)));
+      const auto of_end = cables_[c].doubts[end].sentences(column_of(cable, end), cable.cell[end]);
+      doubts.insert(doubts.end(), of_end.begin(), of_end.end());
     }
   return doubts;
 }
 
-double PlausibleLog::clock_gap(std::size_t c) const {
-  const CableDescription& cable = scene_.cables[c];
-  if (!only_jack(cable)) return 0;
-  const double gap = cables_[c].clock.found();
-  return cable.cell[later_end(cable, gap)].lag < std::fabs(gap) / 2 ? gap : 0;
+std::vector<LateFarEnd> PlausibleLog::late_far_ends() const {
+  std::vector<LateFarEnd> ends;
+  for (std::size_t c = 0; c < cables_.size(); ++c) {
+    const CableDescription& cable = scene_.cables[c];
+    const auto jack = only_jack(cable);
+    if (!jack) continue;
+    const double gap = cables_[c].clock.found();
+    const std::size_t far_end = 1 - *jack, late = gap > 0 ? far_end : *jack;
+    if (gap == 0 || cable.cell[late].lag >= std::fabs(gap) / 2) continue;
+    ends.push_back(
+        {c, far_end, gap, clock_text(std::fabs(gap), column_of(cable, late), column_of(cable, 1 - late))});
+  }
+  return ends;
 }
 
 void PlausibleLog::require_units_of_jacks(const LogReader& log, const std::string& path) const {

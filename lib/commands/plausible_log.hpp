@@ -7,16 +7,22 @@
 #include <vector>
 
 #include "lib/commands/clock_gap.hpp"
+#include "lib/commands/end_doubts.hpp"
 #include "lib/commands/every_so_many.hpp"
-#include "lib/commands/lock_doubts.hpp"
 #include "lib/commands/reading_scatter.hpp"
-#include "lib/commands/rest_off_zero.hpp"
 #include "lib/commands/unit_step.hpp"
 #include "lib/files/log_file.hpp"
 #include "lib/files/scene_description.hpp"
 #include "lib/files/sentence.hpp"
 
 namespace taut::host {
+
+/// A far end that is shown `gap` [s] later than its jack, below zero if the jack is, and what to say of that.
+struct LateFarEnd {
+  std::size_t cable, end;
+  double gap;
+  Sentence remark;
+};
 
 /// Takes the readings of a log row by row and judges them together, so that single wrong readings, which are
 /// for the estimator to leave out, do not count. Memory: bounded.
@@ -34,13 +40,11 @@ class PlausibleLog {
   /// 1e-4, though these readings do not; and, where the log does not go on from a state, if no jack of a
   /// cable has a column though other instruments read it under load.
   void require(const LogReader& log, const std::string& path, bool has_past) const;
-  /// What may be meant and probably is not: see LockDoubts; a jack that rests three deviations of its cell's
-  /// zero or more off, which a scene that says none has at 0.2 % of the largest reading, see RestOffZero; a
-  /// far end with a clock_gap().
+  /// What may be meant and probably is not: see EndDoubts.
   std::vector<Sentence> doubts() const;
-  /// How much later than its jack the far end of cable `c` is shown [s], below zero if the jack is, see
-  /// ClockGap; zero too if a `lag` of the later one says at least half of that.
-  double clock_gap(std::size_t c) const;
+  /// The far ends whose clock, or filter, differs from that of their jack, see ClockGap; not those of which a
+  /// `lag` of the later one says at least half of that. Cost: that of ClockGap::found() a cable.
+  std::vector<LateFarEnd> late_far_ends() const;
 
  private:
   struct Jack {
@@ -61,8 +65,7 @@ class PlausibleLog {
     std::array<Jack, 2> jack;
     std::array<EverySoMany<Stroke, 4096>, 2> stroke;  // every so many of a long log are enough
     std::array<UnitStep, 2> unit;
-    std::array<LockDoubts, 2> lock;
-    std::array<RestOffZero, 2> rest;
+    std::array<EndDoubts, 2> doubts;
     ClockGap clock;
     bool is_read_under_load = false;  ///< by other instruments
   };

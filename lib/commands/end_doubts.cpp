@@ -1,9 +1,10 @@
-#include "lib/commands/lock_doubts.hpp"
+#include "lib/commands/end_doubts.hpp"
 
 #include <cmath>
 #include <cstddef>
 #include <string>
 
+#include "lib/commands/usual_deviations.hpp"
 #include "lib/files/deserved_digits.hpp"
 #include "lib/files/text.hpp"
 
@@ -36,16 +37,31 @@ Sentence doubt(const LateLock& late, const std::string& column) {
        line_text(late.locked_line()), quote(column + ".locked"), line_text(late.held_line() + 1)});
 }
 
+Sentence doubt(const RestOffZero& rest, const std::string& column) {
+  return Sentence(
+      "{1} reads {2} N in its first {3} rows, before its load rises: if nothing pulls there, "
+      "take that off all of its readings, for forces are off by as much",
+      {quote(column), load_text(rest.level()), std::to_string(rest.rows())});
+}
+
+// An exact cell reads what the jack holds.
+bool is_off_zero(const RestOffZero& rest, const InstrumentDescription& cell) {
+  const double zero_sd = cell.zero_sd.value_or(usual_zero_sd * rest.largest());
+  return !cell.exact && std::fabs(rest.level()) > 3 * zero_sd;
+}
+
 }  // namespace
 
-void LockDoubts::take(const LogRow& row, const EndRow& given, double least, bool has_wedge) {
+void EndDoubts::take(const LogRow& row, const EndRow& given, double least, bool has_wedge) {
   const double reading = given.reading.value_or(std::nan(""));
   late_.take(row.time, reading, given.locked, least, row.line);
   with_load_.take(reading, given.locked, least, row.line);
+  rest_.take(reading, given.locked);
   if (has_wedge) never_.take(reading, given.locked, least, row.line);
 }
 
-std::vector<Sentence> LockDoubts::sentences(const std::string& column) const {
+std::vector<Sentence> EndDoubts::sentences(const std::string& column,
+                                           const InstrumentDescription& cell) const {
   std::vector<Sentence> found;
   const auto ask = [&](const auto& finder) {
     if (finder.is_found()) found.push_back(doubt(finder, column));
@@ -53,6 +69,7 @@ std::vector<Sentence> LockDoubts::sentences(const std::string& column) const {
   ask(never_);
   ask(with_load_);
   ask(late_);
+  if (is_off_zero(rest_, cell)) ask(rest_);
   return found;
 }
 
