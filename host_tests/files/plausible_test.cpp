@@ -462,6 +462,7 @@ TEST_CASE("a far end that is shown later than its jack is remarked on with how m
       "for it";
   CHECK(remarks(log(3, far_end)) == "remark: \"C.start\" is read 3 s later than \"C.end\"" + way_out);
   CHECK(remarks(log(-3, far_end)) == "remark: \"C.end\" is read 3 s later than \"C.start\"" + way_out);
+  CHECK(remarks(log(40, far_end)).find("\"C.start\" is read 40 s later than \"C.end\"") != std::string::npos);
   // As two loggers, each with rows of its own.
   std::string in_turn = "time,C.end,C.start\n";
   for (int i = 1; i <= 180; ++i)

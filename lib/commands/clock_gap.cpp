@@ -3,18 +3,21 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 
 namespace taut::host {
 namespace {
 
 constexpr std::size_t least_compared = 12;
-constexpr double longest_gap = 15, shortest_gap = 0.5, gap_step = 0.25, longest_held = 5,
+constexpr double longest_gap = 120, shortest_gap = 0.5, gap_step = 0.25, unsure = 4, longest_held = 5,
                  stages_apart = 5;  // [s]
 // Parts of the largest load: where slack is out, how far it comes down as it is let out, and in a hold.
 constexpr double taut_from = 0.1, pulls_from = 0.3, let_out = 0.1, leaked = 0.02;
 // How far readings may be from a path and what a gap has to mend of that, as parts of the largest: other
 // errors are no gap. And how much smaller a gap makes their variance.
 constexpr double on_path = 0.007, mended = 0.002, times_less = 3;
+constexpr double as_good = 2;  // of variances
 
 double middle_of(double a, double b, double c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
@@ -123,18 +126,32 @@ double ClockGap::found() const {
   if (way.back().time - far_end.back().time > lasts / 10) return 0;
   if (lasts > stages_apart * static_cast<double>(jack_.every() * (way.size() - 1))) return 0;
   const double now = path(way, 0).variance, most = std::min(longest_gap, lasts / 2);
-  double gap = 0, least = now;
-  const auto try_about = [&](double middle, double range, double step) {
-    for (double tried = middle - range; tried <= middle + range; tried += step) {
-      const Path found = path(way, tried);
-      if (found.rises && found.variance < least) {
-        least = found.variance;
-        gap = tried;
+  const auto variance = [&](double gap) {
+    const Path found = path(way, gap);
+    return found.rises ? found.variance : std::numeric_limits<double>::infinity();
+  };
+  const auto steps = static_cast<int>(most / gap_step);
+  std::vector<double> tried;
+  for (int i = -steps; i <= steps; ++i) tried.push_back(variance(i * gap_step));
+  const auto best = std::min_element(tried.begin(), tried.end());
+  double least = *best;
+  const int at = static_cast<int>(best - tried.begin()) - steps;
+  // Of a way that is straight for long any of many gaps is as good: the shortest of them.
+  int shortest = at;
+  for (int i = -steps; i <= steps; ++i)
+    if (std::abs(i) < std::abs(shortest) && tried[static_cast<std::size_t>(i + steps)] < as_good * least)
+      shortest = i;
+  double gap = shortest * gap_step;
+  if (std::abs(at - shortest) * gap_step < unsure) {
+    gap = at * gap_step;
+    for (int i = -10; i <= 10; ++i) {
+      const double near = at * gap_step + i * gap_step / 10, found = variance(near);
+      if (found < least) {
+        least = found;
+        gap = near;
       }
     }
-  };
-  try_about(0, longest_gap, gap_step);
-  try_about(gap, gap_step, gap_step / 10);
+  }
   double force = 0;
   for (const Reading& reading : far_end) force = std::max(force, reading.force);
   const bool is_path = std::sqrt(least) < on_path * force;

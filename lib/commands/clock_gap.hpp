@@ -20,9 +20,9 @@ class ClockGap {
   void take(double time, double jack, double far_end, bool is_over);
   /// How much later the far end is shown [s], below zero if the jack is; zero if that is not sure: unless
   /// readings then are on one rising path of the load within 0.7 % of the largest, the gap takes two thirds
-  /// of their variance about it and 0.2 % of the largest, and is half a second or more, and less than fifteen
-  /// and half of the way up. Load stages tell nothing. Cost: a pass of up to 8192 readings of either end for
-  /// each of 142 gaps.
+  /// of their variance about it and 0.2 % of the largest, and is half a second or more, and less than two
+  /// minutes and half of the way up. Where many are as good, as on a way that is straight, the shortest. Load
+  /// stages tell nothing. Cost: a pass of up to 8192 readings of either end for each of 982 gaps.
   double found() const;
 
  private:
