@@ -20,6 +20,7 @@
 #include "lib/files/scene_file.hpp"
 #include "lib/files/status_text.hpp"
 #include "lib/files/text.hpp"
+#include "lib/files/unsaid_lock.hpp"
 #include "lib/files/verdict.hpp"
 #include "monitor/estimator_alarm.hpp"
 #include "monitor/frame.hpp"
@@ -134,7 +135,7 @@ class Player {
       if (alarms.bits() != 0)
         std::cerr << "remark: " << place << ": the device says " << in_words(alarms) << '\n';
       Answer found = AnswerReader(answer, scene_).found();
-      found.verdict = verdict_.take(found.alarms);
+      found.verdict = verdict_.take(found.alarms + unsaid_locks_.take(row, scene_));
       output.write(result_row(scene_, row.time, found, format, ResultColumns::estimate));
       before = row;
     }
@@ -211,6 +212,7 @@ class Player {
   Device& device_;
   Alarms greeting;   // what is no news in the first answer
   Verdict verdict_;  // the device has none
+  UnsaidLocks unsaid_locks_;
 };
 
 int play(const Options& options, Device& device) {

@@ -16,6 +16,7 @@
 #include "lib/files/log_file.hpp"
 #include "lib/files/result_file.hpp"
 #include "lib/files/scene_file.hpp"
+#include "lib/files/unsaid_lock.hpp"
 #include "lib/files/verdict.hpp"
 #include "lib/kinds/scene_build.hpp"
 #include "lib/kinds/solver_values.hpp"
@@ -218,6 +219,7 @@ std::string estimated(const std::string& name, bool fits_exactly, const Exported
   Readings<Scalar, Cap> readings;
   Answer answer;
   taut::host::Verdict verdict;
+  taut::host::UnsaidLocks unsaid_locks;
   for (double before = 0; log.next(row); before = row.time) {
     const double dt = row.row == 1 ? 1 : row.time - before;
     read_row(row, scene, dt, readings);
@@ -225,7 +227,7 @@ std::string estimated(const std::string& name, bool fits_exactly, const Exported
     estimator.respond(response, rows);
     read_response(response, scene, answer);
     read_certainty(estimator, scene, answer);
-    answer.verdict = verdict.take(answer.alarms);
+    answer.verdict = verdict.take(answer.alarms + unsaid_locks.take(row, scene));
     text += result_row(scene, row.time, answer, format, ResultColumns::estimate);
   }
   return text;

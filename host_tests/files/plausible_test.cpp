@@ -370,6 +370,49 @@ TEST_CASE(
   CHECK(remark(slowly).empty());
 }
 
+TEST_CASE("a jack that is let out behind a wedge of which no row says that it holds is not to be trusted") {
+  const std::string doubt = "do not trust: the wedge at C.end may hold though no row has it locked";
+  const auto verdicts = [](const std::string& wedge, const std::string& rows) {
+    const Scratch scratch;
+    Site site;
+    site.wedge = wedge;
+    return Table(run(scratch, site, "estimate", "time,C.end,C.end.locked\n" + rows).out).column("verdict");
+  };
+  const std::string wedge = R"(, "seating": 0.002)",
+                    let_out = "0,0,0\n60,10000,0\n120,20000,0\n180,30000,0\n240,0,0\n300,0,0\n360,0,0\n";
+  const auto found = verdicts(wedge, let_out);
+  REQUIRE(found.size() == 7);
+  for (std::size_t i = 0; i < 5; ++i) CHECK(found[i] == "trust");
+  CHECK(found[5] == doubt);
+  CHECK(found[6] == doubt);
+  // Without a wedge it is let out.
+  for (const std::string& verdict : verdicts("", let_out)) CHECK(verdict == "trust");
+  // On the way up again forces are what the wedge makes them, until the jack has pulled more than before.
+  const auto pulled = verdicts(wedge, let_out + "420,15000,0\n480,30000,0\n540,35000,0\n600,40000,0\n");
+  REQUIRE(pulled.size() == 11);
+  CHECK(pulled[7].find(doubt) == 0);
+  CHECK(pulled[8].find(doubt) == 0);
+  CHECK(pulled[10].find("wedge") == std::string::npos);
+  // A far end that has come down with it says that it does not.
+  std::string stages = "time,C.end,C.start\n";
+  for (int i = 0; i < 7; ++i)
+    stages += std::to_string(60 * i) +
+              (i < 4   ? "," + std::to_string(1e4 * i) + "," + std::to_string(9800 * i)
+               : i < 5 ? ",0,500"
+                       : ",0,400") +
+              "\n";
+  const Scratch scratch;
+  Site site;
+  site.wedge = wedge;
+  for (const std::string& verdict : Table(run(scratch, site, "estimate", stages).out).column("verdict"))
+    CHECK(verdict.find("wedge") == std::string::npos);
+  // Once the log says that it holds, it was late.
+  const auto late = verdicts(wedge, let_out + "420,0,1\n480,0,1\n");
+  REQUIRE(late.size() == 9);
+  for (std::size_t i : {7, 8})
+    CHECK(late[i] == "do not trust: the wedge at C.end may have held before the log says so");
+}
+
 TEST_CASE(
     "a jack that is let out though its wedge never holds, or locked in the row of its load, is remarked on") {
   const auto remarks = [](const std::string& wedge, const std::string& log) {

@@ -344,7 +344,8 @@ Sentence LogFollower::follow_row(const LogRow& row, Answer& answer, const RowVis
   warn_of_bend(row, answer);
   warn_of_turn(row);
   const bool is_stage = followed_ > 0 && JumpGuard<double>::is_stage(row.time - last_.time);
-  if (options_.method == Method::estimate) answer.verdict = verdict_.take(answer.alarms, is_stage);
+  if (options_.method == Method::estimate)
+    answer.verdict = verdict_.take(answer.alarms + unsaid_locks_.take(row, scene_), is_stage);
   ++followed_;
   last_ = row;
   visit(row, answer);

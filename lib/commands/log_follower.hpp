@@ -16,6 +16,7 @@
 #include "lib/files/input_error.hpp"
 #include "lib/files/sentence.hpp"
 #include "lib/files/state_file.hpp"
+#include "lib/files/unsaid_lock.hpp"
 #include "lib/files/verdict.hpp"
 #include "lib/kinds/make_model.hpp"
 
@@ -125,6 +126,7 @@ class LogFollower {
   std::size_t rows_ = 0, left_out_ = 0, followed_ = 0;
   std::optional<SavedState> begun_;  // with the log before
   Verdict verdict_;
+  UnsaidLocks unsaid_locks_;
   LogRow last_;
   std::optional<Moment> origin_;  // of its time
   std::vector<Sentence> remarks_;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double part_of_length = 0.1, clear_of_noise = 20;
 // Until a cable is strained as in a first stage, most of a sound log is still to come.
-constexpr double first_stage_strain = 1e-4, part_in_first_stage = 0.5, part_of_largest = 0.1;
+constexpr double part_in_first_stage = 0.5, part_of_largest = 0.1;
 constexpr double least_growth = 0.005, most_times_stretch = 100;  // [m], [-]
 constexpr std::size_t least_strokes = 3, least_readings = 3;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 #include "lib/files/answer.hpp"
@@ -9,6 +10,12 @@
 #include "taut/estimation/alarms.hpp"
 
 namespace taut::host {
+
+/// `C.start` or `C.end`, with `_` for blanks in the name.
+inline std::string end_word(std::string cable, std::size_t end) {
+  std::replace(cable.begin(), cable.end(), ' ', '_');
+  return cable + "." + end_name(end);
+}
 
 /// `outlier:C.end`, `sensor:C.start`, `mu:C`, `mu:C.3`, `stuck:C.3`, `elongation:C.end`, `force-high:C.T3`,
 /// `force-low:C.T3`, `no-information:C.start`, `gauge:strut3`, `gauge:C.T3`, `lift-off:C.end`,
@@ -20,9 +27,8 @@ inline std::string alarm_word(const Alarm& alarm, const SceneDescription& scene)
   const bool is_at_strut = alarm.cable < 0;
   std::string cable = is_at_strut ? "" : scene.cables[static_cast<std::size_t>(alarm.cable)].name;
   std::replace(cable.begin(), cable.end(), ' ', '_');
-  const std::string end = is_at_strut
-                              ? "strut" + number
-                              : cable + "." + end_name(static_cast<std::size_t>(alarm.place == 0 ? 0 : 1));
+  const std::string end =
+      is_at_strut ? "strut" + number : end_word(cable, static_cast<std::size_t>(alarm.place == 0 ? 0 : 1));
   switch (alarm.kind) {
     case Alarm::Kind::outlier:
       return "outlier:" + end;

@@ -18,6 +18,9 @@ inline constexpr double largest_plausible_strain = 0.02;
 /// usual.
 inline constexpr double least_plausible_strain = 1e-5;
 
+/// What a first stage of a jacking strains its cable by, at least: less is next to no load.
+inline constexpr double first_stage_strain = 1e-4;
+
 /// Length of a cable along its nodes [m].
 double length_of(const CableDescription& cable, const SceneDescription& scene);
 

@@ -27,9 +27,10 @@ struct Rule {
 };
 constexpr int all = Verdict::rows;
 // The worst first: what explains the others stands before them.
-constexpr std::array<Rule, 9> rules = {{
+constexpr std::array<Rule, 10> rules = {{
     {"unknown-past", {1, 1}, {1, 1}, "nobody knows how {1} came under load (pull on or use --state)"},
     {"late-lock", {1, 1}, {1, 1}, "the wedge at {1} may have held before the log says so"},
+    {"unsaid-lock", {1, 1}, {1, 1}, "the wedge at {1} may hold though no row has it locked"},
     {"unread", {1, 1}, {1, 1}, "the load cell at {1} is not read"},
     {"frozen", {1, all}, {1, all}, "the load cell at {1} keeps one value although the load moves"},
     {"model-misfit", {1, all}, {1, all}, "{1} does not fit the model"},

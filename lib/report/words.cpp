@@ -181,6 +181,8 @@ constexpr Translation translations[] = {
      "niemand weiß, wie {1} unter Last kam (weiter ziehen oder --state)"},
     {"the wedge at {1} may have held before the log says so", "{1} 的夹片可能早于记录所示锚固",
      "der Keil an {1} hielt vielleicht, bevor das Protokoll es sagt"},
+    {"the wedge at {1} may hold though no row has it locked", "{1} 的夹片可能已锚固，但没有任何一行记录",
+     "der Keil an {1} hält vielleicht, ohne dass eine Zeile ihn verankert"},
     {"the load cell at {1} is not read", "{1} 的测力计没有读数", "die Messdose an {1} wird nicht gelesen"},
     {"the load cell at {1} keeps one value although the load moves", "{1} 的测力计读数不变而荷载在变",
      "die Messdose bei {1} zeigt einen festen Wert, obwohl die Last sich ändert"},
