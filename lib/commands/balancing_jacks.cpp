@@ -1,6 +1,6 @@
 #include "lib/commands/balancing_jacks.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -42,17 +42,15 @@ std::vector<std::string> ends_that_balance(const SceneDescription& scene, const 
       resists(i, j) =
           condensed.coupling[a][b] / std::sqrt(condensed.coupling[a][a] * condensed.coupling[b][b]);
     }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(resists);
   // Of a unit diagonal: less is rounding.
-  constexpr double least_eigenvalue = 1e-9, least_part = 1e-6;
+  constexpr double least_pivot = 1e-9, least_part = 1e-6;
+  Eigen::FullPivLU<Eigen::MatrixXd> pivots(resists);
+  pivots.setThreshold(least_pivot);
+  const Eigen::MatrixXd moves = pivots.kernel();
   std::vector<std::string> found;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    bool moves = false;
-    for (Eigen::Index mode = 0; mode < n; ++mode)
-      moves = moves || (modes.eigenvalues()(mode) < least_eigenvalue &&
-                        std::fabs(modes.eigenvectors()(i, mode)) > least_part);
-    if (moves) found.push_back(jacked[static_cast<std::size_t>(i)].end);
-  }
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (moves.row(i).lpNorm<Eigen::Infinity>() > least_part)
+      found.push_back(jacked[static_cast<std::size_t>(i)].end);
   return found;
 }
 
