@@ -14,14 +14,13 @@
 #include "lib/files/answer.hpp"
 #include "lib/files/input_error.hpp"
 #include "lib/files/log_file.hpp"
+#include "lib/files/log_verdict.hpp"
 #include "lib/files/number_range.hpp"
 #include "lib/files/output_file.hpp"
 #include "lib/files/result_file.hpp"
 #include "lib/files/scene_file.hpp"
 #include "lib/files/status_text.hpp"
 #include "lib/files/text.hpp"
-#include "lib/files/unsaid_lock.hpp"
-#include "lib/files/verdict.hpp"
 #include "monitor/estimator_alarm.hpp"
 #include "monitor/frame.hpp"
 
@@ -111,7 +110,7 @@ class AnswerReader {
 class Player {
  public:
   Player(const Options& options, const SceneDescription& scene, Device& device)
-      : options_(options), scene_(scene), device_(device) {}
+      : options_(options), scene_(scene), device_(device), verdict_(scene) {}
 
   int play(LogReader& log, OutputFile& output) {
     take_scene();
@@ -135,7 +134,7 @@ class Player {
       if (alarms.bits() != 0)
         std::cerr << "remark: " << place << ": the device says " << in_words(alarms) << '\n';
       Answer found = AnswerReader(answer, scene_).found();
-      found.verdict = verdict_.take(found.alarms + unsaid_locks_.take(row, scene_));
+      found.verdict = verdict_.take(row, found.alarms);
       output.write(result_row(scene_, row.time, found, format, ResultColumns::estimate));
       before = row;
     }
@@ -210,9 +209,8 @@ class Player {
   const Options& options_;
   const SceneDescription& scene_;
   Device& device_;
-  Alarms greeting;   // what is no news in the first answer
-  Verdict verdict_;  // the device has none
-  UnsaidLocks unsaid_locks_;
+  Alarms greeting;      // what is no news in the first answer
+  LogVerdict verdict_;  // the device has none
 };
 
 int play(const Options& options, Device& device) {

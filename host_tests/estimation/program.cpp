@@ -765,6 +765,8 @@ TEST_CASE("a state of another scene, precision or that is cut off is refused, an
   CHECK(text_of(scratch.path / "state") == written);
   write(scratch, "state", written.substr(0, written.size() - 1));
   CHECK(refusal("").find("is not a whole state") != std::string::npos);
+  write(scratch, "state", "taut-state-1" + written.substr(written.find(' ')));
+  CHECK(refusal("").find("was written by another version or build of taut") != std::string::npos);
   write(scratch, "state", "no state");
   CHECK(refusal("").find("is not a whole state") != std::string::npos);
   write(scratch, "state", written);

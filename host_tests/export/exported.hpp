@@ -14,10 +14,9 @@
 
 #include "files/run_program.hpp"
 #include "lib/files/log_file.hpp"
+#include "lib/files/log_verdict.hpp"
 #include "lib/files/result_file.hpp"
 #include "lib/files/scene_file.hpp"
-#include "lib/files/unsaid_lock.hpp"
-#include "lib/files/verdict.hpp"
 #include "lib/kinds/scene_build.hpp"
 #include "lib/kinds/solver_values.hpp"
 #include "taut/condensation/condense.hpp"
@@ -218,8 +217,7 @@ std::string estimated(const std::string& name, bool fits_exactly, const Exported
   Response<Scalar, Cap> response;
   Readings<Scalar, Cap> readings;
   Answer answer;
-  taut::host::Verdict verdict;
-  taut::host::UnsaidLocks unsaid_locks;
+  taut::host::LogVerdict verdict(scene);
   for (double before = 0; log.next(row); before = row.time) {
     const double dt = row.row == 1 ? 1 : row.time - before;
     read_row(row, scene, dt, readings);
@@ -227,7 +225,7 @@ std::string estimated(const std::string& name, bool fits_exactly, const Exported
     estimator.respond(response, rows);
     read_response(response, scene, answer);
     read_certainty(estimator, scene, answer);
-    answer.verdict = verdict.take(answer.alarms + unsaid_locks.take(row, scene));
+    answer.verdict = verdict.take(row, answer.alarms);
     text += result_row(scene, row.time, answer, format, ResultColumns::estimate);
   }
   return text;

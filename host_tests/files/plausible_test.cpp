@@ -414,6 +414,28 @@ TEST_CASE("a jack that is let out behind a wedge of which no row says that it ho
 }
 
 TEST_CASE(
+    "a wedge of which no row says that it holds is not to be trusted in the log of the next visit, too") {
+  const std::string head = "time,C.end,C.end.locked\n",
+                    rows = "0,0,0\n60,10000,0\n120,20000,0\n180,30000,0\n240,0,0\n300,0,0\n360,15000,0\n";
+  Site site;
+  site.wedge = R"(, "seating": 0.002)";
+  for (std::size_t cut = rows.find('\n') + 1; cut < rows.size(); cut = rows.find('\n', cut) + 1) {
+    const Scratch scratch;
+    const std::string command = "estimate --state " + scratch.quoted("state");
+    std::vector<std::string> verdicts;
+    for (const std::string& visit : {rows.substr(0, cut), rows.substr(cut)})
+      for (const std::string& verdict :
+           Table(run(scratch, site, command, head + visit).out).column("verdict"))
+        verdicts.push_back(verdict);
+    REQUIRE(verdicts.size() == 7);
+    CAPTURE(cut);
+    for (std::size_t i = 0; i < verdicts.size(); ++i)
+      CHECK((verdicts[i] == "do not trust: the wedge at C.end may hold though no row has it locked") ==
+            (i >= 5));
+  }
+}
+
+TEST_CASE(
     "a jack that is let out though its wedge never holds, or locked in the row of its load, is remarked on") {
   const auto remarks = [](const std::string& wedge, const std::string& log) {
     Site site;

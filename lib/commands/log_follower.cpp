@@ -126,6 +126,7 @@ LogFollower::LogFollower(const RunOptions& options)
       scene_(scene_for(options)),
       model_(make_model(scene_, options.method, options.numbers.scalar, options.limits)),
       rules_(rules_for(options, scene_)),
+      verdict_(scene_),
       turns_(scene_) {
   keep_inputs(options.output, {options.scene, options.log, options.state});
   keep_inputs(options.state, {options.scene, options.log});
@@ -147,6 +148,7 @@ LogFollower::LogFollower(const RunOptions& options, LogStream stream)
       model_(make_model(scene_, options.method, options.numbers.scalar, options.limits)),
       rules_(rules_for(options, scene_)),
       source_(std::move(stream)),
+      verdict_(scene_),
       turns_(scene_) {
   if (!source_->state.empty()) take_state(options.state, source_->state);
   open_stream();
@@ -206,7 +208,7 @@ Sentence LogFollower::follow(const RowVisitor& visit) {
     last_.factor = begun_->factor;
     last_.cables = begun_->cables;
     origin_ = begun_->origin;
-    verdict_ = Verdict(begun_->raised);
+    verdict_ = LogVerdict(scene_, begun_->verdict);
   }
   begin();
   if (is_stream()) return follow_stream(visit);
@@ -344,8 +346,7 @@ Sentence LogFollower::follow_row(const LogRow& row, Answer& answer, const RowVis
   warn_of_bend(row, answer);
   warn_of_turn(row);
   const bool is_stage = followed_ > 0 && JumpGuard<double>::is_stage(row.time - last_.time);
-  if (options_.method == Method::estimate)
-    answer.verdict = verdict_.take(answer.alarms + unsaid_locks_.take(row, scene_), is_stage);
+  if (options_.method == Method::estimate) answer.verdict = verdict_.take(row, answer.alarms, is_stage);
   ++followed_;
   last_ = row;
   visit(row, answer);
@@ -470,7 +471,7 @@ SavedState LogFollower::present_state() const {
   state.origin = origin_;
   state.factor = last_.factor;
   state.cables = last_.cables;
-  state.raised = verdict_.memory();
+  state.verdict = verdict_.memory();
   state.bytes = model_->save();
   return state;
 }

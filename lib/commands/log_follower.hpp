@@ -14,10 +14,9 @@
 #include "lib/commands/plausible_log.hpp"
 #include "lib/commands/result_writer.hpp"
 #include "lib/files/input_error.hpp"
+#include "lib/files/log_verdict.hpp"
 #include "lib/files/sentence.hpp"
 #include "lib/files/state_file.hpp"
-#include "lib/files/unsaid_lock.hpp"
-#include "lib/files/verdict.hpp"
 #include "lib/kinds/make_model.hpp"
 
 namespace taut::host {
@@ -125,8 +124,7 @@ class LogFollower {
   std::vector<std::unique_ptr<FarEndInTime>> late_ends_;  // of a file
   std::size_t rows_ = 0, left_out_ = 0, followed_ = 0;
   std::optional<SavedState> begun_;  // with the log before
-  Verdict verdict_;
-  UnsaidLocks unsaid_locks_;
+  LogVerdict verdict_;
   LogRow last_;
   std::optional<Moment> origin_;  // of its time
   std::vector<Sentence> remarks_;

@@ -11,10 +11,15 @@
 
 namespace taut::host {
 
-/// `C.start` or `C.end`, with `_` for blanks in the name.
-inline std::string end_word(std::string cable, std::size_t end) {
-  std::replace(cable.begin(), cable.end(), ' ', '_');
-  return cable + "." + end_name(end);
+/// A name with `_` for its blanks, for words that blanks separate.
+inline std::string without_blanks(std::string name) {
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+/// `C.start` or `C.end`, without blanks.
+inline std::string end_word(const std::string& cable, std::size_t end) {
+  return without_blanks(cable) + "." + end_name(end);
 }
 
 /// `outlier:C.end`, `sensor:C.start`, `mu:C`, `mu:C.3`, `stuck:C.3`, `elongation:C.end`, `force-high:C.T3`,
@@ -25,8 +30,8 @@ inline std::string end_word(std::string cable, std::size_t end) {
 inline std::string alarm_word(const Alarm& alarm, const SceneDescription& scene) {
   const std::string number = std::to_string(alarm.place + 1);
   const bool is_at_strut = alarm.cable < 0;
-  std::string cable = is_at_strut ? "" : scene.cables[static_cast<std::size_t>(alarm.cable)].name;
-  std::replace(cable.begin(), cable.end(), ' ', '_');
+  const std::string cable =
+      is_at_strut ? "" : without_blanks(scene.cables[static_cast<std::size_t>(alarm.cable)].name);
   const std::string end =
       is_at_strut ? "strut" + number : end_word(cable, static_cast<std::size_t>(alarm.place == 0 ? 0 : 1));
   switch (alarm.kind) {

@@ -6,13 +6,15 @@
 #include <cstdlib>
 #include <limits>
 #include <sstream>
+#include <tuple>
 
 #include "lib/files/input_error.hpp"
 
 namespace taut::host {
 namespace {
 
-constexpr const char* magic = "taut-state-3";
+// The number grows with every change of what is in it.
+constexpr const char *magic = "taut-state-4", *family = "taut-state-";
 
 // What lies in memory as this program has it.
 std::string build() { return fingerprint(TAUT_VERSION " " __VERSION__); }
@@ -150,9 +152,14 @@ std::string state_text(const SavedState& state, const std::string& scene_text) {
       ends.push_back(end.locked ? 1 : 0);
     }
   write(body, ends);
-  body += std::to_string(state.raised.size());
-  for (const auto& [word, rows] : state.raised) body += ' ' + word + ' ' + std::to_string(rows);
-  body += '\n' + std::to_string(state.bytes.size()) + '\n' + state.bytes;
+  body += std::to_string(state.verdict.raised.size());
+  for (const auto& [word, rows] : state.verdict.raised) body += ' ' + word + ' ' + std::to_string(rows);
+  body += '\n';
+  std::vector<double> locks;
+  for (const auto& cable : state.verdict.locks)
+    for (const UnsaidLock::Memory& end : cable) locks.insert(locks.end(), end.begin(), end.end());
+  write(body, locks);
+  body += std::to_string(state.bytes.size()) + '\n' + state.bytes;
   return std::string(magic) + ' ' + build() + ' ' + state.scalar + ' ' + fingerprint(scene_text) + ' ' +
          fingerprint(body) + '\n' + body;
 }
@@ -165,8 +172,9 @@ SavedState read_state(const std::string& path, const std::string& text, const st
   if (found_magic == "taut-watch-1")
     throw InputError(path, "", "is the state of taut watch",
                      "go on with taut watch, or name a new file: it begins anew");
-  if (found_magic != magic) head.fail();
-  if (head.word() != build())
+  const bool is_other = found_magic != magic;
+  if (is_other && found_magic.rfind(family, 0) != 0) head.fail();
+  if (is_other || head.word() != build())
     throw InputError(path, "", "was written by another version or build of taut", new_one);
   if (const std::string found = head.word(); found != scalar)
     throw InputError(path, "", "was written with --scalar " + found, "write --scalar " + found);
@@ -190,8 +198,14 @@ SavedState read_state(const std::string& path, const std::string& text, const st
   }
   for (std::size_t words = rest.count(); words > 0; --words) {
     const std::string word = rest.word();
-    state.raised[word] = rest.bits(Verdict::rows);
+    state.verdict.raised[word] = rest.bits(Verdict::rows);
   }
+  const std::vector<double> locks = rest.numbers();
+  constexpr std::size_t each = std::tuple_size_v<UnsaidLock::Memory>;
+  if (locks.size() != 2 * each * state.cables.size()) rest.fail();
+  state.verdict.locks.resize(state.cables.size());
+  for (std::size_t i = 0; i < locks.size(); ++i)
+    state.verdict.locks[i / (2 * each)][i / each % 2][i % each] = locks[i];
   const std::size_t size = rest.count();
   state.bytes = rest.rest();
   if (state.bytes.size() != size) head.fail();

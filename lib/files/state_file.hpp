@@ -8,8 +8,8 @@
 
 #include "lib/files/date_time.hpp"
 #include "lib/files/log_file.hpp"
+#include "lib/files/log_verdict.hpp"
 #include "lib/files/scene_description.hpp"
-#include "lib/files/verdict.hpp"
 
 namespace taut::host {
 
@@ -21,7 +21,7 @@ struct SavedState {
   std::optional<Moment> origin;               ///< where times that are dates count from
   std::vector<double> factor;                 ///< of every load pattern
   std::vector<std::array<EndRow, 2>> cables;  ///< forces and wedges at both ends
-  Verdict::Memory raised;                     ///< what the verdict remembers of the last rows
+  LogVerdict::Memory verdict;                 ///< what it remembers of the rows before
   std::string bytes;                          ///< of the model
 };
 

@@ -4,14 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
-#include <string>
-#include <vector>
-
-#include "lib/files/alarm_words.hpp"
-#include "lib/files/log_file.hpp"
-#include "lib/files/plausible_scene.hpp"
-#include "lib/files/scene_description.hpp"
 
 namespace taut::host {
 
@@ -20,6 +12,17 @@ namespace taut::host {
 /// than ever before, or the far end has come down to less than half, too.
 class UnsaidLock {
  public:
+  /// What it knows, as numbers.
+  using Memory = std::array<double, 4>;
+
+  UnsaidLock() = default;
+  /// Goes on where another one, whose memory() this is, has come to.
+  explicit UnsaidLock(const Memory& memory)
+      : highest_(memory[0]),
+        highest_far_(memory[1]),
+        last_(memory[2]),
+        let_out_(static_cast<int>(memory[3])) {}
+
   /// A row of a jacked end that has a wedge; `reading` [N], and that of the far end, is not a number if there
   /// is none, and less than `least` is no load.
   void take(double reading, double far_end, bool locked, double least) {
@@ -34,45 +37,20 @@ class UnsaidLock {
       highest_ = both;
       let_out_ = 0;
     } else if (highest_ > least && reading < nothing * highest_) {
-      ++let_out_;
+      let_out_ = std::min(let_out_ + 1, few);
     } else if (!may_hold()) {
       let_out_ = 0;
     }
   }
   bool may_hold() const { return let_out_ >= few; }
+  Memory memory() const { return {highest_, highest_far_, last_, static_cast<double>(let_out_)}; }
 
  private:
   static constexpr double nothing = 0.05;
   static constexpr int few = 2;
 
   double highest_ = 0, highest_far_ = 0, last_ = 0;
-  int let_out_ = 0;  // rows with next to no load
-};
-
-/// The same of all ends of a scene.
-class UnsaidLocks {
- public:
-  /// The next row of a log. Returns a word for Verdict::take() of each end whose wedge may hold, with a blank
-  /// before it, as in ` unsaid-lock:C.end`.
-  std::string take(const LogRow& row, const SceneDescription& scene) {
-    std::string words;
-    ends_.resize(scene.cables.size());
-    for (std::size_t c = 0; c < scene.cables.size(); ++c)
-      for (std::size_t end = 0; end < 2; ++end) {
-        const CableDescription& cable = scene.cables[c];
-        if (!cable.is_jacked(end) || !(cable.seating > 0)) continue;
-        const double none = std::nan("");
-        const EndRow &own = row.cables[c][end], &other = row.cables[c][1 - end];
-        ends_[c][end].take(own.reading.value_or(none),
-                           cable.is_jacked(1 - end) ? none : other.reading.value_or(none), own.locked,
-                           first_stage_strain * cable.E * cable.A);
-        if (ends_[c][end].may_hold()) words += " unsaid-lock:" + end_word(cable.name, end);
-      }
-    return words;
-  }
-
- private:
-  std::vector<std::array<UnsaidLock, 2>> ends_;  // of every cable
+  int let_out_ = 0;  // rows with next to no load, up to a few
 };
 
 }  // namespace taut::host
