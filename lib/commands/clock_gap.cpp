@@ -118,9 +118,10 @@ ClockGap::Path ClockGap::path(const std::vector<Reading>& way, double gap) const
 }
 
 double ClockGap::found() const {
-  const std::vector<Reading> way = way_up();
   const std::vector<Reading>& far_end = far_end_.kept();
-  if (way.size() < least_compared || far_end.size() < least_compared) return 0;
+  if (far_end.size() < least_compared) return 0;
+  const std::vector<Reading> way = way_up();
+  if (way.size() < least_compared) return 0;
   const double lasts = way.back().time - way.front().time;
   // A cell that has stopped on the way is compared with too little of it.
   if (way.back().time - far_end.back().time > lasts / 10) return 0;
