@@ -5,6 +5,7 @@
 
 #include "rig.hpp"
 
+namespace commands_test {
 using namespace rig;
 
 TEST_CASE("the recorded experiment: 40 kN at the jack leave 33.35 kN at the anchor") {
@@ -120,3 +121,5 @@ TEST_CASE("alarms stay in the information until they are acknowledged") {
   CHECK(device.ask("Q") == Fields{"K", "Q"});
   CHECK(latched(device.ask("I")).bits() == 0);
 }
+
+}  // namespace commands_test

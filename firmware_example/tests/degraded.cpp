@@ -4,6 +4,7 @@
 
 #include "rig.hpp"
 
+namespace degraded_test {
 using namespace rig;
 
 namespace {
@@ -227,3 +228,5 @@ TEST_CASE("the watchdog is fed in every pass of the main loop") {
     CHECK(device.board.fed > before);
   }
 }
+
+}  // namespace degraded_test

@@ -5,6 +5,7 @@
 
 #include "rig.hpp"
 
+namespace estimate_test {
 using namespace rig;
 
 namespace {
@@ -310,3 +311,5 @@ TEST_CASE("with noise too, a power failure after any sample changes no bit") {
   for (Noisy* each : {&steady, &failing}) each->ask("J " + jack);
   for (int row = 0; row < 12; ++row) both(pulling(noise, 20 + row));
 }
+
+}  // namespace estimate_test

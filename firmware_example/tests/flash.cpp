@@ -7,6 +7,7 @@
 #include "rig.hpp"
 #include "simulated_flash.hpp"
 
+namespace flash_test {
 using namespace rig;
 using monitor::Found;
 using monitor::RecordHeader;
@@ -325,3 +326,5 @@ TEST_CASE("flash that takes nothing any more is said, and the device goes on wit
   device.boot();
   CHECK(last_sample(device.greeting) == 3);
 }
+
+}  // namespace flash_test

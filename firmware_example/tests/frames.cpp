@@ -7,6 +7,7 @@
 #include "host/device.hpp"
 #include "monitor/frame.hpp"
 
+namespace frames_test {
 namespace {
 
 using Reader = monitor::FrameReader<64>;
@@ -120,3 +121,5 @@ TEST_CASE("a body that does not fit makes no frame") {
   writer.finish();
   CHECK(writer.size() > 0);
 }
+
+}  // namespace frames_test

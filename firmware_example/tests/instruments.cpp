@@ -8,6 +8,7 @@
 #include "rig.hpp"
 #include "simulated_hx711.hpp"
 
+namespace instruments_test {
 using namespace rig;
 using instruments::Counts;
 using instruments::Fault;
@@ -288,7 +289,7 @@ TEST_CASE("where the line has no reading the board's own cell is read, and the f
   own.ask("Q");
   own.ask(choose(rolling_joint));
   own.ask("P");
-  ::settle(own.board.chip, own.board.driver);
+  instruments_test::settle(own.board.chip, own.board.driver);
   std::uint32_t number = 0;
   for (const float force : {0.0F, 16000.0F, 40000.0F, 32000.0F}) {
     own.board.chip.input = pulled(force);
@@ -314,7 +315,7 @@ TEST_CASE("a board's own cell at a jack that is broken, saturated or silent is o
   own.ask("Q");
   own.ask(choose(rolling_joint));
   own.ask("P");
-  ::settle(own.board.chip, own.board.driver);
+  instruments_test::settle(own.board.chip, own.board.driver);
   own.board.chip.input = pulled(40000);
   own.board.chip.pass(2 * conversion);
   own.board.driver.read();
@@ -341,7 +342,7 @@ TEST_CASE("a board's own cell at a jack that is broken, saturated or silent is o
   is_held();
   own.board.chip.line = Chip::Line::follows;
   own.board.chip.input = pulled(41000);
-  ::settle(own.board.chip, own.board.driver);
+  instruments_test::settle(own.board.chip, own.board.driver);
   own.board.chip.pass(conversion);
   const Fields answer = own.ask(sample_of(++number, nothing));
   CHECK(quality(answer) == 'g');
@@ -369,3 +370,5 @@ TEST_CASE("a reading that is too old is none") {
   CHECK_FALSE(has);
   CHECK(value == 3);
 }
+
+}  // namespace instruments_test

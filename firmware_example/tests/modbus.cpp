@@ -10,6 +10,7 @@
 #include "monitor/modbus_map.hpp"
 #include "rig.hpp"
 
+namespace modbus_test {
 using namespace rig;
 
 namespace {
@@ -426,3 +427,5 @@ TEST_CASE("garbage of any length is survived, and the next frame is answered") {
   }
   CHECK(state(bus.ask("P")) == before);
 }
+
+}  // namespace modbus_test

@@ -4,6 +4,7 @@
 
 #include "rig.hpp"
 
+namespace noise_test {
 using namespace rig;
 
 namespace {
@@ -120,3 +121,5 @@ TEST_CASE("pure noise does not move the device") {
   CHECK(state(device.ask("P")) == state(before));
   CHECK(quality(device.ask(sample(2, {41000, 0, 0}))) == 'g');
 }
+
+}  // namespace noise_test

@@ -3,6 +3,7 @@
 
 #include "rig.hpp"
 
+namespace power_test {
 using namespace rig;
 
 namespace {
@@ -187,3 +188,5 @@ TEST_CASE("the number of the record passes zero") {
   REQUIRE(records.find(found) == monitor::Found::record);
   CHECK(found.sequence == 1);
 }
+
+}  // namespace power_test

@@ -1,6 +1,7 @@
 // Several scenes in flash share one session: the device tells them apart, also after a power failure.
 #include "rig.hpp"
 
+namespace several_scenes_test {
 using namespace rig;
 
 namespace {
@@ -64,3 +65,5 @@ TEST_CASE("after a power failure the scene is the one that was chosen") {
     CHECK(state(device.ask("P")) == state(before));
   }
 }
+
+}  // namespace several_scenes_test

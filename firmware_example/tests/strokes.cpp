@@ -1,6 +1,7 @@
 // Strokes: measurements where the scene describes them, a check elsewhere.
 #include "rig.hpp"
 
+namespace strokes_test {
 using namespace rig;
 
 namespace {
@@ -156,3 +157,5 @@ TEST_CASE("another list of strokes makes a record of no use") {
   Device<Checked> checked;
   CHECK(measured.greeting.at(12) != checked.greeting.at(12));
 }
+
+}  // namespace strokes_test

@@ -6,6 +6,7 @@
 
 #include "estimation/ramp.hpp"
 
+namespace account_test {
 using namespace estimation;
 
 namespace {
@@ -133,3 +134,5 @@ TEST_CASE("without a far-end cell all comes from the gauge, and without either n
 }
 
 }  // namespace
+
+}  // namespace account_test

@@ -8,6 +8,7 @@
 
 #include "support/random.hpp"
 
+namespace belief_test {
 namespace {
 
 constexpr int unknowns = 4, jacks = 2;
@@ -327,3 +328,5 @@ TEST_CASE("a bound that is narrower than before, or than what was measured since
     CHECK(at_once.variance(0) == doctest::Approx(variance).epsilon(1e-9));
   }
 }
+
+}  // namespace belief_test

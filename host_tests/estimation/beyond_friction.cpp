@@ -12,6 +12,7 @@
 #include "estimation/ramp.hpp"
 #include "estimation/score.hpp"
 
+namespace beyond_friction_test {
 using namespace estimation;
 
 namespace {
@@ -81,3 +82,5 @@ TEST_CASE("bars reach to where friction can hold neighbouring forces apart, what
   CHECK(said.forces.share() > 0.9);
   CHECK(said.apart == 0);
 }
+
+}  // namespace beyond_friction_test

@@ -7,6 +7,7 @@
 
 #include "estimation/site.hpp"
 
+namespace bounds_test {
 using namespace estimation;
 
 namespace {
@@ -190,3 +191,5 @@ TEST_CASE("without a reading there are no bounds, and nothing is carried over a 
 }
 
 }  // namespace
+
+}  // namespace bounds_test

@@ -10,6 +10,7 @@
 #include "taut/estimation/estimator.hpp"
 #include "taut/estimation/find_friction_prior.hpp"
 
+namespace capacities_test {
 namespace {
 
 struct Exact : taut::Capacity {
@@ -93,3 +94,5 @@ TEST_CASE("a load cell that lags is refused by its cable where the capacity has 
   CHECK(status.place == taut::Place::cable);
   CHECK(status.index == 0);
 }
+
+}  // namespace capacities_test

@@ -9,6 +9,7 @@
 
 #include "support/random.hpp"
 
+namespace cell_watch_test {
 namespace {
 
 template <class Scalar>
@@ -257,3 +258,5 @@ TEST_CASE("a cell does not live only if the force surely has gone on, not where 
     CHECK(watch.is_frozen == (deviation < 50));
   }
 }
+
+}  // namespace cell_watch_test

@@ -10,6 +10,7 @@
 
 #include "estimation/jacked_chain.hpp"
 
+namespace cells_in_turn_test {
 using namespace estimation;
 
 namespace {
@@ -103,3 +104,5 @@ TEST_CASE("it does where the load goes up in strokes of a pump, with rests betwe
   const Ramps ramps = ramps_in_turn(200, [](int i) { return (i / 5 * 5 + std::min(i % 5, 2) * 2.5) / 200; });
   CHECK(ramps.error() < 0.01);
 }
+
+}  // namespace cells_in_turn_test

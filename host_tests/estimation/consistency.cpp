@@ -10,6 +10,7 @@
 
 #include "support/random.hpp"
 
+namespace consistency_test {
 using taut::Consistency;
 
 namespace {
@@ -266,3 +267,5 @@ TEST_CASE("variances that change count as much as the readings that they belong 
   for (int i = 0; i < 10; ++i) fit.take(4, 0, 1);
   CHECK(fit.misfit() == 4);
 }
+
+}  // namespace consistency_test

@@ -9,6 +9,7 @@
 #include "estimation/saddle_rows.hpp"
 #include "taut/estimation/draw_in.hpp"
 
+namespace draw_in_test {
 using namespace estimation;
 
 namespace {
@@ -184,3 +185,5 @@ TEST_CASE("a draw-in, or a strain while locked, that finds no room is refused wi
     CHECK(of_friction.amount == segments - 1 - 3);
   }
 }
+
+}  // namespace draw_in_test

@@ -13,6 +13,7 @@
 #include "estimation/followers.hpp"
 #include "estimation/ramp.hpp"
 
+namespace drift_test {
 using namespace estimation;
 
 namespace {
@@ -295,3 +296,5 @@ TEST_CASE("put back from its saved state after every row, a cable that drifts go
     CHECK(found == expected);
   }
 }
+
+}  // namespace drift_test

@@ -6,6 +6,7 @@
 #include "estimation/each_seed.hpp"
 #include "estimation/jacked_chain.hpp"
 
+namespace early_unlock_test {
 using namespace estimation;
 
 namespace {
@@ -132,3 +133,5 @@ TEST_CASE("a jack that jumps to a load below, or stands there in a load stage, h
     CHECK(visit.here().held == segments);
   });
 }
+
+}  // namespace early_unlock_test

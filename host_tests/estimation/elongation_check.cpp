@@ -11,6 +11,7 @@
 
 #include "estimation/ramp.hpp"
 
+namespace elongation_check_test {
 using namespace estimation;
 
 namespace {
@@ -362,3 +363,5 @@ TEST_CASE("what is known better of friction by now is not taken for known before
 }
 
 }  // namespace
+
+}  // namespace elongation_check_test

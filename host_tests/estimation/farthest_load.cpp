@@ -9,6 +9,7 @@
 #include "support/random.hpp"
 #include "taut/estimation/load_filter.hpp"
 
+namespace farthest_load_test {
 using estimation::Score;
 
 namespace {
@@ -63,3 +64,5 @@ TEST_CASE_TEMPLATE("how far a load has come is known where it rests, creeps on o
         CHECK(watched.come.rms() < 1.4);
       }
 }
+
+}  // namespace farthest_load_test

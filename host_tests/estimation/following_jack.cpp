@@ -7,6 +7,7 @@
 
 #include "support/random.hpp"
 
+namespace following_jack_test {
 namespace {
 
 /// Two jacks that pull one cable, in rows that are read with an error.
@@ -104,3 +105,5 @@ TEST_CASE("where the other pump begins to work a jack that follows follows no mo
   CHECK(jacks.pull(1, 60, [&](double more) { return from + 1.5 * (more - 0.8); }) <= 3);
   CHECK(jacks.quotient == doctest::Approx(left).epsilon(0.03));
 }
+
+}  // namespace following_jack_test

@@ -9,6 +9,7 @@
 
 #include "estimation/ramp.hpp"
 
+namespace force_watch_test {
 using namespace estimation;
 
 namespace {
@@ -108,3 +109,5 @@ TEST_CASE("a restored estimator keeps the episode and its peak") {
 }
 
 }  // namespace
+
+}  // namespace force_watch_test

@@ -14,6 +14,7 @@
 #include "estimation/ramp.hpp"
 #include "estimation/scattered_chain.hpp"
 
+namespace friction_scatter_test {
 using namespace estimation;
 
 namespace {
@@ -281,3 +282,5 @@ TEST_CASE("every cable has its own joints, segments and unknown; one that shares
   both.clear();
   for (int i = 0; i < ChainCapacity::segments; ++i) CHECK(variance_of(both, i, by_number) == 0);
 }
+
+}  // namespace friction_scatter_test

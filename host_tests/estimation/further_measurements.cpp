@@ -8,6 +8,7 @@
 
 #include "estimation/ramp.hpp"
 
+namespace further_measurements_test {
 using namespace estimation;
 
 namespace {
@@ -380,3 +381,5 @@ TEST_CASE("a gauge between two cables tells something only while both slide or o
 }
 
 }  // namespace
+
+}  // namespace further_measurements_test

@@ -6,6 +6,7 @@
 
 #include "estimation/saddle_site.hpp"
 
+namespace gain_release_test {
 using namespace estimation;
 
 TEST_CASE("where gains are not known a release teaches friction once all joints surely slide back") {
@@ -34,3 +35,5 @@ TEST_CASE("where gains are not known a release teaches friction once all joints 
   CHECK(forces.share() > 0.93);
   CHECK(alarms == 0);
 }
+
+}  // namespace gain_release_test

@@ -9,6 +9,7 @@
 
 #include "estimation/ramp.hpp"
 
+namespace gains_test {
 using namespace estimation;
 
 namespace {
@@ -94,3 +95,5 @@ TEST_CASE("cells that do not differ are not told") {
 TEST_CASE("gains that are known exactly are not doubted") {
   CHECK(rows_with_alarm({0.02, 0}, 0, 0.01, 1) == 0);
 }
+
+}  // namespace gains_test

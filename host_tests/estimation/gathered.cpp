@@ -3,6 +3,7 @@
 
 #include "estimation/ramp.hpp"
 
+namespace gathered_test {
 using namespace estimation;
 
 namespace {
@@ -136,3 +137,5 @@ TEST_CASE("among readings that wait one that contradicts is told at once, and no
     CHECK(raised(site->estimator().alarms(), taut::Alarm::Kind::sensor) == 0);
   }
 }
+
+}  // namespace gathered_test

@@ -7,6 +7,7 @@
 
 #include "estimation/saddle_site.hpp"
 
+namespace gauge_scatter_test {
 using namespace estimation;
 
 namespace {
@@ -66,3 +67,5 @@ TEST_CASE("a measured force tells of the friction before it, and as much of the 
       CHECK(said.mu.share() > 0.9);
     }
 }
+
+}  // namespace gauge_scatter_test

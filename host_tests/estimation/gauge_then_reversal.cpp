@@ -7,6 +7,7 @@
 
 #include "estimation/ramp.hpp"
 
+namespace gauge_then_reversal_test {
 using namespace estimation;
 
 TEST_CASE("a jack reverses with the friction that a gauge has taught, not with that of the scene") {
@@ -57,3 +58,5 @@ TEST_CASE("a jack reverses with the friction that a gauge has taught, not with t
   // What mu is off by still, 0.01, is about as much of the full force.
   CHECK(worst < 0.02);
 }
+
+}  // namespace gauge_then_reversal_test

@@ -10,6 +10,7 @@
 
 #include "support/random.hpp"
 
+namespace gauges_test {
 using taut::Gauge;
 
 namespace {
@@ -237,3 +238,5 @@ TEST_CASE("every instrument has a noise of its own, of the readings handed in an
   // Its readings are a row and two rows apart in turn: none of them are compared.
   CHECK(gauges.sd({2}) == 1);
 }
+
+}  // namespace gauges_test

@@ -9,6 +9,7 @@
 
 #include "estimation/saddle_site.hpp"
 
+namespace held_reading_test {
 using namespace estimation;
 
 namespace {
@@ -231,3 +232,5 @@ TEST_CASE("with cells that are written again bars hold, and next to no cell is b
     CHECK(alarms < 10);
   }
 }
+
+}  // namespace held_reading_test

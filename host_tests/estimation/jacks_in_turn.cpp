@@ -13,6 +13,7 @@
 #include "estimation/jacked_chain.hpp"
 #include "taut/estimation/row_strokes.hpp"
 
+namespace jacks_in_turn_test {
 using namespace estimation;
 
 namespace {
@@ -311,3 +312,5 @@ TEST_CASE("of two jacks that pull a stroke waits for the other one in its row, a
   strokes.begin_row();
   CHECK(strokes.take(1, 0, read, {true, true}).empty());
 }
+
+}  // namespace jacks_in_turn_test

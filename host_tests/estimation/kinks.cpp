@@ -11,6 +11,7 @@
 #include "estimation/pumped.hpp"
 #include "estimation/saddle_rows.hpp"
 
+namespace kinks_test {
 using namespace estimation;
 
 namespace {
@@ -87,3 +88,5 @@ TEST_CASE("where joints let go error bars are those of both sides") {
     CHECK(all.worst < 8);
   }
 }
+
+}  // namespace kinks_test

@@ -6,6 +6,7 @@
 
 #include "estimation/saddle_site.hpp"
 
+namespace known_friction_test {
 using namespace estimation;
 
 namespace {
@@ -50,3 +51,5 @@ TEST_CASE("where mu is known a far end that contradicts is found, and one that a
   }
   CHECK(blamed <= 2);
 }
+
+}  // namespace known_friction_test

@@ -11,6 +11,7 @@
 
 #include "estimation/jacked_chain.hpp"
 
+namespace lagging_reading_test {
 using namespace estimation;
 
 namespace {
@@ -240,3 +241,5 @@ TEST_CASE("forces are right behind filters, in ramps and after turns, if their l
 TEST_CASE("what is known of a filter is saved with all else: the same forces after a power failure") {
   CHECK(jack_behind_filter(1).error() == jack_behind_filter(1, true).error());
 }
+
+}  // namespace lagging_reading_test

@@ -11,6 +11,7 @@
 #include "estimation/ramp.hpp"
 #include "taut/estimation/lasting_error.hpp"
 
+namespace lasting_errors_test {
 using namespace estimation;
 
 namespace {
@@ -109,3 +110,5 @@ TEST_CASE("readings that are off alike leave what they have in common, and their
   // Of cables of 100 MN, in single precision.
   CHECK(std::isfinite(taut::counted_variance(1e15F, 1e12F, 9e14F)));
 }
+
+}  // namespace lasting_errors_test

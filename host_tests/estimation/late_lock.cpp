@@ -6,6 +6,7 @@
 
 #include "estimation/jacked_chain.hpp"
 
+namespace late_lock_test {
 using namespace estimation;
 
 namespace {
@@ -119,3 +120,5 @@ TEST_CASE("an end that is locked in a hold, after a release too, is locked when 
         CHECK_FALSE(visit->is_late());
       }
 }
+
+}  // namespace late_lock_test

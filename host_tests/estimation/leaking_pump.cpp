@@ -7,6 +7,7 @@
 
 #include "estimation/saddle_site.hpp"
 
+namespace leaking_pump_test {
 using namespace estimation;
 
 namespace {
@@ -115,3 +116,5 @@ TEST_CASE("a pump that is worked again for a row, and leaks on, has turned twice
     CHECK(held.rms() < 1.1);
   }
 }
+
+}  // namespace leaking_pump_test

@@ -3,6 +3,7 @@
 
 #include "estimation/site.hpp"
 
+namespace lift_off_test {
 using namespace estimation;
 
 namespace {
@@ -191,3 +192,5 @@ TEST_CASE("restored after every row, an estimator tells of the free wedge in the
 }
 
 }  // namespace
+
+}  // namespace lift_off_test

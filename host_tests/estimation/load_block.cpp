@@ -8,6 +8,7 @@
 
 #include "support/random.hpp"
 
+namespace load_block_test {
 using taut::LineState;
 using Block = taut::LoadBlock<double, double, 16>;
 
@@ -218,3 +219,5 @@ TEST_CASE("innovations and their fading sum have the spread that is foretold") {
   CHECK(youngest.drift < 1);
   CHECK(youngest.drift > 0.75);
 }
+
+}  // namespace load_block_test

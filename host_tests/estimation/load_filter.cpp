@@ -13,6 +13,7 @@
 
 #include "support/random.hpp"
 
+namespace load_filter_test {
 using taut::ConditionedLoad;
 using taut::LoadFilter;
 
@@ -583,3 +584,5 @@ TEST_CASE_TEMPLATE("readings in no time are as far apart as those before, wherev
         }
       }
 }
+
+}  // namespace load_filter_test

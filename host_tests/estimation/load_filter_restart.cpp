@@ -13,6 +13,7 @@
 #include "support/random.hpp"
 #include "taut/estimation/load_filter.hpp"
 
+namespace load_filter_restart_test {
 using taut::ConditionedLoad;
 using taut::LoadFilter;
 
@@ -268,3 +269,5 @@ TEST_CASE("there is no change to a scatter that is none") {
     CHECK(filter.sd() == 5);
   }
 }
+
+}  // namespace load_filter_restart_test

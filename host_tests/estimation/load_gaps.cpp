@@ -10,6 +10,7 @@
 #include "support/random.hpp"
 #include "taut/estimation/load_filter.hpp"
 
+namespace load_gaps_test {
 using support::gaussian;
 using support::Random;
 using taut::ConditionedLoad;
@@ -260,3 +261,5 @@ TEST_CASE_TEMPLATE("whatever is read and whenever, every answer is finite and am
     }
   }
 }
+
+}  // namespace load_gaps_test

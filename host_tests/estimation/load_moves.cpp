@@ -5,6 +5,7 @@
 
 #include "support/random.hpp"
 
+namespace load_moves_test {
 namespace {
 
 constexpr double noise = 100;
@@ -62,3 +63,5 @@ TEST_CASE("noise alone is no load that goes on") {
   CHECK(gone < 20);
   CHECK_FALSE(moves.is_fast());
 }
+
+}  // namespace load_moves_test

@@ -9,6 +9,7 @@
 #include "estimation/saddle_site.hpp"
 #include "taut/estimation/unknown_past.hpp"
 
+namespace locked_first_test {
 using namespace estimation;
 
 namespace {
@@ -203,3 +204,5 @@ TEST_CASE("of two jacks one is read in the first row, and a wedge holds the othe
   CHECK(score.share() > 0.95);
   CHECK(score.worst < 4);
 }
+
+}  // namespace locked_first_test

@@ -10,6 +10,7 @@
 #include "estimation/read_jack.hpp"
 #include "support/random.hpp"
 
+namespace lone_readings_test {
 namespace {
 
 constexpr double noise = 100, held = 1e5;  // [N]
@@ -142,3 +143,5 @@ TEST_CASE("however long a pause is, a load has turned nowhere that its cable can
       CHECK(farthest <= estimation::Read::most);
     }
 }
+
+}  // namespace lone_readings_test

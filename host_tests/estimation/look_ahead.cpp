@@ -12,6 +12,7 @@
 #include "estimation/ramp.hpp"
 #include "support/routes_taken.hpp"
 
+namespace look_ahead_test {
 using namespace estimation;
 
 namespace {
@@ -336,3 +337,5 @@ TEST_CASE("where a load lags its best estimate by many events, none is decided a
   // Else nothing was tested.
   CHECK(ahead > 20);
 }
+
+}  // namespace look_ahead_test

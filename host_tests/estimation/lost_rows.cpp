@@ -7,6 +7,7 @@
 
 #include "estimation/saddle_site.hpp"
 
+namespace lost_rows_test {
 using namespace estimation;
 
 namespace {
@@ -207,3 +208,5 @@ TEST_CASE("a load stage that is not read is one, however soon it comes") {
   CHECK(jacking.estimator().load(0, 1).sd > 0.05 * full);
   CHECK(jacking.estimator().load(0, 1).sd < 0.15 * full);
 }
+
+}  // namespace lost_rows_test

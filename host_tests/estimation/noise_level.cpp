@@ -10,6 +10,7 @@
 #include "support/random.hpp"
 #include "taut/estimation/jack_load.hpp"
 
+namespace noise_level_test {
 using taut::NoiseLevel;
 
 namespace {
@@ -356,3 +357,5 @@ TEST_CASE("the steps of a display are no memory: the load stays near what is sho
   MESSAGE("at most " << farthest << " steps from what is shown");
   CHECK(farthest < 3.5);
 }
+
+}  // namespace noise_level_test

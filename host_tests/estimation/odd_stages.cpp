@@ -9,6 +9,7 @@
 #include "estimation/each_seed.hpp"
 #include "estimation/jacked_chain.hpp"
 
+namespace odd_stages_test {
 using namespace estimation;
 
 namespace {
@@ -195,3 +196,5 @@ TEST_CASE("with the jack alone a stage of ten times the load waits for the next 
     CHECK(steep.here().held == segments);
   });
 }
+
+}  // namespace odd_stages_test

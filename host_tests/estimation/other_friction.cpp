@@ -10,6 +10,7 @@
 #include "estimation/jacked_chain.hpp"
 #include "taut/estimation/turned_forces.hpp"
 
+namespace other_friction_test {
 using namespace estimation;
 
 namespace {
@@ -197,3 +198,5 @@ TEST_CASE("a force since a turn is the lower of sticking and sliding if it fell,
   turned.follow(0, 0.08);
   CHECK(turned.of_friction(0, 0.1) == doctest::Approx(0.3));
 }
+
+}  // namespace other_friction_test

@@ -12,6 +12,7 @@
 #include "estimation/followers.hpp"
 #include "estimation/ramp.hpp"
 
+namespace other_loads_test {
 using namespace estimation;
 
 namespace {
@@ -189,3 +190,5 @@ TEST_CASE_TEMPLATE("loads that begin to change with the jack on its way do so fr
       REQUIRE(site->good());
     }
 }
+
+}  // namespace other_loads_test

@@ -12,6 +12,7 @@
 #include "support/random.hpp"
 #include "taut/estimation/jump_guard.hpp"
 
+namespace outliers_test {
 namespace {
 
 using estimation::Read;
@@ -508,3 +509,5 @@ TEST_CASE("how a jack that has only rested goes is learned once it takes over fr
   guard.start(load, 1);
   for (int i = 0; i < 20; ++i) CHECK_FALSE(holds(guard, load += 4e3, 1));
 }
+
+}  // namespace outliers_test

@@ -11,6 +11,7 @@
 #include "support/random.hpp"
 #include "taut/estimation/jack_load.hpp"
 
+namespace ram_test {
 namespace {
 
 using Load = taut::ConditionedLoad<double>;
@@ -318,3 +319,5 @@ TEST_CASE("the raw load on a branch has the noise of the reading by the branch")
     CHECK(are_close(std::sqrt(jack.reading(cell).variance), jack.filter.sd() / up, 1e-9));
   }
 }
+
+}  // namespace ram_test

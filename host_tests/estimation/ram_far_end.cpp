@@ -9,6 +9,7 @@
 
 #include "estimation/ramp.hpp"
 
+namespace ram_far_end_test {
 using namespace estimation;
 
 namespace {
@@ -119,3 +120,5 @@ TEST_CASE("between the branches of a ram the far end is compared with the force 
   // By its deviation at most, in the mean of all.
   CHECK(std::sqrt(square / all) < 1);
 }
+
+}  // namespace ram_far_end_test

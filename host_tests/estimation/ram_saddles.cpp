@@ -9,6 +9,7 @@
 
 #include "estimation/saddle_site.hpp"
 
+namespace ram_saddles_test {
 using namespace estimation;
 
 namespace {
@@ -88,3 +89,5 @@ TEST_CASE("what a far end has taught of mu and of a ram together holds on as the
   CHECK(far.worst < 5);
   CHECK(alarms == 0);
 }
+
+}  // namespace ram_saddles_test

@@ -12,6 +12,7 @@
 #include "estimation/jacked_chain.hpp"
 #include "estimation/ramp.hpp"
 
+namespace remembered_loads_test {
 using namespace estimation;
 
 namespace {
@@ -137,3 +138,5 @@ TEST_CASE("once a hold shows where a ramp has ended, bars are those of the hold 
   CHECK(bar < 0.01);
   CHECK(score.share() > 0.93);
 }
+
+}  // namespace remembered_loads_test

@@ -11,6 +11,7 @@
 #include "support/scenes.hpp"
 #include "taut/taut.hpp"
 
+namespace sensitivity_test {
 using namespace support;
 
 namespace {
@@ -416,3 +417,5 @@ TEST_CASE(
         CHECK(taut::verify(adjusted).worst() < 1e-9);
       }
 }
+
+}  // namespace sensitivity_test

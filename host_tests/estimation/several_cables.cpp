@@ -14,6 +14,7 @@
 #include "estimation/saddle_rows.hpp"
 #include "estimation/site.hpp"
 
+namespace several_cables_test {
 using namespace estimation;
 
 namespace {
@@ -218,3 +219,5 @@ TEST_CASE_TEMPLATE("what was in the memory of an estimator before does not matte
   }
   CHECK(found[0] == found[1]);
 }
+
+}  // namespace several_cables_test

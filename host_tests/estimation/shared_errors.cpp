@@ -6,6 +6,7 @@
 
 #include "estimation/saddle_site.hpp"
 
+namespace shared_errors_test {
 using namespace estimation;
 
 TEST_CASE("in a ramp bars are hardly wider than errors are large, though load and friction share readings") {
@@ -22,3 +23,5 @@ TEST_CASE("in a ramp bars are hardly wider than errors are large, though load an
   CHECK(inner.rms() > 0.8);
   CHECK(inner.rms() < 1.1);
 }
+
+}  // namespace shared_errors_test

@@ -9,6 +9,7 @@
 
 #include "support/random.hpp"
 
+namespace since_lock_off_test {
 namespace {
 
 using support::gaussian;
@@ -111,3 +112,5 @@ TEST_CASE(
   for (int row = 0; row < 40; ++row) any |= learned.read(2e3, 0, 5e3);
   CHECK(any);
 }
+
+}  // namespace since_lock_off_test

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+namespace sliding_way_test {
+
 TEST_CASE(
     "a cable surely slides once the jacks have gone as far as with a friction higher by two deviations") {
   // It ceases to slide at a way of 100, begins again between 170 and 180: with a friction higher by a part,
@@ -50,3 +52,5 @@ TEST_CASE(
     CHECK_FALSE(way.surely_slides(0, mu_sd));
   }
 }
+
+}  // namespace sliding_way_test

@@ -7,6 +7,7 @@
 
 #include "estimation/saddle_site.hpp"
 
+namespace slowing_loads_test {
 using namespace estimation;
 
 namespace {
@@ -57,3 +58,5 @@ TEST_CASE("a first stroke that is larger than the next ones is believed with the
       }
     }
 }
+
+}  // namespace slowing_loads_test

@@ -12,6 +12,7 @@
 #include "support/random.hpp"
 #include "taut/estimation/jack_load.hpp"
 
+namespace standing_cell_test {
 namespace {
 
 constexpr double full = 1e5;
@@ -155,3 +156,5 @@ TEST_CASE("a jack's cell that stands still in a ramp, without any rest before, i
       CHECK(is_told == (rows > 10));
     }
 }
+
+}  // namespace standing_cell_test

@@ -10,6 +10,7 @@
 
 #include "estimation/ramp.hpp"
 
+namespace stroke_leg_test {
 using namespace estimation;
 
 namespace {
@@ -192,3 +193,5 @@ TEST_CASE("a lock-off ends the way: strokes after it are compared with what the 
   jacked->go(0.6, 0.9, 12);
   CHECK(std::fabs(jacked->estimator().mu(0) - 0.33) < 4 * jacked->estimator().mu_deviation(0));
 }
+
+}  // namespace stroke_leg_test

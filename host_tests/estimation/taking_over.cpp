@@ -11,6 +11,7 @@
 #include "estimation/jacked_chain.hpp"
 #include "estimation/ramp.hpp"
 
+namespace taking_over_test {
 using namespace estimation;
 
 TEST_CASE("forces that friction keeps stay as uncertain as they were when a jack takes over from a wedge") {
@@ -214,3 +215,5 @@ TEST_CASE(
         CHECK(score.worst < 4);
       }
 }
+
+}  // namespace taking_over_test

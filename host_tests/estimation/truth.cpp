@@ -3,6 +3,7 @@
 
 #include "estimation/ramp.hpp"
 
+namespace truth_test {
 using namespace estimation;
 
 namespace {
@@ -329,3 +330,5 @@ TEST_CASE("a released end keeps its wedge until its load cell is read") {
 }
 
 }  // namespace
+
+}  // namespace truth_test

@@ -11,6 +11,7 @@
 #include "support/random.hpp"
 #include "taut/estimation/jack_load.hpp"
 
+namespace turning_point_test {
 using namespace support;
 using estimation::Score;
 
@@ -202,3 +203,5 @@ TEST_CASE("whatever is read at whatever time, what it says of a turn is a number
   }
   CHECK(known > 1000);
 }
+
+}  // namespace turning_point_test

@@ -14,6 +14,7 @@
 #include "estimation/pumped.hpp"
 #include "estimation/saddle_rows.hpp"
 
+namespace turns_at_once_test {
 using namespace estimation;
 
 namespace {
@@ -175,3 +176,5 @@ TEST_CASE("what friction holds of a load that a ram had is as uncertain as the l
     });
   }
 }
+
+}  // namespace turns_at_once_test

@@ -4,6 +4,7 @@
 #include "estimation/score.hpp"
 #include "estimation/site.hpp"
 
+namespace two_jacks_test {
 using namespace estimation;
 
 namespace {
@@ -200,3 +201,5 @@ TEST_CASE("what two wedges leave is as uncertain as friction between jacks that 
 }
 
 }  // namespace
+
+}  // namespace two_jacks_test

@@ -6,6 +6,7 @@
 
 #include "estimation/site.hpp"
 
+namespace two_visits_test {
 using namespace estimation;
 
 namespace {
@@ -127,3 +128,5 @@ TEST_CASE_TEMPLATE("the error bars hold before, during and after a change of tem
 }
 
 }  // namespace
+
+}  // namespace two_visits_test

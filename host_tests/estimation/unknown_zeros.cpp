@@ -10,6 +10,7 @@
 #include "estimation/jacked_chain.hpp"
 #include "taut/estimation/drawn_lines.hpp"
 
+namespace unknown_zeros_test {
 using namespace estimation;
 
 namespace {
@@ -164,3 +165,5 @@ TEST_CASE("a line stays while the same joints slide, and begins anew with anothe
   keep(0, 7, -0.25, -0.5);
   CHECK(by.empty());
 }
+
+}  // namespace unknown_zeros_test

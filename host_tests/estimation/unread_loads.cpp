@@ -7,6 +7,7 @@
 
 #include "estimation/saddle_site.hpp"
 
+namespace unread_loads_test {
 using namespace estimation;
 
 namespace {
@@ -283,3 +284,5 @@ TEST_CASE("where a load turned between two rows, as a hand pump's does, the far 
   CHECK(forces.rms() < 1.3);
   CHECK(alarms < 10);
 }
+
+}  // namespace unread_loads_test

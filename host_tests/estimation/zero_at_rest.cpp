@@ -8,6 +8,7 @@
 
 #include "estimation/jacked_chain.hpp"
 
+namespace zero_at_rest_test {
 using namespace estimation;
 
 namespace {
@@ -173,3 +174,5 @@ TEST_CASE(
     CHECK(score.rms() < 1.1);
   }
 }
+
+}  // namespace zero_at_rest_test

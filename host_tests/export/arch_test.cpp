@@ -2,6 +2,8 @@
 
 #include "exported.hpp"
 
+namespace arch_test {
+
 namespace arch = scene_2_arches_ber;
 
 TEST_CASE("an elastic scene is exported with every bit, and tracked as the program tracks it") {
@@ -53,3 +55,5 @@ TEST_CASE("deviations of mu and of load cells are those of the scene; without on
   CHECK(arch::prior<double>.cell[0][0].sd == 20);
   CHECK(arch::prior<double>.cell[0][1].sd == 0);
 }
+
+}  // namespace arch_test

@@ -2,6 +2,8 @@
 
 #include "exported.hpp"
 
+namespace beam_string_test {
+
 TEST_CASE(
     "a scene in second-order theory is exported with every bit, beams and pinned struts too, and tracked as "
     "the program tracks it") {
@@ -11,3 +13,5 @@ TEST_CASE(
       "beam_string", beam_string::condensed<double>, beam_string::prior<double>,
       &beam_string::struts<double>);
 }
+
+}  // namespace beam_string_test

@@ -8,6 +8,8 @@
 #include "arch.hpp"
 #include "beam_string.hpp"
 
+namespace device_test {
+
 namespace arch = scene_2_arches_ber;
 using taut::Code;
 
@@ -78,3 +80,5 @@ TEST_CASE("before start() rows and saved states are refused, and everything else
                                              beam_string::prior<float>,
                                              taut::FixedList<taut::LoadCell<float>, 0>());
 }
+
+}  // namespace device_test

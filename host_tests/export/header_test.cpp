@@ -15,6 +15,8 @@
 #include "saddles.hpp"
 #include "taut/tracking/tracker.hpp"
 
+namespace header_test {
+
 namespace arch = scene_2_arches_ber;
 using namespace taut::host;
 
@@ -119,3 +121,5 @@ TEST_CASE("a scene that does not stand is not exported") {
   CHECK(outcome.err.find("node \"loose\": mechanism") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(scratch.path / "loose.hpp"));
 }
+
+}  // namespace header_test

@@ -2,6 +2,7 @@
 
 #include "exported.hpp"
 
+namespace saddles_test {
 namespace {
 
 // The same counts with a structure between the cables.
@@ -28,3 +29,5 @@ TEST_CASE("where the scene is silent, half of the mean mu is its standard deviat
   CHECK(saddles::prior<double>.mu_sd[0] == doctest::Approx(0.075));
   CHECK(saddles::prior<double>.mu_sd[1] == doctest::Approx(0.05));
 }
+
+}  // namespace saddles_test

@@ -6,6 +6,7 @@
 
 #include "large_displacements/path.hpp"
 
+namespace beams_test {
 using namespace large_displacements;
 
 namespace {
@@ -130,3 +131,5 @@ TEST_CASE("a hinge passes on no moment") {
   CHECK(std::fabs(-path.moved(1).y() / bent - 1) < 1e-6);
   CHECK(std::fabs(path.equilibrium.rotation(path.state, 1).z() + 1.5 * bent / length) < 1e-6 * bent);
 }
+
+}  // namespace beams_test

@@ -5,6 +5,7 @@
 
 #include "large_displacements/path.hpp"
 
+namespace closed_forms_test {
 using namespace large_displacements;
 
 namespace {
@@ -152,3 +153,5 @@ TEST_CASE("between two jacks a pinned strut is unstable beyond what a spring at 
   CHECK(path.stability() > 0);
   CHECK(path.stability() < 1e-6);
 }
+
+}  // namespace closed_forms_test

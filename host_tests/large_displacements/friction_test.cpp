@@ -5,6 +5,7 @@
 
 #include "large_displacements/path.hpp"
 
+namespace friction_test {
 using namespace large_displacements;
 
 namespace {
@@ -217,3 +218,5 @@ TEST_CASE("a cable that is let out goes slack as a whole, and is tight again whe
   for (int i = 0; i <= 3; ++i) again += path.T(0, i) / 4 / 8e8;
   CHECK(std::fabs(again / strain - 1) < 1e-9);
 }
+
+}  // namespace friction_test

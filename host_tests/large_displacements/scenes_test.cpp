@@ -10,6 +10,7 @@
 #include "large_displacements/comparison.hpp"
 #include "large_displacements/result.hpp"
 
+namespace scenes_test {
 using namespace large_displacements;
 
 namespace {
@@ -185,3 +186,5 @@ TEST_CASE("a comparison finds the largest difference of each kind, of the larges
   CHECK(found[1].kind == "struts");
   CHECK(found[1].part == doctest::Approx(.1));
 }
+
+}  // namespace scenes_test

@@ -5,6 +5,7 @@
 #include "checks.hpp"
 #include "printed_matrices.hpp"
 
+namespace element_matrices_test {
 namespace {
 
 using namespace paper;
@@ -237,3 +238,5 @@ TEST_CASE("K1 assembled by hand gives the forces of the fixed joint") {
 }
 
 }  // namespace
+
+}  // namespace element_matrices_test

@@ -4,6 +4,7 @@
 #include "checks.hpp"
 #include "printed_matrices.hpp"
 
+namespace errata_test {
 namespace {
 
 using namespace paper;
@@ -189,3 +190,5 @@ TEST_CASE("mu = 12.7 is not below tan(alpha), as the text has it, but above: tha
 }
 
 }  // namespace
+
+}  // namespace errata_test

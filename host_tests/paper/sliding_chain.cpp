@@ -3,6 +3,7 @@
 // The angles are our own: Fig. 10 is not available, and so are the measured forces of Fig. 14.
 #include "checks.hpp"
 
+namespace sliding_chain_test {
 namespace {
 
 using namespace paper;
@@ -50,3 +51,5 @@ TEST_CASE("the forces of the chain do not depend on the number of load steps") {
 }
 
 }  // namespace
+
+}  // namespace sliding_chain_test

@@ -1,6 +1,7 @@
 // Section 4.1.1, Table 3: friction and normal pressure of the cable-roller model.
 #include "checks.hpp"
 
+namespace table_3_cable_roller_test {
 namespace {
 
 using namespace paper;
@@ -69,3 +70,5 @@ TEST_CASE("the cable drawn over the roller is what the upper segment stretches")
 }
 
 }  // namespace
+
+}  // namespace table_3_cable_roller_test

@@ -4,6 +4,7 @@
 // and the printed figures, not a prediction with a measurement.
 #include "checks.hpp"
 
+namespace table_4_rolling_joint_test {
 namespace {
 
 using namespace paper;
@@ -54,3 +55,5 @@ TEST_CASE("one joint conserves the cable: the jack draws out what both segments 
 }
 
 }  // namespace
+
+}  // namespace table_4_rolling_joint_test

@@ -6,6 +6,7 @@
 
 #include "checks.hpp"
 
+namespace truss_string_test {
 namespace {
 
 using namespace paper;
@@ -291,3 +292,5 @@ TEST_CASE("loads and jack that grow together lead to the same forces in one load
 }
 
 }  // namespace
+
+}  // namespace truss_string_test

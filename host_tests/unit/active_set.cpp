@@ -8,6 +8,7 @@
 #include "taut/tracking/affine_map.hpp"
 #include "unit/any_cable.hpp"
 
+namespace active_set_test {
 using namespace support;
 using namespace unit;
 
@@ -421,3 +422,5 @@ TEST_CASE_TEMPLATE("tensions are the affine map of the inputs that the laws of t
     CHECK_FALSE((map.is_held() && map.keeps(inputs, inputs)));
   }
 }
+
+}  // namespace active_set_test

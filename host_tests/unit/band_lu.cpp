@@ -8,6 +8,7 @@
 
 #include "support/dense.hpp"
 
+namespace band_lu_test {
 using namespace support;
 
 namespace {
@@ -177,3 +178,5 @@ TEST_CASE("single precision solves to single precision") {
   lu->solve(x);
   for (int i = 0; i < 8; ++i) CHECK(double(x[i]) == doctest::Approx(i + 1).epsilon(1e-6));
 }
+
+}  // namespace band_lu_test

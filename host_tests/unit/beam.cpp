@@ -11,6 +11,7 @@
 #include "support/dense.hpp"
 #include "taut/elements/elements.hpp"
 
+namespace beam_test {
 using namespace support;
 
 namespace {
@@ -323,3 +324,5 @@ TEST_CASE("a column in space buckles about its weaker axis, and leans to the sid
   const Column<3> askew(8, {2 * l, 3 * l, 6 * l}, section);
   CHECK(askew.buckles_at({0, 1, 2, 3, 4, 5}, {}) == doctest::Approx(about_z / 4).epsilon(1e-3));
 }
+
+}  // namespace beam_test

@@ -10,6 +10,7 @@
 #include "taut/stepwise/stepwise.hpp"
 #include "taut/tracking/tracker.hpp"
 
+namespace beam_structures_test {
 using namespace support;
 using taut::Code;
 using taut::held_r;
@@ -550,3 +551,5 @@ TEST_CASE("beams that cannot be used are named") {
   for (int i = 0; i < 14; ++i) many.add_beam(0, 1, section);
   CHECK_STATUS(taut::validate(many), Code::capacity_exceeded, Place::beam, 12, -1, 3);
 }
+
+}  // namespace beam_structures_test

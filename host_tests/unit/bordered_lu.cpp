@@ -8,6 +8,7 @@
 
 #include "support/dense.hpp"
 
+namespace bordered_lu_test {
 using namespace support;
 
 namespace {
@@ -121,3 +122,5 @@ TEST_CASE("the pivot of a row that depends on the others is rounding, and zeros 
   lu.clear();
   CHECK(append(lu, Matrix::Zero(1, 1), {0}) == 0);
 }
+
+}  // namespace bordered_lu_test

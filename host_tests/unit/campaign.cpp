@@ -3,6 +3,7 @@
 
 #include "support/bench.hpp"
 
+namespace campaign_test {
 using namespace support;
 using taut::Code;
 
@@ -138,3 +139,5 @@ TEST_CASE("sixty-four load steps come closer to a thousand than four do") {
   CHECK(off_4 > 0);
   CHECK(off_64 < off_4 / 4);  // of first order it would be a sixteenth
 }
+
+}  // namespace campaign_test

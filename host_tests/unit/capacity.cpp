@@ -6,6 +6,7 @@
 
 #include "taut/taut.hpp"
 
+namespace capacity_test {
 namespace {
 
 constexpr int joints = 6;
@@ -13,7 +14,7 @@ constexpr int joints = 6;
 struct Whole : taut::Capacity {
   static constexpr int nodes = 2 * joints + 3, struts = 2 * joints, cables = 1, segments = joints + 1;
   static constexpr int loads = 1, temperatures = 1;
-  static constexpr int joints = ::joints, jacks = 1;
+  static constexpr int joints = capacity_test::joints, jacks = 1;
 };
 struct Rigid : Whole {
   static constexpr int struts = 0;
@@ -167,3 +168,5 @@ TEST_CASE("a hoop is refused where there is none") {
   taut::Condensation<double, taut::Scene<double, 2, NoHoop>> condensation;
   CHECK(condensation.run(made, condensed).code == taut::Code::capacity_exceeded);
 }
+
+}  // namespace capacity_test

@@ -5,6 +5,7 @@
 #include "support/status_check.hpp"
 #include "unit/hand.hpp"
 
+namespace chain_test {
 using namespace support;
 using hand::Chain;
 using hand::EA;
@@ -310,3 +311,5 @@ SOLVER_TEST_CASE("contact and friction forces are those of the two tensions", so
     CHECK(close(bench.response().friction[j], 0.3 * bench.response().contact[j], 1e-11));
   }
 }
+
+}  // namespace chain_test

@@ -9,6 +9,7 @@
 
 #include "support/dense.hpp"
 
+namespace complementarity_test {
 using namespace support;
 
 namespace {
@@ -154,3 +155,5 @@ TEST_CASE("the units of the unknowns do not matter") {
     CHECK(largest(units.asDiagonal() * z_of(*lemke, n) / 1024 - z) <= 1e-12 * (1 + largest(z)));
   }
 }
+
+}  // namespace complementarity_test

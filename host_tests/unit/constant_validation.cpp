@@ -13,6 +13,7 @@
 #include "support/status_check.hpp"
 #include "taut/scene/validation.hpp"
 
+namespace constant_validation_test {
 using taut::Code;
 using taut::Place;
 using taut::Status;
@@ -183,3 +184,5 @@ TEST_CASE("eigenvalues in constant expressions are those known by hand") {
   CHECK(most == doctest::Approx(2 + std::sqrt(2.0)).epsilon(1e-15));
   CHECK(sum == doctest::Approx(6).epsilon(1e-15));
 }
+
+}  // namespace constant_validation_test

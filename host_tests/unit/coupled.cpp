@@ -3,6 +3,7 @@
 #include "support/status_check.hpp"
 #include "unit/hand.hpp"
 
+namespace coupled_test {
 using namespace support;
 using hand::EA;
 
@@ -160,3 +161,5 @@ SOLVER_TEST_CASE("with self-locking joints a cable is a chain of bars", solver) 
     if (i < 5) CHECK(locked.slip(i) == 0);
   }
 }
+
+}  // namespace coupled_test

@@ -6,6 +6,7 @@
 #include "taut/condensation/condense.hpp"
 #include "taut/tracking/tracker.hpp"
 
+namespace displacements_test {
 using namespace support;
 
 namespace {
@@ -178,3 +179,5 @@ TEST_CASE("a displacement that the scene does not have is refused by its node") 
   CHECK(status.code == taut::Code::capacity_exceeded);
   CHECK(status.amount == 3);
 }
+
+}  // namespace displacements_test

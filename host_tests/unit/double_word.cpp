@@ -8,6 +8,7 @@
 
 #include "support/scenes.hpp"
 
+namespace double_word_test {
 using support::Random;
 using taut::DoubleWord;
 
@@ -99,3 +100,5 @@ TEST_CASE("double words are constant expressions") {
   static_assert(double(p.hi) + double(p.lo) == 16777215.0 * 16777215.0);
   CHECK(s.value() == 1.0);
 }
+
+}  // namespace double_word_test

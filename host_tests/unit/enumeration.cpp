@@ -7,6 +7,7 @@
 #include "support/equilibrium.hpp"
 #include "support/status_check.hpp"
 
+namespace enumeration_test {
 using namespace support;
 
 namespace {
@@ -218,3 +219,5 @@ TEST_CASE("of all joint states those that contradict nothing are found, for a ch
     CHECK(found.size() == 1);  // from rest and in one step the reference has one answer
   }
 }
+
+}  // namespace enumeration_test

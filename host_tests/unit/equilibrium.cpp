@@ -3,6 +3,7 @@
 
 #include "support/bench.hpp"
 
+namespace equilibrium_test {
 using namespace support;
 
 namespace {
@@ -92,3 +93,5 @@ TEST_CASE("an answer that is no number is infinitely wrong") {
   CHECK_FALSE(after([=](Spoiled& s) { s.answer.strut[1] = not_a_number; }).worst() < 1);
   CHECK_FALSE(after([=](Spoiled& s) { s.lift = not_a_number; }).worst() < 1);
 }
+
+}  // namespace equilibrium_test

@@ -6,6 +6,7 @@
 #include "support/status_check.hpp"
 #include "support/transform.hpp"
 
+namespace equivalent_test {
 using namespace support;
 
 namespace {
@@ -187,3 +188,5 @@ SOLVER_TEST_CASE("what happened before a start leaves no trace", solver) {
   for (int i = 0; i < scene.prestrain.size(); ++i) CHECK(used.T(i) == fresh.T(i));
   for (int j = 0; j < scene.mu.size(); ++j) CHECK(used.slip(j) == fresh.slip(j));
 }
+
+}  // namespace equivalent_test

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+namespace fixed_list_test {
 using taut::FixedArray;
 using taut::FixedList;
 
@@ -65,3 +66,5 @@ TEST_CASE("a fixed array starts at zero and is filled as a whole") {
   for (int i = 0; i < array.size(); ++i) CHECK(array[i] == 7);
   CHECK(FixedArray<int, 0>::size() == 0);
 }
+
+}  // namespace fixed_list_test

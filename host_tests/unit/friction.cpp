@@ -8,6 +8,7 @@
 #include "support/scenes.hpp"
 #include "taut/elements/friction_element.hpp"
 
+namespace friction_test {
 using namespace taut;
 
 namespace {
@@ -87,3 +88,5 @@ TEST_CASE("a friction limit keeps its digits for turning angles down to a millio
     CHECK(joint.limit.kappa == doctest::Approx(expected).epsilon(1e-15 / beta));
   }
 }
+
+}  // namespace friction_test

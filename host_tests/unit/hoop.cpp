@@ -3,6 +3,7 @@
 #include "support/status_check.hpp"
 #include "unit/hand.hpp"
 
+namespace hoop_test {
 using namespace support;
 using hand::EA;
 
@@ -123,3 +124,5 @@ SOLVER_TEST_CASE("a hoop with hardly any friction finds the state of its joints"
   REQUIRE(bench.started().code == taut::Code::ok);
   CHECK_LAWFUL(bench, double);
 }
+
+}  // namespace hoop_test

@@ -6,6 +6,7 @@
 #include "support/status_check.hpp"
 #include "unit/hand.hpp"
 
+namespace lock_off_test {
 using namespace support;
 using hand::Chain;
 using hand::EA;
@@ -214,3 +215,5 @@ SOLVER_TEST_CASE(
   REQUIRE(bench.load(0, -1).go().ok());
   check_tensions(bench, [&](int i) { return F * chain.reach(i) + EA * 1.2e-5 * 10; });
 }
+
+}  // namespace lock_off_test

@@ -5,6 +5,7 @@
 
 #include "unit/any_cable.hpp"
 
+namespace mode_solver_test {
 using namespace support;
 using namespace unit;
 
@@ -320,3 +321,5 @@ TEST_CASE("where nothing is violated nothing slides") {
   CHECK(decision.set.size() == 0);
   for (int i = 0; i < 4; ++i) CHECK(decision.solver.rates()[i] == 1);
 }
+
+}  // namespace mode_solver_test

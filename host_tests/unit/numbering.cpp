@@ -11,6 +11,7 @@
 #include "support/scenes.hpp"
 #include "support/transform.hpp"
 
+namespace numbering_test {
 using namespace support;
 
 namespace {
@@ -123,3 +124,5 @@ TEST_CASE("a substructure ties its nodes together like a bar") {
   CHECK(std::abs(numbering->displacement(0, 0) - numbering->displacement(2, 0)) == 2);
   CHECK(numbering->band() == 3);
 }
+
+}  // namespace numbering_test

@@ -5,6 +5,7 @@
 #include "support/bench.hpp"
 #include "support/status_check.hpp"
 
+namespace precision_test {
 using namespace support;
 
 namespace {
@@ -107,3 +108,5 @@ SOLVER_TEST_CASE("a far origin costs single precision nothing, for geometry is t
   }
   compare(plane, solver, 1);
 }
+
+}  // namespace precision_test

@@ -6,6 +6,7 @@
 #include "support/status_check.hpp"
 #include "unit/hand.hpp"
 
+namespace refusals_test {
 using namespace support;
 using taut::Code;
 using taut::Place;
@@ -258,3 +259,5 @@ SOLVER_TEST_CASE("an advance that runs into a mechanism leaves the last state", 
   CHECK(same_bits(before, state_of(bench)));
   CHECK(bench.jack(0, 1, 0).go().ok());
 }
+
+}  // namespace refusals_test

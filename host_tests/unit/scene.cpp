@@ -5,6 +5,7 @@
 
 #include "taut/scene/validation.hpp"
 
+namespace scene_test {
 using namespace taut;
 
 namespace {
@@ -125,3 +126,5 @@ TEST_CASE("a part that a capacity leaves at zero takes hardly any room") {
   CHECK(sizeof(Scene<double, 2, Many>) >= sizeof(Scene<double, 2, None>) + 100 * sizeof(Strut<double>) - 8);
   CHECK(sizeof(Scene<double, 2, None>) < sizeof(Scene<double, 3, None>));
 }
+
+}  // namespace scene_test

@@ -6,6 +6,7 @@
 
 #include "taut/taut.hpp"
 
+namespace second_order_test {
 namespace {
 
 using taut::End;
@@ -459,3 +460,5 @@ TEST_CASE("steps of geometry end at the same place in samples that no event meet
   REQUIRE(whole->advance(sample).status.ok());
   for (int i = 0; i < model->low.segments; ++i) CHECK(near(cut->tension(i), whole->tension(i), 1e-9));
 }
+
+}  // namespace second_order_test

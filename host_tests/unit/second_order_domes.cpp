@@ -8,6 +8,7 @@
 
 #include "taut/taut.hpp"
 
+namespace second_order_domes_test {
 namespace {
 
 using taut::End;
@@ -160,3 +161,5 @@ TEST_CASE(
                         1427012, 1514350, 1484546, 615966,  647945,  686476,  727291,  770510,  800000},
              7.5e4);
 }
+
+}  // namespace second_order_domes_test

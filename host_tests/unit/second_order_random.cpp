@@ -9,6 +9,8 @@
 #include "support/random.hpp"
 #include "taut/taut.hpp"
 
+namespace second_order_random_test {
+
 #ifndef TAUT_SECOND_ORDER_SCENES
 #define TAUT_SECOND_ORDER_SCENES 400
 #endif
@@ -145,3 +147,5 @@ TEST_CASE(
   MESSAGE(ran, " of ", scenes, " scenes from seed ", first, ", ", ended, " of them until a strut ran away");
   CHECK(ran == scenes);
 }
+
+}  // namespace second_order_random_test

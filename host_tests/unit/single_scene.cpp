@@ -5,6 +5,7 @@
 #include "support/status_check.hpp"
 #include "taut/stepwise/stepwise.hpp"
 
+namespace single_scene_test {
 using namespace support;
 
 namespace {
@@ -43,3 +44,5 @@ TEST_CASE("a scene in single precision is solved like the same numbers in double
   REQUIRE(bench.jack(0, 1, 1e5).go().ok());
   for (int i = 0; i < 3; ++i) CHECK(close(double(solver->response().tension[i]), bench.T(i), 1e-5));
 }
+
+}  // namespace single_scene_test

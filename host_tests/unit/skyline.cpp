@@ -9,6 +9,7 @@
 
 #include "support/dense.hpp"
 
+namespace skyline_test {
 using namespace support;
 
 namespace {
@@ -137,3 +138,5 @@ TEST_CASE("the condition is the largest loss of a diagonal") {
     CHECK(skyline->condition() == doctest::Approx((1 + small) / small).epsilon(1e-6));
   }
 }
+
+}  // namespace skyline_test

@@ -5,6 +5,7 @@
 #include "support/status_check.hpp"
 #include "unit/hand.hpp"
 
+namespace slack_test {
 using namespace support;
 using hand::EA;
 using taut::JointState;
@@ -180,3 +181,5 @@ SOLVER_TEST_CASE("a prestrained cable that was slack takes the same forces in on
   // The step size is the only error; the load that tightens grows in proportion.
   CHECK(tension_difference(at_once, in_steps) <= 1e-3 * at_once.T(0));
 }
+
+}  // namespace slack_test

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+namespace status_test {
 using taut::Code;
 using taut::Place;
 using taut::Status;
@@ -38,3 +39,5 @@ TEST_CASE("every code has a sentence of its own") {
   CHECK(sentences.size() == static_cast<std::size_t>(last_code) + 1);
   CHECK(sentences.count(taut::describe(static_cast<Code>(static_cast<int>(last_code) + 1))) == 0);
 }
+
+}  // namespace status_test

@@ -9,6 +9,7 @@
 #include "taut/condensation/condense.hpp"
 #include "unit/hand.hpp"
 
+namespace structure_test {
 using namespace support;
 using taut::Code;
 using taut::Place;
@@ -185,3 +186,5 @@ TEST_CASE("a structure whose forces have no digits in this precision is refused"
     CHECK(condensation->run(scene, *model).code == Code::ill_conditioned);
   }
 }
+
+}  // namespace structure_test

@@ -9,6 +9,7 @@
 #include "support/scenes.hpp"
 #include "support/status_check.hpp"
 
+namespace validation_test {
 using namespace support;
 using taut::Code;
 using taut::held_none;
@@ -370,3 +371,5 @@ TEST_CASE("the first fault in the order of the lists is the one reported") {
                }),
                Code::not_positive, Place::strut, 0);
 }
+
+}  // namespace validation_test

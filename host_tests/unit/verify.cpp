@@ -9,6 +9,7 @@
 #include "support/scenes.hpp"
 #include "taut/tracking/verify.hpp"
 
+namespace verify_test {
 using namespace support;
 
 namespace {
@@ -78,3 +79,5 @@ TEST_CASE("what is no number is infinitely wrong, wherever it is") {
           for (int i = 0; i < model.segments; ++i) model.coupling.set(i, i, no_number);
         }).worst() == infinite);
 }
+
+}  // namespace verify_test

@@ -25,6 +25,15 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options("SHELL:--param ggc-min-heapsize=500000")
 endif()
 
+# What most files of a target include is parsed once. A compiler cache would have to leave such files alone, and clang-tidy
+# cannot read what GCC has parsed.
+set(TAUT_PRECOMPILED OFF)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_CXX_COMPILER_LAUNCHER AND NOT TAUT_CLANG_TIDY)
+  set(TAUT_PRECOMPILED ON)
+endif()
+# By default all of it would count as headers of the system, of which nobody sees the warnings.
+set(CMAKE_PCH_PROLOGUE "")
+
 if(TAUT_SANITIZE)
   # For the whole build: code with and without address checks must not be mixed. A null pointer crashes by itself, and what
   # lies outside an object is found by its address; GCC looks for all of that a second time, at every access to a member or
