@@ -500,13 +500,18 @@ TEST_CASE("the cell of a jack that rests off zero before its load rises is remar
   CHECK(remarks(cell, log(0, 0)).find(remark) == std::string::npos);
 }
 
+// Up to 40 kN with two holds on the way, a hold, and down to 20 kN; friction holds a fiftieth back.
+double load(double t) {
+  const auto part = [&](double from, double to) { return std::clamp((t - from) / (to - from), 0.0, 1.0); };
+  return 1e4 * (part(10, 30) + 1.5 * part(50, 80) + 1.5 * part(100, 130) - 2 * part(150, 170));
+}
+double far_end(double t) { return std::max(0.98 * load(std::min(t, 150.0)), 0.0); }
+// Of row i, with noise of 20 N.
+std::string read_text(double force, int i, double phase) {
+  return std::to_string(force + 20 * std::sin(2.3 * i + phase));
+}
+
 TEST_CASE("a far end that is shown later than its jack is remarked on with how much later it is") {
-  // Up to 40 kN with two holds on the way, a hold, and down to 20 kN; friction holds a fiftieth back.
-  const auto load = [](double t) {
-    const auto part = [&](double from, double to) { return std::clamp((t - from) / (to - from), 0.0, 1.0); };
-    return 1e4 * (part(10, 30) + 1.5 * part(50, 80) + 1.5 * part(100, 130) - 2 * part(150, 170));
-  };
-  const auto far_end = [&](double t) { return std::max(0.98 * load(std::min(t, 150.0)), 0.0); };
   const auto loosely = [&](double t) { return t < 150 ? far_end(t) : std::min(far_end(t), load(t) / 0.98); };
   const auto remarks = [](const std::string& log, const std::string& lag = "") {
     Site site;
@@ -515,12 +520,10 @@ TEST_CASE("a far end that is shown later than its jack is remarked on with how m
     const std::size_t at = all.find("remark: \"C.");
     return at == std::string::npos ? "" : all.substr(at, all.find('\n', at) - at);
   };
-  const auto text = [](double force, int i, double phase) {
-    return std::to_string(force + 20 * std::sin(2.3 * i + phase));
-  };
   const auto log = [&](double later, const auto& at_far_end) {
-    return ramp("time,C.end,C.start", 180,
-                [&](int i) { return text(load(i), i, 0) + "," + text(at_far_end(i - later), i, 1); });
+    return ramp("time,C.end,C.start", 180, [&](int i) {
+      return read_text(load(i), i, 0) + "," + read_text(at_far_end(i - later), i, 1);
+    });
   };
   const std::string way_out =
       ", and that is taken off: let the clocks of loggers agree; if an amplifier averages, write \"lag\": 3 "
@@ -531,8 +534,8 @@ TEST_CASE("a far end that is shown later than its jack is remarked on with how m
   // As two loggers, each with rows of its own.
   std::string in_turn = "time,C.end,C.start\n";
   for (int i = 1; i <= 180; ++i)
-    in_turn += std::to_string(i) + "," + text(load(i), i, 0) + ",\n" + std::to_string(i + 0.4) + ",," +
-               text(far_end(i + 0.4 - 5), i, 1) + "\n";
+    in_turn += std::to_string(i) + "," + read_text(load(i), i, 0) + ",\n" + std::to_string(i + 0.4) + ",," +
+               read_text(far_end(i + 0.4 - 5), i, 1) + "\n";
   CHECK(remarks(in_turn).find("\"C.start\" is read 5 s later") != std::string::npos);
   // Behind a filter, with which a ramp is 3 s late and a hold is not.
   double filtered = 0;
@@ -547,8 +550,8 @@ TEST_CASE("a far end that is shown later than its jack is remarked on with how m
   std::string at_once = "time,C.end,C.start\n";
   const auto quickly = [](double t) { return 4e4 * std::clamp(t / 13, 0.0, 1.0); };
   for (int i = 1; i <= 280; ++i)
-    at_once += std::to_string(i / 10.0) + "," + text(quickly(i / 10.0), i, 0) + "," +
-               text(0.95 * quickly(i / 10.0 + 7), i, 1) + "\n";
+    at_once += std::to_string(i / 10.0) + "," + read_text(quickly(i / 10.0), i, 0) + "," +
+               read_text(0.95 * quickly(i / 10.0 + 7), i, 1) + "\n";
   CHECK(remarks(at_once).find("\"C.end\" is read 7 s later") != std::string::npos);
   // With it taken off friction is what it is without it, and so are forces.
   const auto answers = [&](double later) {
@@ -572,13 +575,49 @@ TEST_CASE("a far end that is shown later than its jack is remarked on with how m
   CHECK(remarks(log(0, [&](double t) { return far_end(std::min(t, 60.0)); })).empty());
   CHECK(remarks(ramp("time,C.end,C.start", 180, [&](int i) {
           const int read = i - i % 3;
-          return text(load(read), read, 0) + "," + text(far_end(i), i, 1);
+          return read_text(load(read), read, 0) + "," + read_text(far_end(i), i, 1);
         })).empty());
   std::string stages = "time,C.end,C.start\n";
   for (int i = 1; i <= 18; ++i)
-    stages += std::to_string(60 * i) + "," + text(load(10 * i), i, 0) + "," +
-              text(far_end(10 * i - 20), i, 1) + "\n";
+    stages += std::to_string(60 * i) + "," + read_text(load(10 * i), i, 0) + "," +
+              read_text(far_end(10 * i - 20), i, 1) + "\n";
   CHECK(remarks(stages).find("later") == std::string::npos);
+}
+
+TEST_CASE("far ends of several cables are brought into time each by what it is off by") {
+  const std::string cable =
+      R"("path": ["a", "b", "c"], "E": 2e11, "A": 1e-4, "start": "anchored", "end": "jacked",
+      "friction": { "law": "point", "mu": 0.1, "mu_sd": 0.05 } })";
+  const std::string scene = R"({ "taut": 1, "name": "two", "dimension": 2,
+      "nodes": { "a": [0, 0], "b": [5, -0.5], "c": [10, 0] }, "supports": { "a": "xy", "b": "xy", "c": "xy" },
+      "cables": [ { "name": "C", )" +
+                            cable + R"(, { "name": "D", )" + cable + R"( ],
+      "sensors": { "C.end": { "sd": 20 }, "C.start": { "sd": 20 }, "D.end": { "sd": 20 }, "D.start": { "sd": 20 } } })";
+  // That of C is not read for half a minute.
+  const auto answers = [&](double later_at_C, double later_at_D) {
+    const Scratch scratch;
+    std::ofstream(scratch.path / "scene.json") << scene;
+    std::ofstream(scratch.path / "log.csv") << ramp("time,C.end,C.start,D.end,D.start", 180, [&](int i) {
+      const std::string of_C = i > 95 && i < 125 ? "" : read_text(far_end(i - later_at_C), i, 1);
+      return read_text(load(i), i, 0) + "," + of_C + "," + read_text(load(i), i, 2) + "," +
+             read_text(far_end(i - later_at_D), i, 3);
+    });
+    const Outcome outcome =
+        run_taut(scratch, "estimate " + scratch.quoted("scene.json") + " " + scratch.quoted("log.csv"));
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    if (later_at_C != 0) {
+      CHECK(outcome.err.find("\"C.start\" is read 3 s later than \"C.end\"") != std::string::npos);
+      CHECK(outcome.err.find("\"D.end\" is read 20 s later than \"D.start\"") != std::string::npos);
+    }
+    return Table(outcome.out);
+  };
+  const Table in_time = answers(0, 0), off = answers(3, -20);
+  for (const char* name : {"C", "D"}) {
+    CAPTURE(name);
+    const std::string mu = std::string(name) + ".mu1", force = std::string(name) + ".T1";
+    CHECK(std::fabs(off.number(144, mu) - in_time.number(144, mu)) < 0.002);
+    CHECK(std::fabs(off.number(144, force) / in_time.number(144, force) - 1) < 0.001);
+  }
 }
 
 TEST_CASE("an area in mm2 is refused by name") {

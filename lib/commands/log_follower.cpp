@@ -179,11 +179,9 @@ void LogFollower::read_log() {
 }
 
 void LogFollower::bring_into_time(const PlausibleLog& plausible) {
-  for (const LateFarEnd& late : plausible.late_far_ends()) {
-    remark(late.remark);
-    late_ends_.push_back(
-        std::make_unique<FarEndInTime>(options_.log, scene_, rules_, late.cable, late.end, late.gap));
-  }
+  const std::vector<LateFarEnd> late = plausible.late_far_ends();
+  for (const LateFarEnd& each : late) remark(each.remark);
+  if (!late.empty()) late_ends_ = std::make_unique<FarEndsInTime>(options_.log, scene_, rules_, late);
 }
 
 // What is not in its header is not known.
@@ -256,7 +254,7 @@ Sentence LogFollower::follow(LogReader& log, const RowVisitor& visit) {
     row.factor = last_.factor;
     row.cables = last_.cables;
     log.count_from(origin_);
-    for (const auto& end : late_ends_) end->count_from(origin_);
+    if (late_ends_) late_ends_->count_from(origin_);
   }
   Answer answer;
   ProgressLine progress(rows_, wants_progress(options_));
@@ -265,7 +263,7 @@ Sentence LogFollower::follow(LogReader& log, const RowVisitor& visit) {
     if (is_first) require_later(log, row);
     is_first = false;
     origin_ = log.origin();
-    for (const auto& end : late_ends_) end->correct(row);
+    if (late_ends_) late_ends_->correct(row);
     if (Sentence end = follow_row(row, answer, visit); !end.empty()) return end;
     progress.reach(row.row);
   }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/commands/far_end_in_time.hpp"
+#include "lib/commands/far_ends_in_time.hpp"
 #include "lib/commands/first_load.hpp"
 #include "lib/commands/member_turns.hpp"
 #include "lib/commands/plausible_log.hpp"
@@ -118,10 +118,10 @@ class LogFollower {
   SceneDescription scene_;
   std::unique_ptr<Model> model_;
   LogRules rules_;
-  std::optional<LogStream> source_;                       // where a stream comes from
-  std::unique_ptr<LogReader> stream_;                     // the log that it is now
-  std::unique_ptr<FirstLoad> first_load_;                 // of a stream, as long as it is in question
-  std::vector<std::unique_ptr<FarEndInTime>> late_ends_;  // of a file
+  std::optional<LogStream> source_;           // where a stream comes from
+  std::unique_ptr<LogReader> stream_;         // the log that it is now
+  std::unique_ptr<FirstLoad> first_load_;     // of a stream, as long as it is in question
+  std::unique_ptr<FarEndsInTime> late_ends_;  // of a file
   std::size_t rows_ = 0, left_out_ = 0, followed_ = 0;
   std::optional<SavedState> begun_;  // with the log before
   LogVerdict verdict_;
