@@ -298,6 +298,20 @@ TEST_CASE("without any answer the page shows the structure and says why") {
   CHECK(has(page, "class=\"structure\""));
 }
 
+TEST_CASE("so it does of a scene of which a support was forgotten") {
+  const Scratch scratch;
+  const std::string scene = R"({ "taut": 1, "name": "x", "dimension": 2,
+    "nodes": { "a": [0, 0], "b": [10, 2], "c": [20, 0] }, "supports": { "a": "xy", "b": "xy" },
+    "cables": [ { "name": "C", "path": ["a", "b", "c"], "E": 1.95e11, "A": 1.4e-3, "start": "anchored",
+                  "end": "jacked", "friction": { "law": "capstan", "mu": 0.2, "mu_sd": 0.06 } } ] })";
+  const Outcome outcome = report(scratch, scene, "time,C.end\n0,0\n1,100000\n2,200000\n");
+  CHECK(outcome.status == 1);
+  CHECK(has(outcome.err, "before the first row: node \"c\": mechanism"));
+  const std::string page = page_of(scratch);
+  CHECK(WellFormed(page)() == "");
+  CHECK(has(page, "No row has an answer."));
+}
+
 TEST_CASE("a prediction without an answer is left out, and the page says so") {
   const Scratch scratch;
   REQUIRE(report(scratch, two_jacks, two_jacks_log(15000)).status == 0);

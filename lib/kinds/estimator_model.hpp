@@ -79,9 +79,12 @@ class EstimatorModel : public Model {
   void deny_past() override { past_.reset(); }
   bool has_unknown_past() const override { return past_ != nullptr; }
   std::vector<LearnedFriction> learned() const override {
+    // Of a scene that cannot be condensed nothing is known.
+    if (!is_known_) return {};
     return learned_mu(*estimator_, linear_part(*condensed_), *prior_, before_, scene_);
   }
   std::vector<StrutEstimate> struts() const override {
+    if (!is_known_) return std::vector<StrutEstimate>(scene_.struts.size());
     std::vector<StrutEstimate> all;
     for (std::size_t i = 0; i < scene_.struts.size(); ++i) {
       const int strut = static_cast<int>(i);
@@ -139,6 +142,7 @@ class EstimatorModel : public Model {
     gauges_ = SceneGauges(scene_);
     cells_ = gauges_.template cells<Scalar>();
     limits_ = limits_.with_stroke_noise(static_cast<Scalar>(gauges_.stroke_sd()));
+    is_known_ = condensing.status.ok();
     return condensing.status;
   }
   // Both estimators go on until they agree; where that has no answer neither has.
@@ -182,7 +186,7 @@ class EstimatorModel : public Model {
   std::unique_ptr<PastType> past_;  // while it is not known
   std::unique_ptr<ReadingsType> readings_;
   double time_ = 0;
-  bool has_row_ = false;
+  bool has_row_ = false, is_known_ = false;
 };
 
 }  // namespace taut::host
