@@ -577,6 +577,25 @@ TEST_CASE("a far end that is shown later than its jack is remarked on with how m
           const int read = i - i % 3;
           return read_text(load(read), read, 0) + "," + read_text(far_end(i), i, 1);
         })).empty());
+  // A jack that is let out at once, while friction holds the far end.
+  for (const double down : {200.0, 500.0, 800.0, 1200.0}) {
+    CAPTURE(down);
+    const auto at_once_down = [&](double t) { return t < 46 ? 1000 * t : 46000 - down * (t - 46); };
+    CHECK(remarks(ramp("time,C.end,C.start", 60, [&](int i) {
+            return read_text(at_once_down(i), i, 0) + "," +
+                   read_text(0.9 * at_once_down(std::min(i, 46)), i, 1);
+          })).empty());
+  }
+  // A part of the way that the jack's cell does not show, of one that has no corner but its end.
+  const auto up_and_down = [](double t) { return 4e4 * std::min(t / 120, 2 - t / 120); };
+  for (const int from : {10, 15, 20, 25, 30, 60, 90}) {
+    CAPTURE(from);
+    CHECK(remarks(ramp("time,C.end,C.start", 180, [&](int i) {
+            const bool is_lost = i > from && i < from + 20;
+            return (is_lost ? "" : read_text(up_and_down(i), i, 0)) + "," +
+                   read_text(0.9 * up_and_down(std::min(i, 120)), i, 1);
+          })).empty());
+  }
   std::string stages = "time,C.end,C.start\n";
   for (int i = 1; i <= 18; ++i)
     stages += std::to_string(60 * i) + "," + read_text(load(10 * i), i, 0) + "," +

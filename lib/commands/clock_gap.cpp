@@ -12,15 +12,34 @@ namespace {
 constexpr std::size_t least_compared = 12;
 constexpr double longest_gap = 120, shortest_gap = 0.5, gap_step = 0.25, unsure = 4, longest_held = 5,
                  stages_apart = 5;  // [s]
-// Parts of the largest load: where slack is out, how far it comes down as it is let out, and in a hold.
-constexpr double taut_from = 0.1, pulls_from = 0.3, let_out = 0.1, leaked = 0.02;
+// Parts of the largest load: where slack is out, how far it comes down as it is let out, and how far readings
+// scatter at least.
+constexpr double taut_from = 0.1, pulls_from = 0.3, let_out = 0.1, least_scatter = 0.001;
 // How far readings may be from a path and what a gap has to mend of that, as parts of the largest: other
 // errors are no gap. And how much smaller a gap makes their variance.
 constexpr double on_path = 0.007, mended = 0.002, times_less = 3;
 constexpr double as_good = 2;  // of variances
+// A step so many times as long as those beside it says nothing of what the load does meanwhile.
+constexpr double far_apart = 3;
 
 double middle_of(double a, double b, double c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+// Whether one variance is so much less than another one.
+bool is_better(double now, double least, double least_mended) {
+  return times_less * least < now && std::sqrt(now - least) > least_mended && std::isfinite(now);
+}
+
+// Of readings that scatter about a line, by what they are off the middle of those beside them.
+template <class Reading>
+double deviation_of(const std::vector<Reading>& read) {
+  std::vector<double> off;
+  for (std::size_t i = 1; i + 1 < read.size(); ++i)
+    off.push_back(std::fabs(read[i - 1].force - 2 * read[i].force + read[i + 1].force));
+  if (off.empty()) return 0;
+  std::nth_element(off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
+  return off[off.size() / 2] / (0.6745 * std::sqrt(6.0));
 }
 
 // Noise that goes to and fro is none in it, and could have a beat of its own.
@@ -51,7 +70,7 @@ void ClockGap::take(double time, double jack, double far_end, bool is_over) {
 // The rising path nearest to what is read, by pooling neighbours that fall: the highest of readings that
 // scatter would be above what the load was, most of all in a hold. It ends at the top: what is let out after
 // that comes through to the far end, too, where friction is low.
-std::vector<ClockGap::Reading> ClockGap::way_up() const {
+std::vector<ClockGap::Step> ClockGap::way_up() const {
   struct Level {
     double sum;
     std::size_t readings;
@@ -59,19 +78,32 @@ std::vector<ClockGap::Reading> ClockGap::way_up() const {
     double mean() const { return sum / static_cast<double>(readings); }
   };
   const std::vector<Reading>& read = jack_.kept();
-  std::vector<Reading> jack;
-  for (std::size_t i = 1; i + 1 < read.size(); ++i)
-    jack.push_back({read[i].time, mean_of(read[i - 1].force, read[i].force, read[i + 1].force)});
   double largest = 0, highest = 0;
-  for (const Reading& reading : jack) largest = std::max(largest, reading.force);
-  std::vector<Reading> way;
-  for (const Reading& reading : jack) {
+  for (const Reading& reading : read) largest = std::max(largest, reading.force);
+  const double scatter = std::max(3 * deviation_of(read), least_scatter * largest);
+  const auto step = [&](std::size_t i) { return read[i + 1].time - read[i].time; };
+  const auto is_near = [&](std::size_t i) {
+    return step(i) < far_apart * std::max(step(i - 1), step(i + 1)) ||
+           std::fabs(read[i + 1].force - read[i].force) < on_path * largest;
+  };
+  std::vector<Step> jack;
+  for (std::size_t i = 2; i + 2 < read.size(); ++i) {
+    const bool comes = is_near(i - 1);
+    const double mean = mean_of(read[i - 1].force, read[i].force, read[i + 1].force);
+    jack.push_back({{read[i].time, comes && is_near(i) ? mean : read[i].force}, comes});
+  }
+  std::vector<Step> way;
+  bool is_known = true;
+  for (const Step& reading : jack) {
+    is_known = is_known && reading.is_known;
     highest = std::max(highest, reading.force);
     if (highest > pulls_from * largest && reading.force < (1 - let_out) * highest) break;
-    if (highest > taut_from * largest && reading.force > (1 - leaked) * highest) way.push_back(reading);
+    if (!(highest > taut_from * largest && reading.force > highest - scatter)) continue;
+    way.push_back({reading, is_known});
+    is_known = true;
   }
   std::vector<Level> levels;
-  for (const Reading& reading : way) {
+  for (const Step& reading : way) {
     levels.push_back({reading.force, 1});
     while (levels.size() > 1 && levels.back().mean() <= levels[levels.size() - 2].mean()) {
       const Level last = levels.back();
@@ -86,7 +118,8 @@ std::vector<ClockGap::Reading> ClockGap::way_up() const {
 }
 
 // Where the structure gives way the part that arrives changes a little with the load: a parabola.
-ClockGap::Path ClockGap::path(const std::vector<Reading>& way, double gap) const {
+template <class IsUsed>
+ClockGap::Path ClockGap::path(const std::vector<Step>& way, double gap, const IsUsed& is_used) const {
   // A row for each reading: what the parabola is made of, and the reading.
   Eigen::Vector4d before = Eigen::Vector4d::Zero(), last = before;
   Eigen::Matrix4d products = Eigen::Matrix4d::Zero();
@@ -97,7 +130,8 @@ ClockGap::Path ClockGap::path(const std::vector<Reading>& way, double gap) const
     if (at < way.front().time) continue;
     while (i < way.size() && way[i].time < at) ++i;
     if (i == way.size()) break;
-    const Reading &from = way[i - 1], &to = way[i];
+    const Step &from = way[i - 1], &to = way[i];
+    if (!to.is_known || !is_used(reading.time)) continue;
     const double load = from.force + (to.force - from.force) * (at - from.time) / (to.time - from.time),
                  part = load / way.back().force;
     const Eigen::Vector4d row(1, part, part * part, reading.force);
@@ -117,18 +151,46 @@ ClockGap::Path ClockGap::path(const std::vector<Reading>& way, double gap) const
           parabola.dot(bottom) < parabola.sum() / 2};
 }
 
+bool ClockGap::is_on(const std::vector<Step>& way, double time) {
+  const auto to = std::lower_bound(way.begin(), way.end(), time,
+                                   [](const Step& step, double at) { return step.time < at; });
+  return to != way.end() && to != way.begin() && to->is_known;
+}
+
+// What is found because of one place, as where a plug is loose or nothing is read, is no gap: without any
+// quarter of the way it is found, too, in the same readings, but for one corner, which may be the only one.
+bool ClockGap::is_everywhere(const std::vector<Step>& way, double gap, double least_mended) const {
+  constexpr int parts = 8, without = 2;
+  constexpr double as_bad = 1.1;  // of variances
+  const double begin = way.front().time, part = (way.back().time - begin) / parts;
+  int first_not = -1;
+  for (int i = 0; i + without <= parts; ++i) {
+    const double from = begin + i * part, to = from + without * part;
+    const auto is_used = [&](double time) {
+      return (time < from || time > to) && is_on(way, time) && is_on(way, time - gap);
+    };
+    const double now = path(way, 0, is_used).variance, least = path(way, gap, is_used).variance;
+    if (is_better(now, least, least_mended)) continue;
+    const bool is_worse = std::isfinite(least) && least > as_bad * now;
+    if (is_worse || (first_not >= 0 && i - first_not >= without)) return false;
+    if (first_not < 0) first_not = i;
+  }
+  return true;
+}
+
 double ClockGap::found() const {
   const std::vector<Reading>& far_end = far_end_.kept();
   if (far_end.size() < least_compared) return 0;
-  const std::vector<Reading> way = way_up();
+  const std::vector<Step> way = way_up();
   if (way.size() < least_compared) return 0;
   const double lasts = way.back().time - way.front().time;
   // A cell that has stopped on the way is compared with too little of it.
   if (way.back().time - far_end.back().time > lasts / 10) return 0;
   if (lasts > stages_apart * static_cast<double>(jack_.every() * (way.size() - 1))) return 0;
-  const double now = path(way, 0).variance, most = std::min(longest_gap, lasts / 2);
+  const auto all = [](double) { return true; };
+  const double now = path(way, 0, all).variance, most = std::min(longest_gap, lasts / 2);
   const auto variance = [&](double gap) {
-    const Path found = path(way, gap);
+    const Path found = path(way, gap, all);
     return found.rises ? found.variance : std::numeric_limits<double>::infinity();
   };
   const auto steps = static_cast<int>(most / gap_step);
@@ -156,10 +218,11 @@ double ClockGap::found() const {
   double force = 0;
   for (const Reading& reading : far_end) force = std::max(force, reading.force);
   const bool is_path = std::sqrt(least) < on_path * force;
-  const bool is_better =
-      times_less * least < now && std::sqrt(now - least) > mended * force && std::isfinite(now);
   const bool is_inside = std::fabs(gap) >= shortest_gap && std::fabs(gap) + gap_step < most;
-  return is_path && is_better && is_inside ? gap : 0;
+  return is_path && is_inside && is_better(now, least, mended * force) &&
+                 is_everywhere(way, gap, mended * force)
+             ? gap
+             : 0;
 }
 
 }  // namespace taut::host

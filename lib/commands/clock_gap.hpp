@@ -21,13 +21,17 @@ class ClockGap {
   /// How much later the far end is shown [s], below zero if the jack is; zero if that is not sure: unless
   /// readings then are on one rising path of the load within 0.7 % of the largest, the gap takes two thirds
   /// of their variance about it and 0.2 % of the largest, and is half a second or more, and less than two
-  /// minutes and half of the way up. Where many are as good, as on a way that is straight, the shortest. Load
-  /// stages tell nothing. Cost: a pass of up to 8192 readings of either end for each of 982 gaps.
+  /// minutes and half of the way up, and so it is without any quarter of the way, but for one corner. Where
+  /// many are as good, as on a way that is straight, the shortest. Load stages tell nothing. Cost: a pass of
+  /// up to 8192 readings of either end for each of 996 gaps.
   double found() const;
 
  private:
   struct Reading {
     double time, force;
+  };
+  struct Step : Reading {
+    bool is_known;  ///< how the load has come there from the one before
   };
   struct Path {
     double variance = std::numeric_limits<double>::infinity();  ///< of readings about it [N^2]
@@ -48,9 +52,15 @@ class ClockGap {
   };
 
   /// The load of the jack until it goes down for good, without its noise, and without what leaks in holds.
-  std::vector<Reading> way_up() const;
-  /// That of the readings of the far end over what the jack had reached `gap` [s] before.
-  Path path(const std::vector<Reading>& way, double gap) const;
+  std::vector<Step> way_up() const;
+  /// That of the readings of the far end over what the jack had reached `gap` [s] before, of those at a time
+  /// that is_used(time) [s].
+  template <class IsUsed>
+  Path path(const std::vector<Step>& way, double gap, const IsUsed& is_used) const;
+  /// Whether it is known what the jack had reached at a time [s].
+  static bool is_on(const std::vector<Step>& way, double time);
+  /// Whether a gap [s] mends `least_mended` [N] at least wherever one looks.
+  bool is_everywhere(const std::vector<Step>& way, double gap, double least_mended) const;
 
   Series jack_, far_end_;
   bool is_over_ = false;
